@@ -1,4 +1,4 @@
-/* `cleave bench absorbing`: declarations shared by its files. */
+/* `cleave bench absorbing`: measures how much of a wave absorbing faces reflect. Declarations shared by its files. */
 #ifndef CLEAVE_ABSORBING_BENCH
 #define CLEAVE_ABSORBING_BENCH
 

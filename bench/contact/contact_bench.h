@@ -1,4 +1,4 @@
-/* `cleave bench contact`: declarations shared by its files. */
+/* `cleave bench contact`: compares collisions of bodies with closed forms. Declarations shared by its files. */
 #ifndef CLEAVE_CONTACT_BENCH
 #define CLEAVE_CONTACT_BENCH
 

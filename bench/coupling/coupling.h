@@ -1,4 +1,5 @@
-/* `cleave bench coupling`: declarations shared by its files. */
+/* `cleave bench coupling`: measures the effect of an interface between material points and bonds on waves and on
+ * uniform strain. Declarations shared by its files. */
 #ifndef CLEAVE_BENCH_COUPLING
 #define CLEAVE_BENCH_COUPLING
 

@@ -86,8 +86,8 @@ void crack_ends_store_from_run(struct crack_ends *c, const struct run *e);
  * a crack that grew by only one spacing beside the long one. Returns NULL if no crack of the other run grew. */
 const struct crack_tip *crack_tip_nearest_in_other_run(const struct crack_ends *other_run, const struct crack_tip *tip);
 
-/* Returns the distance between the points position[DIM_MAX] and other_position[DIM_MAX] [m]; components that the space
- * lacks must be 0. */
+/* Returns the distance [m] between the points position[DIM_MAX] and other_position[DIM_MAX] [m]; components that the
+ * space lacks must be 0. */
 double position_distance(const real *position, const real *other_position);
 
 #endif

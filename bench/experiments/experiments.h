@@ -1,4 +1,5 @@
-/* `cleave bench experiments`: declarations shared by its files. */
+/* `cleave bench experiments`: compares cracks with published experiments and other codes. Declarations shared by its
+ * files. */
 #ifndef CLEAVE_EXPERIMENTS_BENCH
 #define CLEAVE_EXPERIMENTS_BENCH
 

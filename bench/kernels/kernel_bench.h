@@ -1,4 +1,5 @@
-/* `cleave bench kernels`: declarations shared by its files. */
+/* `cleave bench kernels`: times every kernel and compares it with the limits of the machine. Declarations shared by its
+ * files. */
 #ifndef CLEAVE_BENCH_KERNEL_BENCH
 #define CLEAVE_BENCH_KERNEL_BENCH
 

@@ -1,4 +1,5 @@
-/* `cleave bench laws`: declarations shared by its files. Laws of materials beside closed forms and published values. */
+/* `cleave bench laws`: compares laws of materials with closed forms and published values. Declarations shared by its
+ * files. */
 #ifndef CLEAVE_LAWS_BENCH
 #define CLEAVE_LAWS_BENCH
 

@@ -1,4 +1,5 @@
-/* `cleave bench sif`: declarations shared by its files. */
+/* `cleave bench sif`: compares stress-intensity factors with closed forms and published tables. Declarations shared by
+ * its files. */
 #ifndef CLEAVE_BENCH_SIF_BENCH
 #define CLEAVE_BENCH_SIF_BENCH
 

@@ -1,4 +1,5 @@
-/* `cleave bench slow`: declarations shared by its files. */
+/* `cleave bench slow`: compares slow crack growth in load steps with linear elastic fracture mechanics. Declarations
+ * shared by its files. */
 #ifndef CLEAVE_BENCH_SLOW
 #define CLEAVE_BENCH_SLOW
 

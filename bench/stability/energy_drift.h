@@ -1,4 +1,5 @@
-/* Long map: energy of unbreakable bodies over 1e5 automatic time steps. Declarations shared by its files. */
+/* `cleave bench stability=lasting`: observes the energy of unbreakable bodies over 1e5 automatic time steps.
+ * Declarations shared by its files. */
 #ifndef CLEAVE_BENCH_ENERGY_DRIFT
 #define CLEAVE_BENCH_ENERGY_DRIFT
 

@@ -1,4 +1,5 @@
-/* Stability bench: cases and observed limits. Declarations shared by its files. */
+/* `cleave bench stability`: compares the automatic time step of many methods with the observed limit of stability.
+ * Declarations shared by its files. */
 #ifndef CLEAVE_BENCH_STABILITY
 #define CLEAVE_BENCH_STABILITY
 

@@ -1,4 +1,4 @@
-/* Colour tables of all pictures. */
+/* Colours of all pictures: tables of colours for fields, and colours of kinds, fragments and bodies. */
 #ifndef CLEAVE_COLOURS
 #define CLEAVE_COLOURS
 

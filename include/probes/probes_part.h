@@ -1,4 +1,4 @@
-/* Probes as a part of a run. */
+/* Declares the probes of a run as a part of it, which the engine calls as it calls the other parts. */
 #ifndef CLEAVE_PROBES_PART
 #define CLEAVE_PROBES_PART
 

@@ -1,4 +1,4 @@
-/* Reads numbers with units. */
+/* Reads numbers with units from the texts of scenes and tables. */
 #ifndef CLEAVE_UNITS
 #define CLEAVE_UNITS
 

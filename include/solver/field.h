@@ -1,4 +1,4 @@
-/* Vectors of all unknowns of a solver. */
+/* Vectors of all unknowns of a static solver, one component per array. */
 #ifndef CLEAVE_FIELD
 #define CLEAVE_FIELD
 

@@ -1,4 +1,4 @@
-/* Hints at loads whose sign, and at settings whose size, is seldom meant. */
+/* Hints at loads whose sign, and at settings whose size, is probably not intended. */
 #include <math.h>
 
 #include "check_parts.h"

@@ -1,4 +1,5 @@
-/* The strength of a material as `cleave check` prints it: that of bonds which soften, or the one that bonds have. */
+/* Prints the strength of a material for `cleave check`: that at which bonds soften or, if they are brittle, that which
+ * follows from their critical stretch. */
 #include <math.h>
 #include <stdio.h>
 
@@ -15,8 +16,8 @@ static const struct {
     real kappa[EXCESSES], excess[EXCESSES];
 } measured[2] = {{5, {2.1, 4.2, 8.3, 17, 33}, {2, 3, 5, 4, 7}}, {4, {1.2, 2.4, 4.7, 9.7}, {2, 4, 5.5, 12}}};
 
-/* Prints the horizon of scene s [m], and if the fracture energy G_c of material m is given, also the ratio of the
- * horizon to the length E G_c/strength^2, with Young's modulus E and the tensile strength. */
+/* Prints the horizon [m] of the scene s. If the fracture energy G_c of material m is given, also prints the ratio of
+ * the horizon to the length E G_c/strength^2, with Young's modulus E and the tensile strength. */
 static void say_horizon(const struct scene *s, const struct material *m)
 {
     printf("               horizon %.4g m", s->horizon * s->spacing);

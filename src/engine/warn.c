@@ -1,4 +1,4 @@
-/* Warnings before a run, with the measurements behind them. */
+/* Adds warnings about suspicious input before a run starts, by measurements of its particles, bonds and grid. */
 #include <math.h>
 
 #include "engine_internal.h"

@@ -1,5 +1,5 @@
-/* Warns of figures that a scene hardly means: gross mistakes of units, found by what they lead to. One table has the
- * rules; the key `accept` of a scene names those that it breaks on purpose. */
+/* Warns of values of a scene that are probably mistakes of units, found by their consequences, such as an implausible
+ * wave speed. A table contains the plausible ranges; the key `accept` of a scene silences them one by one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -15,7 +15,8 @@
 #include "output/output_files.h"
 #include "output/picture_file.h"
 
-/* Exit status of a child whose program does not exist, as in shells. */
+/* NOT_FOUND: exit status of a child process whose program does not exist, as in shells. TITLE_ROOM: capacity of the
+ * text of a heading [byte]. */
 enum { NOT_FOUND = 127, TITLE_ROOM = 1024 };
 
 const char *const curve_colour[CURVE_COLOURS] = {

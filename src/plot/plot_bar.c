@@ -1,4 +1,4 @@
-/* Profiles of a bar with a closed-form solution. */
+/* Draws the profiles that an EXACT probe writes: a bar beside its closed-form solution. */
 #include <dirent.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Curves: crack growth and PD share, energies. */
+/* Draws curves of a run against time: crack growth, share of peridynamic particles, and energies. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

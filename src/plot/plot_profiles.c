@@ -1,4 +1,4 @@
-/* Profiles along a bar: velocity, stress and damage, or a field, over the position. */
+/* Draws profiles along a bar: velocity, stress and damage, or a field, against the position. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Pictures of stress-intensity factors over time, and of the paths of crack tips. */
+/* Draws stress-intensity factors against time, and the paths of crack tips. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* Units in which pictures show values. */
+/* Chooses the units in which pictures show values. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Marks drawn over the particles of a scene. */
+/* Marks that the picture of a scene shows above its particles: loads, pre-cracks, probes and regions. */
 #ifndef CLEAVE_SCENE_MARKS
 #define CLEAVE_SCENE_MARKS
 

@@ -1,4 +1,4 @@
-/* Shading of outside views. */
+/* Shading of the surfaces in outside views of solids. */
 #ifndef CLEAVE_PLOT_SHADING
 #define CLEAVE_PLOT_SHADING
 

@@ -1,4 +1,4 @@
-/* Equilibrium at a pseudo-time. */
+/* Solves for the equilibrium of a body at a pseudo-time of its load steps. */
 #ifndef CLEAVE_BALANCE
 #define CLEAVE_BALANCE
 

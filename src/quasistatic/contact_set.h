@@ -1,4 +1,4 @@
-/* Contact and rigid bodies in equilibrium states. */
+/* Contact and rigid bodies in the equilibrium states of load steps. */
 #ifndef CLEAVE_CONTACT_SET
 #define CLEAVE_CONTACT_SET
 

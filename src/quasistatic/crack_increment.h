@@ -1,4 +1,4 @@
-/* Crack increments. */
+/* Crack increments, sets of bonds that break together: how load steps find and apply them. */
 #ifndef CLEAVE_CRACK_INCREMENT
 #define CLEAVE_CRACK_INCREMENT
 

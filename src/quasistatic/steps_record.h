@@ -1,4 +1,4 @@
-/* Columns of history.csv that load steps add. */
+/* Columns of history.csv that load steps add: crack area, released energy and size of the loads. */
 #ifndef CLEAVE_STEPS_RECORD
 #define CLEAVE_STEPS_RECORD
 

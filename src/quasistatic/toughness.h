@@ -1,4 +1,4 @@
-/* Crack energy per area. */
+/* Energy per area of a crack through a material or between two particles, as load steps use it. */
 #ifndef CLEAVE_TOUGHNESS
 #define CLEAVE_TOUGHNESS
 

@@ -1,4 +1,4 @@
-/* A page in the making: JSON that describes it, and arrays of numbers in base64 to which the JSON refers. */
+/* A page that is being composed: JSON that describes it, and arrays of numbers in base64 to which the JSON refers. */
 #ifndef CLEAVE_PAGE
 #define CLEAVE_PAGE
 

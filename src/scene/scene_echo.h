@@ -1,4 +1,4 @@
-/* Declares the writer of the scene as run (scene_to_yaml*.c), which writes values in the form of their keys. */
+/* Declares the writer of the scene as run (scene_echo*.c), which writes values in the form of their keys. */
 #ifndef CLEAVE_SCENE_ECHO
 #define CLEAVE_SCENE_ECHO
 

@@ -48,7 +48,7 @@ void arena_free(struct reader *r)
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
-/* Appends a node to the entries of a list or mapping. */
+/* Appends the node `child` to the entries of the list or mapping `parent`. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child)
 {
     child->parent = parent;

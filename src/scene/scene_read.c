@@ -1,4 +1,5 @@
-/* Reads a scene: from the file to nodes, from nodes to struct scene, and writes the scene as run to its text. */
+/* Reads a scene: from the file to a tree of nodes, and from the tree to struct scene. Also writes the text of the scene
+ * as run. */
 #include "scene/scene_read.h"
 
 #include <ctype.h>

@@ -146,7 +146,7 @@ static void write_list_items(FILE *out, const struct key *k)
     fputc('}', out);
 }
 
-/* Writes the JSON types that the value of key k may have, separated by commas. */
+/* Writes the JSON types that the value of key k may have, separated by commas, to `out`. */
 static void write_alternatives(FILE *out, const struct key *k)
 {
     static const char *const definition[] = {

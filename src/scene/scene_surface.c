@@ -1,4 +1,4 @@
-/* Reads the strength surface of a material: its bonds are started where the mean strain of a particle is on it. */
+/* Reads the strength surface of a material, on which the mean strain of a particle makes its bonds begin to soften. */
 #include <math.h>
 
 #include "data/softening.h"

@@ -1,5 +1,5 @@
-/* Reads numbers with units by a grammar of its own: no octal, no locale, every unit an exact power of ten (but min and
- * h). */
+/* Reads numbers with units by a grammar of its own: no octal numbers, no dependence on the locale, and only units that
+ * are exact powers of ten (except min and h). */
 #include "scene_internal.h"
 
 #include <ctype.h>

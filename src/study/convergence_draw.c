@@ -1,4 +1,5 @@
-/* Pictures of a convergence study: figures over the spacing, and the crack paths of all runs. */
+/* Draws the pictures of a convergence study: figures (scalar results) against the spacing, and the crack paths of all
+ * runs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Runs of a study: folders, overrides, and which of them are done or equal. */
+/* Manages the runs of a study: their folders and overrides, and which of them are done or equal. */
 #include "study/study.h"
 
 #include <stdio.h>

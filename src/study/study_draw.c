@@ -1,4 +1,4 @@
-/* Pictures of a study: figures over each varied key, and over two keys as maps. */
+/* Draws the pictures of a study: figures (scalar results) against each varied key, and against two keys as maps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* One picture of a study: what it shows. */
+/* What one picture of a study shows: its figures (scalar results), varied keys, points and layout. */
 #ifndef CLEAVE_STUDY_PICTURE
 #define CLEAVE_STUDY_PICTURE
 

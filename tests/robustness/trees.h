@@ -1,4 +1,4 @@
-/* Folders with all that is in them, for tests that create some. */
+/* Removes folders with their contents, for tests that create folders. */
 #ifndef CLEAVE_TESTS_TREES
 #define CLEAVE_TESTS_TREES
 

@@ -1,4 +1,5 @@
-/* Plain, slow twin of law_update (kernels/laws): one point, functions of the C library, bisection. */
+/* Reference implementation of law_update (kernels/laws) for tests, simple and slow: one point, functions of the C
+ * library, bisection. */
 #ifndef CLEAVE_TESTS_LAW_REFERENCE
 #define CLEAVE_TESTS_LAW_REFERENCE
 

@@ -1,4 +1,4 @@
-/* Bitwise comparison of two sets of particles. */
+/* Compares two sets of particles bit by bit, for tests. */
 #ifndef CLEAVE_TESTS_SAME
 #define CLEAVE_TESTS_SAME
 
