@@ -10,7 +10,7 @@ status arguments_add_override(struct run_arguments *a, const char *text)
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
-        return status_set(REFUSED, "-s %s: a key and its value are expected, as in -s particles.spacing=0.5mm", text);
+        return status_set(REFUSED, "-s %s: give a key and its value, such as -s particles.spacing=0.5mm", text);
     char *copy = NEW("arguments.text", strlen(text) + 1, char);
     strcpy(copy, text);
     copy[equals - text] = '\0';
@@ -62,8 +62,8 @@ status option_read_picture_size(struct picture_size *size, const char *option, c
     }
     if (!good || *at)
         return status_set(REFUSED,
-                          "%s %s: a width in pixels or mm, as 1200 or 85mm, or WxH in one of them, as 1200x800 or "
-                          "85mmx60mm, is expected: from 53mmx40mm (300x226) to 10000x10000 pixels",
+                          "%s %s: give a width in pixels or mm, such as 1200 or 85mm, or a size, such as 1200x800 or "
+                          "85mmx60mm: from 53mmx40mm (300x226) to 10000x10000 pixels",
                           option, printable_name(text).text);
     size->width = (int)width, size->height = (int)height;
     return OK;
@@ -102,7 +102,7 @@ status option_read_size_dpi_or_format(struct picture_size *size, const char *opt
 
 status arguments_refuse_second_scene(const char *scene, const char *word)
 {
-    if (strchr(word, '=')) return status_set(REFUSED, "%s: a value of a key follows the option -s: -s %s", word, word);
+    if (strchr(word, '=')) return status_set(REFUSED, "%s: the option -s is missing before it: -s %s", word, word);
     return status_set(REFUSED, "one scene at a time: %s and %s", scene, word);
 }
 
@@ -149,7 +149,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
             a->scene = word;
     }
     if (a->resume && a->overwrite)
-        return status_set(REFUSED, "--resume continues a run and --overwrite replaces it: give one of them");
+        return status_set(REFUSED, "--resume continues a run, but --overwrite replaces it: give one of them");
     return a->scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
 }
 

@@ -76,7 +76,7 @@ static void say_contact_of_bonds(const struct scene *s)
     printf("; %s", s->contact_form == CONTACT_PAIR ? "forces between pairs of particles (sliding faces interlock)"
                                                    : "smooth faces");
     if (s->contact_friction > 0)
-        printf(", coefficient of friction %.3g (added to some 0.007 that the lattice causes)", s->contact_friction);
+        printf(", coefficient of friction %.3g (the lattice adds about 0.007)", s->contact_friction);
     putchar('\n');
 }
 
@@ -102,7 +102,7 @@ static void say_contact(const struct run *e)
         on_grid += e->scene->method != METHOD_PD && !e->frame->choice[b].reference;
     if (on_grid < 2) return;
     if (e->grid->fields < 2)
-        printf("contact        bodies that meet on the grid share its velocity: they stick together until a gap of "
+        printf("contact        bodies that touch on the grid share its velocity: they stick together until a gap of "
                "two cells opens\n");
     else {
         printf("contact        of the material points of ");
@@ -244,7 +244,7 @@ static void say_materials(const struct run *e)
             printf(", bonds break at a stretch of %.4g", a->critical_stretch), print_brittle_strength(e->scene, a);
         else
             printf("; its bonds %s: neither energy_release_rate nor critical_stretch is given",
-                   breaks_at_interface(e->scene, m) ? "break at the interface only" : "never break");
+                   breaks_at_interface(e->scene, m) ? "break only at the interface" : "never break");
         const real most = e->tables.elastic[m].trigger_mean;
         if (isfinite(most)) printf(", conversion above %.4g Pa", most);
         if (isfinite(most) && material_has_strength_surface(a))
@@ -338,7 +338,7 @@ static void say_verdict(const char *scene, int warnings, int remarks)
     if (warnings == 0 && remarks == 0)
         printf("%s is sound\n", name);
     else if (warnings == 0)
-        printf("%s can be run; read first the remark%s on accuracy above (%d)\n", name, remarks > 1 ? "s" : "",
+        printf("%s can be run; read first the remark%s on accuracy above (%d in all)\n", name, remarks > 1 ? "s" : "",
                remarks);
     else
         printf("%s can be run, but read first the warning%s above (%d)%s\n", name, warnings > 1 ? "s" : "", warnings,

@@ -111,13 +111,13 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
                 stiffness_errors(s, s->surface, layers)[s->dim < 3 ? OFF_PLANE : OFF_SOLID]);
         return;
     }
-    fprintf(out, "; as it is, its stiffness is off by up to ");
+    fprintf(out, "; its stiffness is off by up to ");
     print_stiffness_error(s, s->surface, layers, out);
     fprintf(out, "%s",
             fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
             : s->model == MODEL_MOSPD ? " at a horizon of 3.015 spacings, several times as much at others"
                                       : " at a horizon of 3.015 spacings, more at longer ones");
-    fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
+    fprintf(out, "; in bending, method: adaptive is within 1 %% from 10 layers on");
 }
 
 /* Returns the positive number `value` rounded down to two significant digits, with a tolerance for round-off. */
@@ -137,12 +137,11 @@ static void advise_features(const struct run *e, FILE *out)
         const double layers = count_layers_across_thin_parts(e, b, ENOUGH * FEATURE * s->horizon),
                      size = layers * s->spacing;
         if (!isfinite(layers)) continue;
-        fprintf(
-            out,
-            "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons most "
-            "particles lack neighbours beyond a face: use a spacing of %s",
-            s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
-            length_text_with_unit(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
+        fprintf(out,
+                "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons "
+                "most particles lack neighbours beyond a face: use a spacing of %s",
+                s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
+                length_text_with_unit(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
         fprintf(out, "\n");
     }
@@ -159,13 +158,12 @@ static void advise_narrow_holes(const struct run *e, FILE *out)
         for (int k = 1; k < shape->n && !s->body[b].file; k++) {
             const real size = shape->solid[k].subtract ? solid_smallest_edge(e, &shape->solid[k]) : INFINITY;
             if (size >= s->spacing) continue;
-            fprintf(
-                out,
-                "accuracy       body %s: solid %d of its shape, which is subtracted, is %.3g m thin, less than a "
-                "spacing of %.3g m: it acts as a slit of no width, which parts the particles on both sides; a spacing "
-                "of %s resolves it\n",
-                s->body[b].name, k + 1, size, s->spacing,
-                length_text_with_unit(two_digits_down(size / 4), 2, s->spacing).text);
+            fprintf(out,
+                    "accuracy       body %s: solid %d of its shape, which is subtracted, is only %.3g m thin (spacing "
+                    "%.3g m), so it acts as a slit without width between the particles on both sides; use a spacing of "
+                    "%s to resolve it\n",
+                    s->body[b].name, k + 1, size, s->spacing,
+                    length_text_with_unit(two_digits_down(size / 4), 2, s->spacing).text);
         }
     }
 }
@@ -197,11 +195,11 @@ static void advise_faces(const struct scene *s, FILE *out)
             const struct region *shape = &s->body[b].shape;
             if (s->body[b].file || shape->n == 0 || region_contains_infinite_box_solid(shape, s->dim)) continue;
             if (at_stepped_face(s, shape, s->probe[k].at))
-                fprintf(
-                    out,
-                    "accuracy       probe %s: it is at a face of body %s that is curved or slanted, and stepped in the "
-                    "lattice; stress along such a face comes out some 10 %% too low, displacements do not\n",
-                    s->probe[k].name, s->body[b].name);
+                fprintf(out,
+                        "accuracy       probe %s: it is at a curved or slanted face of body %s, which the lattice "
+                        "turns into steps: stress there is about 10 %% too low, displacements are not; put it a few "
+                        "spacings inside\n",
+                        s->probe[k].name, s->body[b].name);
         }
 }
 
@@ -258,11 +256,10 @@ static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = scene_most_severe_collision(s);
     if (shock.share > 0)
-        fprintf(
-            out,
-            "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the front of the wave breaks or "
-            "yields one. Behind it stress oscillates by 10 to 30 %%, so that bonds can break too early: %s\n",
-            shock.speed, shock.share, shock.remedy);
+        fprintf(out,
+                "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the front of the wave breaks "
+                "or yields one. Behind it stress oscillates by 10 to 30 %%, so bonds may break too early: %s\n",
+                shock.speed, shock.share, shock.remedy);
 }
 
 /* Writes a remark to `out` if the scene prescribes a number of levels of coarse cells, and the cells of the coarsest
@@ -325,17 +322,15 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
     const struct weak_shape *weak = shape_properties_if_weak_in_tension(s->shape);
     if (weak && stretch > weak->stretch)
-        fprintf(
-            out,
-            "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it bears %s %% too little: "
-            "use mpm.shape: cpgimp\n",
-            stretch, weak->word, weak->too_little);
+        fprintf(out,
+                "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it carries %s %% too "
+                "little: use mpm.shape: cpgimp\n",
+                stretch, weak->word, weak->too_little);
     if (stretch > PARTS_AT_GRIP)
-        fprintf(
-            out,
-            "accuracy       metal is pulled to %.3g times its length: its points come apart beside driven ones from "
-            "about %.2g times on, unless wider parts that do not flow pull it%s\n",
-            stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
+        fprintf(out,
+                "accuracy       metal is pulled to %.3g times its length: beyond about %.2g times its points separate "
+                "beside driven ones, unless it is pulled by wider parts that do not yield%s\n",
+                stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 
 /* Writes to `out` a remark if the supports in l stretch the body so far that it separates without fracture. An elastic
@@ -353,8 +348,8 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
         advise_pulled_metal(s, stretch, out);
     else if (stretch > 1 && stretch > 0.9 * s->cell)
         fprintf(out,
-                "accuracy       the body is pulled to %.3g times its length; beyond a stretch of %.3g (cell over "
-                "spacing) its points no longer share nodes, and it parts: use mpm.cell: %.2g, mpm.shape: cpgimp or "
+                "accuracy       the body is stretched to %.3g times its length; beyond %.3g (cell over spacing) its "
+                "points no longer share nodes and it breaks numerically: use mpm.cell: %.2g, mpm.shape: cpgimp or "
                 "method: adaptive\n",
                 stretch, s->cell, ceil(1.2 * stretch));
 }
@@ -370,8 +365,8 @@ static void hint_model(const struct scene *s, struct warnings *to)
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
     warnings_add_if_new(
-        to, "model: bond has the Poisson's ratio of this scene, %.4g, too, and takes %.0f %% of the time of %s", wanted,
-        100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2],
+        to, "model: bond also has the Poisson's ratio of this scene, %.4g, and takes only %.0f %% of the time of %s",
+        wanted, 100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2],
         s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
@@ -419,12 +414,11 @@ static void hint_frame(const struct run *e, struct warnings *to)
         if (e->frame->choice[b].reference || scene_why_reference_frame_not_chosen_by_auto(e->scene, b)) continue;
         if (!reference_frame_is_possible(e->frame, &e->part, e->scene, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
-        warnings_add_if_new(
-            to,
-            "body %s meets no other body%s%s: mpm.frame: %s in place of current would take a tenth to a thirtieth "
-            "of the time for its material points",
-            e->scene->body[b].name, e->scene->rigids > 0 ? " but rigid ones" : "", text,
-            e->scene->current_frame_key ? "reference" : "auto");
+        warnings_add_if_new(to,
+                            "body %s touches no other body%s%s: mpm.frame: %s in place of current would take a tenth "
+                            "to a thirtieth of the time for its material points",
+                            e->scene->body[b].name, e->scene->rigids > 0 ? " except rigid ones" : "", text,
+                            e->scene->current_frame_key ? "reference" : "auto");
     }
 }
 
@@ -449,14 +443,13 @@ static void hint_method(const struct run *e, struct warnings *to)
         weakest = real_min(weakest, s->material[m].young * s->material[m].onset_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
-        warnings_add_if_new(
-            to,
-            "no bond can break, as neither energy_release_rate, toughness nor critical_stretch is given, and "
-            "there is no crack: method: mpm suffices in place of %s",
-            method);
+        warnings_add_if_new(to,
+                            "no bond can break: there is no crack and no energy_release_rate, toughness or "
+                            "critical_stretch; method: mpm is enough in place of %s",
+                            method);
     else if (reached < weakest)
         warnings_add_if_new(
-            to, "stress in waves is at most %.3g Pa, and bonds break at %.3g Pa: method: mpm suffices in place of %s",
+            to, "stress in waves is at most %.3g Pa, but bonds break at %.3g Pa: method: mpm is enough in place of %s",
             reached, weakest, method);
 }
 

@@ -184,10 +184,10 @@ static void print_places_of_face(const struct particles *p, real spacing, const 
         from = k + 1;
     }
     if (places > 1) {
-        printf("; this face has parts at %d places, near", places);
+        printf("; this face has parts at %d positions, near", places);
         for (int k = 0; k < places && k < 4; k++)
             printf("%s %c = %.4g m", k ? "," : "", "xyz"[b->face], b -> side *(one[k].at + 0.5 * spacing));
-        printf(": a region with %c %s %.6g m leaves the outermost alone", "xyz"[b->face],
+        printf(": a region with %c %s %.6g m selects only the outermost", "xyz"[b->face],
                b -> side > 0 ? ">=" : "<=", b->side * (one[places - 1].at - 0.5 * spacing));
     }
     memory_free(one);

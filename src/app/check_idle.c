@@ -40,7 +40,7 @@ static const struct {
     {"coupling|interface_damping|conversion.stress|conversion.alpha|conversion.block|conversion.criteria|"
      "conversion.tips|conversion.reversion|conversion.hold_time|conversion.low_stress|pd.region|contact.convert",
      without_conversion, "only points of method adaptive become peridynamic"},
-    {"contact.law|contact.distance|contact.stiffness", without_contact, "no particles with bonds are in contact"},
+    {"contact.law|contact.distance|contact.stiffness", without_contact, "no particles with bonds have contact"},
     {"solver_tolerance|solver_steps", without_solver, "solver: explicit does not iterate"},
     {"solver_steps", without_iterations, "load steps have their own limit"},
     {"time.step|time.safety", without_time_steps, "the solver makes no time steps"},
@@ -113,18 +113,18 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->method == METHOD_MPM; m++)
         if (isfinite(s->material[m].critical_stretch))
-            warnings_add_if_new(
-                to,
-                "material %s: its energy_release_rate, toughness or critical_stretch does nothing, as method "
-                "mpm has no bonds that break: method: adaptive or pd has",
-                s->material[m].name);
+            warnings_add_if_new(to,
+                                "material %s: energy_release_rate, toughness or critical_stretch has no effect: method "
+                                "mpm has no bonds that break; use method: adaptive or pd",
+                                s->material[m].name);
 }
 
 /* Adds a hint to *to for each material of which no body consists. */
 static void hint_unused_materials(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->unused_materials; m++)
-        warnings_add_if_new(to, "material %s: no body consists of it", s->material[s->materials + m].name);
+        warnings_add_if_new(to, "material %s: no body consists of it; remove it, or name it in a body",
+                            s->material[s->materials + m].name);
 }
 
 void hint_keys_without_effect(const struct scene *s, struct warnings *warning_list)
@@ -136,5 +136,5 @@ void hint_keys_without_effect(const struct scene *s, struct warnings *warning_li
     if (scene_gives_all(s)) return;
     for (size_t row = 0; row < COUNT_OF(idle_keys); row++)
         if (idle_keys[row].idle(s)) used = idle_row_append(s, row, text, sizeof text, used);
-    if (used > 0) warnings_add_if_new(warning_list, "keys that do nothing in this scene: %s", text);
+    if (used > 0) warnings_add_if_new(warning_list, "keys without effect in this scene: %s", text);
 }

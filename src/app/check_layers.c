@@ -177,10 +177,10 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
         fprintf(out,
-                "accuracy       body %s: at a Poisson's ratio of %.4g %s, so that %s%.0f layers bend up to %.0f %% too "
-                "%s: use more layers\n",
+                "accuracy       body %s: at a Poisson's ratio of %.4g %s, so %s%.0f layers bend up to %.0f %% too %s: "
+                "use more layers\n",
                 s->body[b].name, poisson,
-                families ? "particles near faces are too stiff" : "the points of a cell have one dilatation",
+                families ? "particles near faces are too stiff" : "the points of a cell have the same change of volume",
                 layers < RUNS_MOST - 1 ? "" : "more than ", layers, off, families ? "little" : "much");
     }
 }

@@ -74,11 +74,11 @@ static void print_weight_advice(const struct scene *s, FILE *out)
 {
     for (int b = 0; b < s->bodies && s->shells == SHELLS_ISOTROPIC; b++) {
         if (!s->body[b].file || s->body[b].list.lattice || s->body[b].joined != b) continue;
-        fprintf(
-            out,
-            "accuracy       body %s: its list is no lattice along the axes, for which pd.weights: isotropic is made: a "
-            "lattice turned by 45 degrees in the plane is 4.7 %% too soft, with pd.weights: uniform 2.3 %%\n",
-            s->body[b].name);
+        fprintf(out,
+                "accuracy       body %s: its list is not a lattice along the axes, for which pd.weights: isotropic is "
+                "made: a lattice turned by 45 degrees in the plane is 4.7 %% too soft, but with pd.weights: uniform "
+                "2.3 %%\n",
+                s->body[b].name);
     }
 }
 
@@ -93,15 +93,15 @@ void print_particle_list_advice(const struct run *e, FILE *out)
         const int layers = thinnest(e, b);
         if (layers >= LAYERS_MOST) continue;
         fprintf(out,
-                "accuracy       body %s: parts of its list are %d layers thin: with pd.surface: %s their stiffness is "
-                "off by up to ",
+                "accuracy       body %s: parts of it (from a particle list) are only %d layers of particles thick: "
+                "with pd.surface: %s their stiffness is off by up to ",
                 s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none");
         print_stiffness_error(s, s->surface, layers, out);
         fprintf(out, "; with pd.surface: moments by ");
         print_stiffness_error(s, SURFACE_MOMENTS, layers, out);
         fprintf(out, "%s\n",
                 s->body[b].list.lattice ? ""
-                                        : ", but this requires a list that is a lattice (positions at whole spacings, "
+                                        : ", but this needs a list that is a lattice (positions at whole spacings, "
                                           "volumes of spacing cubed or squared)");
     }
 }

@@ -276,7 +276,7 @@ static void say_mean_displacement(const struct particles *part, const struct loa
         return;
     }
     say_vector(mean, part->dim);
-    printf(" m%s", boundary_motion_varies_in_space(l->boundary) ? " in the mean" : "");
+    printf(" m%s", boundary_motion_varies_in_space(l->boundary) ? " on average" : "");
 }
 
 /* Prints the mean displacement that a support prescribes, at its maximum and at the end of the run, and its largest
@@ -369,7 +369,7 @@ static void say_balance_of_loads(const struct run *e)
     if (!(net > UNBALANCED * all) || !isfinite(net)) return;
     printf("balance        the loads do not balance, and nothing holds the body: net force up to ");
     say_vector(largest, e->part.dim);
-    printf(" N, acceleration %.3g m/s^2; at the end its mean velocity has changed by %.3g m/s and it has drifted %.3g "
+    printf(" N, acceleration %.3g m/s^2; at the end its mean velocity has changed by %.3g m/s and it has moved by %.3g "
            "m\n",
            net / mass, sqrt(dot(v, v, DIM_MAX)), sqrt(dot(u, u, DIM_MAX)));
 }

@@ -31,12 +31,12 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
     }
     if (pieces < 2) return;
     const bool pass = scene_is_dynamic(s) && s->contact_between != CONTACT_ALL;
-    printf("pieces         body %s consists of %lld pieces without bonds between them; all pieces but the heaviest "
-           "have %lld particles together, and the second heaviest is at (%s) m%s%s\n",
+    printf("pieces         body %s consists of %lld parts without bonds between them; all parts but the heaviest have "
+           "%lld particles together, and the second heaviest is at (%s) m%s%s\n",
            s->body[body].name, (long long)pieces, (long long)particles,
            position_text(f->fragment[first].x, s->dim, 4).text,
-           free_ones > 0 ? "; some pieces have no support, so that there is no equilibrium: add supports" : "",
-           pass ? "; pieces that meet pass through each other: contact.between: all would keep them apart" : "");
+           free_ones > 0 ? "; some parts have no support, so there is no equilibrium: add supports" : "",
+           pass ? "; parts that touch pass through each other: set contact.between: all to prevent this" : "");
 }
 
 void print_bodies_of_separate_pieces(const struct run *e)

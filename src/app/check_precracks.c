@@ -110,12 +110,12 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
         for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
         const bool both = tied[0] > 0 && tied[1] > 0;
         if (tied[0] > 0 || tied[1] > 0)
-            warnings_add_if_new(
-                warning_list,
-                "crack %d: %s exactly on %lld bonds%s; they are cut. Move %s by 0.1 spacings to make the "
-                "choice explicit",
-                k + 1, both ? "its ends lie" : "an end lies", (long long)(tied[0] > 0 ? tied[0] : tied[1]),
-                both ? " each" : "", both ? "the ends" : "the end");
+            warnings_add_if_new(warning_list,
+                                "crack %d: %s exactly on %lld bonds%s; they are cut. Move %s by 0.1 spacings to make "
+                                "the choice explicit",
+                                k + 1, both ? "its ends lie" : "an end lies",
+                                (long long)(tied[0] > 0 ? tied[0] : tied[1]), both ? " each" : "",
+                                both ? "the ends" : "the end");
     }
 }
 

@@ -22,20 +22,18 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
     for (int k = 0; k < s->boundaries; k++) {
         const struct boundary *a = &s->boundary[k];
         if (a->kind == BOUNDARY_PRESSURE && is_number(a) && a->value[0] < 0)
-            warnings_add_if_new(
-                to,
-                "boundary %s: a pressure of %.3g Pa is negative and pulls the faces outwards; one that pushes "
-                "is positive",
-                a->name, a->value[0]);
+            warnings_add_if_new(to,
+                                "boundary %s: a pressure of %.3g Pa is negative and pulls the faces outwards; use a "
+                                "positive one to push",
+                                a->name, a->value[0]);
         for (int m = 0; m < k && a->kind == BOUNDARY_TRACTION && is_number(a); m++) {
             const struct boundary *b = &s->boundary[m];
             if (b->kind != BOUNDARY_TRACTION || !is_number(b) || b->face != a->face || b->side != -a->side) continue;
             if (!(a->value[a->face] * b->value[a->face] > 0) || a->body != b->body) continue;
-            warnings_add_if_new(
-                to,
-                "boundaries %s and %s: tractions of %.3g and %.3g Pa along %c on opposite faces push the body "
-                "one way; those that stretch it have opposite signs",
-                b->name, a->name, b->value[a->face], a->value[a->face], "xyz"[a->face]);
+            warnings_add_if_new(to,
+                                "boundaries %s and %s: tractions of %.3g and %.3g Pa along %c on opposite faces push "
+                                "the body in one direction; to stretch it, give them opposite signs",
+                                b->name, a->name, b->value[a->face], a->value[a->face], "xyz"[a->face]);
         }
     }
 }
@@ -48,17 +46,17 @@ static void hint_sizes(const struct run *e, struct warnings *to)
     const real gravity = sqrt(dot(s->gravity, s->gravity, s->dim)) / EARTH;
     const real longest = particles_bounding_box_longest_edge(&e->part) + s->spacing;
     if (s->contact_friction > FRICTION_MOST)
-        warnings_add_if_new(to, "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5 (%%?)",
+        warnings_add_if_new(to,
+                            "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5; check its unit (%%?)",
                             s->contact_friction, FRICTION_MOST);
     if (gravity > GRAVITY_MOST)
         warnings_add_if_new(to, "gravity: %.3g m/s^2 is %.3g times that of the Earth; check its unit (m/s^2)",
                             gravity * EARTH, gravity);
     if (s->damping * e->clock.dt > DAMPING_MOST && scene_is_dynamic(s))
-        warnings_add_if_new(
-            to,
-            "damping: at %.3g 1/s motion dies out within %.3g time steps, so that nothing moves; vibrations of "
-            "period T need about 1/T",
-            s->damping, 1 / (s->damping * e->clock.dt));
+        warnings_add_if_new(to,
+                            "damping: at %.3g 1/s motion dies out within %.3g time steps, so nothing moves; use about "
+                            "1/T for vibrations of period T",
+                            s->damping, 1 / (s->damping * e->clock.dt));
     for (int k = 0; k < s->cracks_given; k++)
         if (s->crack[k].width > longest)
             warnings_add_if_new(to,
@@ -72,11 +70,10 @@ static void hint_frames(const struct run *e, struct warnings *to)
     const double steps = (double)e->clock.steps, frames = e->scene->frames < steps ? e->scene->frames : steps;
     const double bytes = FRAME_BYTES * frames * (double)e->part.n;
     if (bytes > FRAMES_MANY)
-        warnings_add_if_new(
-            to,
-            "output.frames: %.0f frames of %lld particles take about %.2g GB of disk; fewer, or frames of a "
-            "region (output.regions), take less",
-            frames, (long long)e->part.n, 1e-9 * bytes);
+        warnings_add_if_new(to,
+                            "output.frames: %.0f frames of %lld particles take about %.2g GB of disk; write fewer, or "
+                            "frames of a region (output.regions)",
+                            frames, (long long)e->part.n, 1e-9 * bytes);
 }
 
 void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *warning_list)

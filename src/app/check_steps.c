@@ -95,10 +95,11 @@ void print_load_step_solver(const struct run *e)
                tips, s->dim == 3 ? "front" : "tip", tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it",
                s->dim == 3 ? ", straight through the body" : "");
     else
-        printf("cracks         grow where bonds exceed their critical stretch, some 2 spacings in each increment%s%s\n",
-               tips == 0 ? "; the scene has no pre-crack, from which a crack could be extended by the hoop stress"
-                         : "; they are not extended by the hoop stress, as ",
-               tips == 0 ? "" : sif_growth_why_impossible(e, NULL));
+        printf(
+            "cracks         grow where bonds exceed their critical stretch, about 2 spacings in each increment%s%s\n",
+            tips == 0 ? "; the scene has no pre-crack that could be extended by the hoop stress"
+                      : "; they are not extended by the hoop stress, because ",
+            tips == 0 ? "" : sif_growth_why_impossible(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -113,8 +114,8 @@ static void print_missed_peak(const struct scene *s, real t, FILE *out)
         if (fabs(step - round(step)) < 1e-6 * number) break;
     }
     fprintf(out,
-            "accuracy       the loads have a peak at t = %.4g s, between two of the %d load steps, which skip it: "
-            "steps.number: %d ends a step there\n",
+            "accuracy       the loads peak at t = %.4g s, between two of the %d load steps, so the peak is missed; "
+            "with steps.number: %d a step ends there\n",
             t, s->steps.number, number);
 }
 
@@ -137,11 +138,10 @@ static void advise_growth(const struct run *e, FILE *out)
                 "time: {ramp: {until: %.4g s}} or a formula of t\n",
                 100 * first / most, s->duration);
     if (!isnan(falls) && s->steps.control != CONTROL_LOAD)
-        fprintf(
-            out,
-            "accuracy       loads fall before t = %.4g s: steps.control: %s searches for the pseudo-time of each crack "
-            "increment, and requires loads that grow all the time\n",
-            falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
+        fprintf(out,
+                "accuracy       loads fall before t = %.4g s, but steps.control: %s searches for the pseudo-time of "
+                "each crack increment and needs loads that always grow\n",
+                falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
     for (int k = 1; k < PEAK_LOOKS && s->steps.control == CONTROL_LOAD; k++) {
         const real t = s->duration * k / PEAK_LOOKS, step = s->duration / s->steps.number,
                    from = floor(t / step) * step;
@@ -167,7 +167,7 @@ static void advise_lengths(const struct run *e, FILE *out)
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
         fprintf(out,
                 "accuracy       crack tip at (%.4g, %.4g) m: there are only %.0f spacings of %s; the error of the load "
-                "at which the crack grows is some 0.5 %% with 40 spacings, 2 %% with 20 and larger below\n",
+                "at which the crack grows is about 0.5 %% with 40 spacings, 2 %% with 20 and larger below\n",
                 tip->origin[0], tip->origin[1], short_crack ? behind : ahead,
                 short_crack ? "crack behind it" : "body ahead of it");
     }
@@ -200,9 +200,8 @@ static void advise_supports(const struct run *e, FILE *out)
             const bool turns_it = by->components & ~(1 << across); /* another component is held */
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
-                    "accuracy       boundary %s holds particles over %d spacings along %c, so that the body cannot "
-                    "turn on it: a "
-                    "pin or roller is one or two particles wide, a grip more than %d\n",
+                    "accuracy       boundary %s holds particles over %d spacings along %c, so the body cannot turn on "
+                    "it: make a pin or roller one or two particles wide, a grip more than %d\n",
                     by->name, columns, "xyz"[across], GRIP_LEAST);
         }
     }
@@ -271,8 +270,7 @@ void print_load_steps_cost(const struct run *e, const struct cost *c, int thread
            threads, threads > 1 ? "s" : "", c->equilibria, c->step);
     const bool known = c->overload > 0 && e->scene->rigids == 0; /* the forces of rigid bodies are not predicted */
     if (known && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
-        printf(
-            "\naccuracy       the most stretched bond reaches %.2g of its limit, at a pseudo-time of %.4g s; nothing "
-            "breaks below %.1f: use larger loads",
-            c->overload, c->overload_at, NOTHING_BREAKS);
+        printf("\naccuracy       the most stretched bond reaches %.2g of its limit, at a pseudo-time of %.4g s; "
+               "nothing breaks below %.1f: use larger loads",
+               c->overload, c->overload_at, NOTHING_BREAKS);
 }

@@ -35,12 +35,12 @@ static void say_excess(const struct scene *s, real kappa)
     const real *const at = measured[of].kappa, *const excess = measured[of].excess;
     int k = 0;
     if (kappa > at[last]) {
-        printf("; with this horizon they spend at least %.0f %% more than G_c", excess[last]);
+        printf("; with this horizon cracks dissipate at least %.0f %% more than G_c", excess[last]);
         return;
     }
     while (k < last - 1 && kappa > at[k + 1]) k++;
     const real share = real_max(0, log(kappa / at[k]) / log(at[k + 1] / at[k]));
-    printf("; with this horizon they spend about %.0f %% more than G_c",
+    printf("; with this horizon cracks dissipate about %.0f %% more than G_c",
            excess[k] + share * (excess[k + 1] - excess[k]));
 }
 
@@ -50,7 +50,8 @@ static void say_excess(const struct scene *s, real kappa)
 static void say_horizons(const struct scene *s, const struct material *m, real kappa)
 {
     say_horizon(s, m);
-    printf("; stress reaches this strength below %.4g m, and the lattice does not impede cracks below %.4g m",
+    printf("; stress reaches this strength with a horizon below %.4g m, and cracks grow unimpeded by the lattice below "
+           "%.4g m",
            scene_softening_horizon_for_stretch_ratio(s, m, 1),
            scene_softening_horizon_for_stretch_ratio(s, m, FREE_OF_TRAPPING));
     if (s->dim > 1) say_excess(s, kappa);
@@ -72,10 +73,10 @@ static void print_surface(const struct scene *s, const struct material *m)
     printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
            surface.tension, surface.biaxial, surface.shear);
     if (s->dim == 3) printf(", %.4g Pa in hydrostatic tension", surface.hydrostatic);
-    printf(", by a strength surface; strains are averaged over %.4g m (%d means over families)\n",
+    printf(", from a strength surface; strains are averaged over %.4g m (%d means over families)\n",
            horizon * sqrt(m->surface_means + 0.3), m->surface_means);
     say_horizon(s, m);
-    printf("; with a horizon of %.4g m or more stress does not reach the surface",
+    printf("; with a horizon of %.4g m or more the stress does not reach the surface",
            scene_strength_surface_largest_horizon(s, m));
     if (surface.tension > unit)
         printf("; in tension bonds soften at about %.4g Pa already, before the surface is reached", unit);

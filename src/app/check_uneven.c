@@ -146,7 +146,7 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
     int said = 0;
     if (fabs(cells - nearbyint(cells)) < 1e-3 * cells) {
         fprintf(out, "; particles.spacing divides its width, but its faces are not midway between particles of the "
-                     "lattice that begins at the body's first solid: move this part by half a spacing\n");
+                     "lattice that begins at the first solid of the body: move this part by half a spacing\n");
         return;
     }
     width_ends(p, u, &low, &high);
@@ -160,7 +160,7 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
             fprintf(out, "%s%s %s", said++ ? " or " : "; particles.spacing ", text, unit.name);
             break;
         }
-    fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing reduces the difference\n");
+    fprintf(out, said ? " divides it\n" : "; use a smaller particles.spacing to reduce the difference\n");
 }
 
 struct length_text length_text_with_unit(real length, int digits, real spacing)
@@ -215,6 +215,7 @@ void print_parts_of_uneven_width(struct uneven_list *list, FILE *out)
     fprintf(out, "its section across %c at ", "xyz"[worst->across]);
     say_place(worst->at, dim, out);
     fprintf(out,
-            " is %.1f %% too %s, as a staircase of particles represents it; a smaller particles.spacing reduces this\n",
+            " is %.1f %% too %s, because a staircase of particles represents it; use a smaller particles.spacing to "
+            "reduce this\n",
             100 * fabs(worst->off), worst->off > 0 ? "large" : "small");
 }

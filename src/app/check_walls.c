@@ -33,11 +33,10 @@ void print_wall_advice(const struct run *e, FILE *out)
         for (int body = 0; body < s->bodies && s->boundary[b].kind == BOUNDARY_MIRROR; body++) {
             const real gap = gap_at_plane(&e->part, body, &s->boundary[b], s->spacing);
             if (e->frame->choice[body].reference || !(gap > TOUCHING * s->spacing) || isinf(gap)) continue;
-            fprintf(
-                out,
-                "accuracy       boundary %s: body %s starts %.3g m from this plane of symmetry, which stops its "
-                "material points on the grid about %.2g m (%.2g spacings) before they touch it: move the plane back by "
-                "that, or use a smaller particles.spacing\n",
-                s->boundary[b].name, s->body[body].name, gap, early, early / s->spacing);
+            fprintf(out,
+                    "accuracy       boundary %s: body %s starts %.3g m from this plane of symmetry, which stops its "
+                    "material points about %.2g m (%.2g spacings) before they touch it: move the plane back by that, "
+                    "or use a smaller particles.spacing\n",
+                    s->boundary[b].name, s->body[body].name, gap, early, early / s->spacing);
         }
 }

@@ -11,21 +11,21 @@
 static status no_benches(int argc, char **argv)
 {
     (void)argc, (void)argv;
-    return status_set(REFUSED, "this build, of `make run`, has no benches; `make` builds them");
+    return status_set(REFUSED, "this build, of `make run`, has no benches; run `make` to build them");
 }
 #define command_bench no_benches
 #endif
 
 const struct command commands[] = {
     {"run", RUN_WORDS, "runs a scene", command_run_main},
-    {"check", CHECK_WORDS, "what a scene would cost and whether it is sound", command_check_main},
+    {"check", CHECK_WORDS, "what a scene would cost, and likely mistakes", command_check_main},
     {"new", "NAME [KIND]", "writes a commented scene to begin with, of a kind; alone it lists the kinds",
      command_new_main},
     {"sweep", SWEEP_WORDS, "a study: runs, or lists, every combination", command_sweep_main},
     {"converge", CONVERGE_WORDS, "every figure of a scene with its error bar", command_converge_main},
     {"plot", PLOT_WORDS, "pictures of a finished or running run; of a scene before it runs", command_plot_main},
     {"report", REPORT_WORDS, "a run or a study as one page for a browser", command_report_main},
-    {"compare", "DIR DIR", "how far two runs are apart", command_compare_main},
+    {"compare", "DIR DIR", "how much two runs differ", command_compare_main},
     {"export", EXPORT_WORDS, "a scene as input of LAMMPS, or a scene or a run as an Exodus II file",
      command_export_main},
     {"bench", "[NAME...] [--quick] [--readme]", "measures; without a name it lists what there is", command_bench},
@@ -45,5 +45,5 @@ status command_find_by_name(const char *name, const struct command **found)
     }
     if (words_are_similar(name, nearest->name))
         return status_set(REFUSED, "unknown command %.40s; the nearest is %s", name, nearest->name);
-    return status_set(REFUSED, "unknown command %.40s; cleave --help lists them", name);
+    return status_set(REFUSED, "unknown command %.40s; see cleave --help", name);
 }

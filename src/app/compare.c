@@ -368,14 +368,13 @@ static status read_words(struct pair *p, int argc, char **argv)
         if (argv[k][0] == '-')
             return status_set(REFUSED, "compare: unknown option %s; usage: cleave compare DIR DIR", argv[k]);
     if (argc != 3)
-        return status_set(REFUSED, "compare: two folders are expected, not %d; usage: cleave compare DIR DIR",
-                          argc - 1);
+        return status_set(REFUSED, "compare: give two folders, not %d; usage: cleave compare DIR DIR", argc - 1);
     for (int k = 0; k < 2; k++) {
         p->folder[k] = argv[k + 1];
         if (holds_run(p->folder[k])) continue;
         return status_set(REFUSED,
-                          "%s holds no run, neither summary.json, history.csv nor frames: give the folder that cleave "
-                          "run names at its end",
+                          "%s holds no run (neither summary.json, history.csv nor frames): give the folder that cleave "
+                          "run prints at its end",
                           p->folder[k]);
     }
     return OK;

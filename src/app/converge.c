@@ -37,7 +37,7 @@ static status budget_read(struct convergence_request *w, const char *text)
         w->finer = true;
         return OK;
     }
-    return status_set(REFUSED, "--budget %s: a time is expected, as in 10 min", text);
+    return status_set(REFUSED, "--budget %s: give a time, such as 10 min", text);
 }
 
 static status converge_override(struct converge_arguments *a, const char *text)
@@ -45,7 +45,7 @@ static status converge_override(struct converge_arguments *a, const char *text)
     struct varied_key *k = &a->key[a->keys];
     TRY(varied_key_parse_values(k, text));
     a->keys++;
-    if (k->values > 1) return status_set(REFUSED, "-s %s: one value is expected; cleave sweep varies keys", k->key);
+    if (k->values > 1) return status_set(REFUSED, "-s %s: give one value; to vary a key use cleave sweep", k->key);
     return OK;
 }
 

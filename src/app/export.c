@@ -31,8 +31,7 @@ static status export_words(struct export_request *r, int *argc, char **argv)
             r->bond_style = !strcmp(argv[++k], "bpm");
         else if (style)
             return status_set(
-                REFUSED, "--style: peri (pair_style peri) or bpm (bond_style bpm/peri) is expected; usage: cleave %s",
-                usage);
+                REFUSED, "--style: give peri (pair_style peri) or bpm (bond_style bpm/peri); usage: cleave %s", usage);
         else if (!strcmp(argv[k], "--resume") || !strcmp(argv[k], "-q"))
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", argv[k], usage);
         else
@@ -47,7 +46,7 @@ static status check_not_study(const char *scene)
 {
     const bool study = folder_holds_study(scene) || run_has_file(scene, "study.yaml");
     if (!study || run_has_file(scene, "scene.yaml")) return OK;
-    return status_set(REFUSED, "%s: holds a study; export one of its runs, which are folders in it",
+    return status_set(REFUSED, "%s: holds a study; export one of its runs, which are folders inside it",
                       printable_name(scene).text);
 }
 
@@ -58,7 +57,7 @@ status command_export_main(int argc, char **argv)
     const struct target *target = NULL;
     for (size_t k = 0; k < COUNT_OF(targets) && argc > 1; k++)
         if (strcmp(argv[1], targets[k].name) == 0) target = &targets[k];
-    if (!target) return status_set(REFUSED, "export: lammps or exodus is expected; usage: cleave %s", usage);
+    if (!target) return status_set(REFUSED, "export: give lammps or exodus; usage: cleave %s", usage);
     const bool lammps = target->write == export_lammps;
     TRY(export_words(&request, &argc, argv));
     if (!lammps && (request.bond_style || request.allow_different))

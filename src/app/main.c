@@ -35,8 +35,8 @@ static status check_no_value_is_joined(int argc, char **argv)
     for (int k = 2; k < argc; k++) {
         const char *word = argv[k], *equals = strchr(word, '=');
         if (strncmp(word, "--", 2) != 0 || !equals || (k > 2 && argv[k - 1][0] == '-')) continue;
-        return status_set(REFUSED, "%s: a value follows its option after a space: %.*s %s", printable_name(word).text,
-                          (int)(equals - word), word, printable_name(equals + 1).text);
+        return status_set(REFUSED, "%s: put a space between the option and its value: %.*s %s",
+                          printable_name(word).text, (int)(equals - word), word, printable_name(equals + 1).text);
     }
     return OK;
 }

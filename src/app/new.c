@@ -56,8 +56,7 @@ static status check_path(const char *path, int *length, const char **name)
     bool fine = letters > 0 && letters < NAME_MAX_LENGTH && **name != '-' && *length < PATH_LONGEST;
     for (int k = 0; k < letters; k++) fine &= isalnum((unsigned char)(*name)[k]) || strchr("_-", (*name)[k]);
     if (fine) return OK;
-    return status_set(REFUSED, "%s: no name of a scene; letters, digits, _ and - are expected",
-                      printable_name(path).text);
+    return status_set(REFUSED, "%s: is not a name of a scene; use letters, digits, _ and -", printable_name(path).text);
 }
 
 static void scene_write(FILE *out, const struct kind *k, const char *path, const char *name)
@@ -84,8 +83,8 @@ static status file_open(FILE **out, const char *path)
 {
     *out = fopen(path, "wx");
     if (*out) return OK;
-    if (errno == EEXIST) return status_set(REFUSED, "%s exists and is not replaced; another name is expected", path);
-    return status_set(REFUSED, "%s: %s; a folder that can be written is expected", path, strerror(errno));
+    if (errno == EEXIST) return status_set(REFUSED, "%s exists and is not replaced; choose another name", path);
+    return status_set(REFUSED, "%s: %s; choose a folder that can be written", path, strerror(errno));
 }
 
 static status file_close(FILE *out, const char *path)

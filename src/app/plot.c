@@ -51,7 +51,8 @@ static status read_times(struct plot_words *w, const char *text)
     while (s == OK && (word = strsep(&rest, ",")) != NULL) {
         real time = 0;
         if (r->times == PANELS_MAX)
-            s = status_set(REFUSED, "plot: --times: at most %d times; a film shows all frames", PANELS_MAX);
+            s = status_set(REFUSED, "plot: --times: at most %d times; to see all frames make a film (animation)",
+                           PANELS_MAX);
         else if (!time_read(&time, word, what, sizeof what))
             s = status_set(REFUSED, "plot: --times %s: %s; or all, or last", printable_name(word).text, what);
         else
@@ -67,7 +68,7 @@ static status read_slice(struct plot_words *w, const char *text)
 {
     struct projection *projection = &w->request.projection;
     char what[256];
-    const char *wrong = "an axis and a position are expected, as z=4mm, or the axis alone";
+    const char *wrong = "give an axis and a position, such as z=4mm, or the axis only";
     if (text[0] < 'x' || text[0] > 'z' || (text[1] && text[1] != '='))
         return status_set(REFUSED, "plot: --slice %s: %s", printable_name(text).text, wrong);
     projection->normal = text[0] - 'x';
@@ -84,8 +85,7 @@ static status read_view(struct plot_words *w, const char *text)
     projection->camera = camera_isometric;
     if (strcmp(text, "iso") == 0) return OK;
     if (strlen(text) != 2 || text[0] < 'x' || text[0] > 'z' || (text[1] != '+' && text[1] != '-'))
-        return status_set(REFUSED, "plot: --view %s: iso, x+, x-, y+, y-, z+ or z- is expected",
-                          printable_name(text).text);
+        return status_set(REFUSED, "plot: --view %s: give iso, x+, x-, y+, y-, z+ or z-", printable_name(text).text);
     projection->camera = camera_along_axis(text[0] - 'x', text[1] == '+' ? 1 : -1);
     return OK;
 }
@@ -94,7 +94,7 @@ static status read_format(struct plot_words *w, const char *text)
 {
     w->format = text;
     if (picture_format_named(&w->request.format, text)) return OK;
-    return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", printable_name(text).text);
+    return status_set(REFUSED, "plot: --format %s: give png, svg, pdf, mp4 or gif", printable_name(text).text);
 }
 
 /* Reads `text`, the value of --range, LOW:HIGH, into w as two texts, whose units are checked later, when the field is
@@ -103,7 +103,7 @@ static status read_range(struct plot_words *w, const char *text)
 {
     const char *colon = strchr(text, ':');
     if (!colon || colon == text || !colon[1])
-        return status_set(REFUSED, "plot: --range %s: LOW:HIGH is expected, as 0:200MPa", printable_name(text).text);
+        return status_set(REFUSED, "plot: --range %s: give LOW:HIGH, such as 0:200MPa", printable_name(text).text);
     memory_free(w->range);
     w->range = NEW("plot.range", strlen(text) + 1, char);
     strcpy(w->range, text);
@@ -116,7 +116,7 @@ static status read_range(struct plot_words *w, const char *text)
  * end of each axis comes first. */
 static status read_crop(struct plot_words *w, const char *text)
 {
-    char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "X:X,Y:Y of lengths is expected";
+    char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "give X:X,Y:Y as lengths";
     char *end[4] = {0}, joined[128];
     bool read = true;
     strcpy(copy, text);
@@ -131,10 +131,10 @@ static status read_crop(struct plot_words *w, const char *text)
     w->request.cropped = true;
     for (int a = 0; a < 2 && read; a++)
         if (!(w->request.crop[a][1] > w->request.crop[a][0]))
-            return status_set(REFUSED, "plot: --crop %s: the lower end of each axis is expected first",
+            return status_set(REFUSED, "plot: --crop %s: give the lower end of each axis first, then the upper",
                               printable_name(text).text);
     return read && !rest ? OK
-                         : status_set(REFUSED, "plot: --crop %s: X:X,Y:Y is expected, as 10mm:30mm,-5mm:5mm; %s",
+                         : status_set(REFUSED, "plot: --crop %s: give X:X,Y:Y, such as 10mm:30mm,-5mm:5mm; %s",
                                       printable_name(text).text, what);
 }
 
@@ -171,7 +171,7 @@ static status read_colours(struct plot_words *w, const char *text)
 {
     const int table = word_index_in_list(COLOUR_TABLE_WORDS, text);
     if (table < 0)
-        return status_set(REFUSED, "plot: --colours %s: %s is expected", printable_name(text).text, COLOUR_TABLE_WORDS);
+        return status_set(REFUSED, "plot: --colours %s: give %s", printable_name(text).text, COLOUR_TABLE_WORDS);
     w->request.table = (enum colour_table)table;
     return OK;
 }
@@ -238,11 +238,12 @@ static status settle_format(struct plot_words *w)
     if (!dot || strchr(dot, '/') || path_is_folder(out)) return OK;
     if (!w->format && picture_format_named(&w->request.format, dot + 1)) return OK;
     if (w->format && strcmp(w->format, dot + 1) == 0) return OK;
-    return status_set(REFUSED,
-                      w->format ? "plot: -o %s: its ending is not that of --format %s; give one of the two"
-                                : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif, or a folder with / at its "
-                                  "end is expected",
-                      printable_name(out).text, w->format);
+    return status_set(
+        REFUSED,
+        w->format
+            ? "plot: -o %s: its ending does not fit --format %s; give one of the two"
+            : "plot: -o %s: give a file that ends in .png, .svg, .pdf, .mp4 or .gif, or a folder with / at its end",
+        printable_name(out).text, w->format);
 }
 
 /* Checks the options of `cleave plot` together. Returns REFUSED if two of them exclude each other, or if neither a
@@ -251,27 +252,27 @@ static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
     if (w->scene.scene && (r->folder || r->field || w->times || w->frames || r->projection.normal >= 0))
-        return status_set(
-            REFUSED, "plot: --scene draws a scene before it runs, so that it takes no folder, field, time or slice");
+        return status_set(REFUSED,
+                          "plot: --scene draws a scene before it runs, so it takes no folder, field, time or slice");
     if (w->times && w->frames)
         return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: give one of them",
                           printable_name(w->times).text, printable_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_is_film(r->format))
         return status_set(REFUSED,
-                          "plot: --frames %d: a picture has at most %d panels; a film (mp4, gif) has any number",
+                          "plot: --frames %d: a picture has at most %d panels; for more make a film (mp4, gif)",
                           r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
-        return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
+        return status_set(REFUSED, "plot: -s changes a scene; use it with --scene");
     if (w->scene.scene && (r->range[0] || r->cropped || r->projection.magnify > 0 || r->table))
         return status_set(REFUSED, "plot: --scene draws a scene before it runs: it has no range, colours, crop or "
                                    "magnified displacements");
     if (r->fps && !picture_is_film(r->format))
-        return status_set(REFUSED, "plot: --fps is for films; --format mp4 or gif makes one");
-    if (r->range[0] && !r->field) return status_set(REFUSED, "plot: --range goes with --field, whose values it limits");
+        return status_set(REFUSED, "plot: --fps is for films; add --format mp4 or gif");
+    if (r->range[0] && !r->field) return status_set(REFUSED, "plot: --range limits the values of --field; give both");
     if (r->cropped && r->projection.outside)
-        return status_set(REFUSED, "plot: --crop is for plane runs and slices, not for --view");
+        return status_set(REFUSED, "plot: --crop is for plane runs and slices, not for --view; remove one");
     if (r->projection.outside && r->projection.normal >= 0)
-        return status_set(REFUSED, "plot: --slice shows the inside, --view the outside: give one of them");
+        return status_set(REFUSED, "plot: --slice shows the inside, but --view the outside: give one of them");
     if (!w->scene.scene && !r->folder)
         return status_set(REFUSED, "plot: no folder of a run is given; usage: cleave %s", usage);
     return OK;
@@ -287,7 +288,7 @@ static status plot_words_read(struct plot_words *w, int argc, char **argv)
             TRY(read_option(w, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
             k++;
         } else if (w->request.folder) {
-            return status_set(REFUSED, "plot: one folder at a time; %s is one too many", argv[k]);
+            return status_set(REFUSED, "plot: %s is a second folder; give one", argv[k]);
         } else
             w->request.folder = argv[k];
     }
@@ -299,8 +300,7 @@ static status check_folder(const char *folder)
 {
     if (path_exists(folder) && !path_is_folder(folder))
         return status_set(REFUSED,
-                          "%s is a file: the folder of a run is expected; a scene is drawn by `cleave plot "
-                          "--scene %s`",
+                          "%s is a file; give the folder of a run; to draw a scene use `cleave plot --scene %s`",
                           printable_name(folder).text, printable_name(folder).text);
     if (folder_holds_study(folder))
         return status_set(REFUSED,
@@ -310,9 +310,11 @@ static status check_folder(const char *folder)
     if (!run_has_file(folder, "frames.hdf.series") && !run_has_file(folder, "history.csv"))
         return status_set(
             REFUSED,
-            "%s holds no run, neither frames nor history.csv: give the folder that cleave run names at its end",
+            "%s holds no run (neither frames nor history.csv): give the folder that cleave run prints at its end",
             folder);
-    return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);
+    return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM
+               ? OK
+               : status_set(FAILED, "%s: the name is too long; choose a shorter one", folder);
 }
 
 /* Returns true if the argument of -o names a folder: one that exists, or a name that ends in / or has no ending. */

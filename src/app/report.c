@@ -21,8 +21,7 @@ status command_report_main(int argc, char **argv)
             return status_set(REFUSED, "report: unknown option %s; usage: cleave %s", printable_name(argv[k]).text,
                               usage);
         else if (r.folder)
-            return status_set(REFUSED, "report: one folder at a time; %s is one too many",
-                              printable_name(argv[k]).text);
+            return status_set(REFUSED, "report: %s is a second folder; give one", printable_name(argv[k]).text);
         else
             r.folder = argv[k];
     }

@@ -54,11 +54,10 @@ static const struct promise promises[] = {
      "long_races.sh long_sanitizers.sh long_valgrind.sh test_features.c"},
 };
 
-static const char not_promised[] = "Not promised: the same bits from another build, compiler or set of kernels (they "
-                                   "agree to round-off); what a file system forgets that was "
-                                   "synced; anything but the last checkpoint where the system kills the program for "
-                                   "want of memory; that HDF5 survives a damaged particle list "
-                                   "(it may crash, which is said in one line).";
+static const char not_promised[] =
+    "Not promised: the same bits from another build, compiler or set of kernels (they agree to round-off); what a file "
+    "system forgets that was synced; anything but the last checkpoint where the system kills the program because "
+    "memory is short; that HDF5 survives a damaged particle list (it may crash; one line then says so).";
 
 /* Prints `text` to `out`, broken at blanks into lines of at most 100 characters that begin with `indent` blanks. */
 static void paragraph(FILE *out, const char *text, int indent)

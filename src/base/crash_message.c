@@ -13,10 +13,10 @@
 #include <unistd.h>
 
 static const char out_of_memory[] =
-    "out of memory: a library could not go on; results up to the last checkpoint are whole: go on with --resume where "
-    "there is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n";
+    "out of memory: a library could not continue; results up to the last checkpoint are complete: continue with "
+    "--resume where there is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n";
 
-static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimit -s 8192 is the usual one\n";
+static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimit -s 8192 sets the usual one\n";
 
 /* The file that HDF5 reads, without control characters; "": none. */
 static char reading[512];
@@ -49,7 +49,7 @@ static _Noreturn void say_damaged_and_leave(void)
 {
     say("cannot read ");
     say(reading);
-    say_and_leave(": the HDF5 library crashed over it; it is damaged, or not what it seems\n");
+    say_and_leave(": the HDF5 library crashed while reading it; it is damaged, or not what it seems\n");
 }
 
 /* Returns true if less than 256 MiB of memory are left, so that an allocation of a library may have failed. */

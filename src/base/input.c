@@ -83,7 +83,7 @@ static const char *input_fault(int fd, const char *path, struct stat *s)
     if (fd >= 0 && is_descriptor(path) && fstat(fd, s) == 0 && S_ISFIFO(s->st_mode))
         return fcntl(fd, F_SETFL, 0) == 0 ? NULL : strerror(errno);
     if ((fd < 0 ? stat(path, s) : fstat(fd, s)) == 0 && !S_ISREG(s->st_mode))
-        return S_ISDIR(s->st_mode) ? "is a folder" : "is no regular file";
+        return S_ISDIR(s->st_mode) ? "is a folder" : "is not a regular file";
     return fd < 0 ? strerror(cause) : NULL;
 }
 

@@ -27,8 +27,9 @@ _Noreturn void invariant_report_violation_and_abort(const char *condition, const
     if (__atomic_exchange_n(&reported, true, __ATOMIC_ACQ_REL))
         for (;;) pause(); /* another thread has reported, and ends the program */
     fprintf(stderr,
-            "cleave " CLEAVE_VERSION ": broken invariant at %s:%d, %s: %s; this is a fault of the program: please "
-            "report this line, with scene.yaml of the results folder; results up to the last checkpoint are whole\n",
+            "cleave " CLEAVE_VERSION
+            ": broken invariant at %s:%d, %s: %s; this is a fault of the program: please report this line, with "
+            "scene.yaml of the results folder; results up to the last checkpoint are complete\n",
             file, line, function, condition);
     fflush(stderr);
     if (remove_half_written) remove_half_written();

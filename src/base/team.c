@@ -238,10 +238,10 @@ int team_set_thread_count(int requested_threads)
             requested_threads = known ? core_count(&place) : omp_get_num_procs();
     }
     if (!threads_start(requested_threads)) {
-        fprintf(
-            stderr,
-            "%d threads cannot be started: no memory for their stacks, or a limit of processes; choose fewer with -t\n",
-            requested_threads);
+        fprintf(stderr,
+                "%d threads cannot be started: memory for their stacks is missing, or a limit of processes is reached; "
+                "choose fewer with -t\n",
+                requested_threads);
         _exit(FAILED);
     }
     omp_set_dynamic(0); /* a fixed number: partitions must not change between loops */

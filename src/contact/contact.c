@@ -246,7 +246,9 @@ static status contact_check(const struct contact *c, const struct particles *p)
     for (int64_t k = 0; k < c->n; k++) good = good && c->particle[k] >= 0 && c->particle[k] < p->n_all;
     for (int64_t k = 0; k < c->rows; k++) good = good && c->first[k] <= c->first[k + 1] && c->particle[k] < p->n;
     for (int64_t q = 0; q < c->pairs; q++) good = good && c->other[q] >= 0 && c->other[q] < c->n;
-    return good ? OK : status_set(FAILED, "cannot resume: pairs in contact of the checkpoint are none of this body");
+    return good ? OK
+                : status_set(FAILED, "cannot resume: the checkpoint lists pairs in contact that this body does not "
+                                     "contain; it is damaged, start again with --overwrite");
 }
 
 /* Saves the state of contact to the archive a if a->saving, else restores it. The list of pairs, which determines
@@ -266,7 +268,8 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
     c->overlap_said = numbers[8] != 0, c->due = numbers[9] != 0;
     if (!c->made) return OK;
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
-        return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");
+        return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact; it is "
+                                  "damaged, start again with --overwrite");
     TRY(contact_array_save_or_load(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
     archive_update_restored_particle_indices(a, c->particle, c->n);
     for (int d = 0; d < p->dim; d++) {

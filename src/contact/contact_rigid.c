@@ -297,7 +297,7 @@ status contact_rigid_save_or_load(struct contact *c, struct archive *a)
         if (near->n < 0 || near->n > c->rows)
             return status_set(FAILED,
                               "cannot resume: the checkpoint lists %lld particles near a rigid body, but this run can "
-                              "have %lld at most: start again with --overwrite",
+                              "have %lld at most; it is damaged, start again with --overwrite",
                               (long long)near->n, (long long)c->rows);
         snprintf(name, sizeof name, "contact/near_row_%d", b);
         TRY(contact_array_save_or_load(a, name, (void **)&near->row, near->n, sizeof *near->row));
@@ -310,7 +310,8 @@ status contact_rigid_save_or_load(struct contact *c, struct archive *a)
         TRY(contact_array_save_or_load(a, name, (void **)&near->balance, near->n, sizeof *near->balance));
         for (int64_t q = 0; q < near->n; q++)
             if (near->row[q] < 0 || near->row[q] >= c->rows)
-                return status_set(FAILED, "cannot resume: particles near a rigid body are none of the checkpoint");
+                return status_set(FAILED, "cannot resume: the checkpoint lists particles near a rigid body that it "
+                                          "does not contain; it is damaged, start again with --overwrite");
     }
     return OK;
 }

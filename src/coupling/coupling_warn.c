@@ -37,8 +37,8 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
         if (reference->choice[b].reference) name_add(&names, s->body[b].name);
     warnings_add_if_new(
         to,
-        "%s %s in the reference frame (mpm.frame), where material points have no contact and pass through "
-        "other bodies; with mpm.frame: current they have contact; if this is meant: accept: [contact]",
+        "%s %s in the reference frame (mpm.frame): material points there have no contact and pass through other "
+        "bodies; use mpm.frame: current for contact; if this is intended, add accept: [contact]",
         names.text, names.all > 1 ? "are" : "is");
 }
 
@@ -52,21 +52,21 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     if (!scene_bodies_can_meet(s) || approaches || scene_silences_warning(s, ACCEPT_CONTACT)) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_is_single_equilibrium(s))) return;
     if (s->method == METHOD_PD)
-        warnings_add_if_new(to,
-                            "contact.between: none: peridynamic bodies have no contact and pass through each other%s; "
-                            "contact.between: bodies or all gives them contact; if this is meant: accept: [contact]",
-                            s->rigids > 0 ? " (they have contact with rigid bodies)" : "");
+        warnings_add_if_new(
+            to,
+            "contact.between: none: peridynamic bodies have no contact and pass through each other%s; use "
+            "contact.between: bodies or all for contact; if this is intended, add accept: [contact]",
+            s->rigids > 0 ? " (they have contact with rigid bodies)" : "");
     else
         warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)
-        warnings_add_if_new(
-            to,
-            "particles that become peridynamic pass through the material points of other bodies; contact with "
-            "them requires contact.between: bodies or all, contact.convert: true and coupling: partial stress "
-            "or handshake; here %s; if this is meant: accept: [contact]",
-            s->contact_between == CONTACT_NONE ? "contact.between is none"
-            : !s->contact_convert              ? "contact.convert is false"
-                                               : "the coupling is a different one");
+        warnings_add_if_new(to,
+                            "particles that become peridynamic pass through the material points of other bodies; "
+                            "contact with them needs contact.between: bodies or all, contact.convert: true and "
+                            "coupling: partial stress or handshake, but %s; if this is intended, add accept: [contact]",
+                            s->contact_between == CONTACT_NONE ? "contact.between is none"
+                            : !s->contact_convert              ? "contact.convert is false"
+                                                               : "the coupling is another one");
 }
 
 /* Returns true if particles i and j start with nearly the same velocity: parts of bodies that are meant to be joined
@@ -118,11 +118,10 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
     memory_free(touch);
     if (names.all > 0)
         warnings_add_if_new(
-            to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s",
-            names.text,
+            to, "bodies touch at the start (%s), but are not joined: no bond connects them%s", names.text,
             s->method == METHOD_PD || e->grid->fields > 1
                 ? ""
-                : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
+                : "; on the grid of mpm.frame current they stick together until a gap of two cells opens");
 }
 
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list)

@@ -149,12 +149,12 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
                                   real radius)
 {
     const struct crack_edges zone = crack_edges_of(c, p, s, radius);
-    if (p->dim == 1) return "a cut parts a line";
+    if (p->dim == 1) return "a cut divides a line";
     if (c->n > EDGES_MAX) return "its polygon has more than 64 corners";
-    if (zone.edges == 0) return "neither of its ends is inside the body, so that it may cut the body in two";
+    if (zone.edges == 0) return "neither of its ends is inside the body, so it may cut the body in two";
     const struct flanks f = flanks_of(&zone, p, s);
-    if (f.particles == 0) return "the zones round its ends hold all of it";
-    if (f.elsewhere > 0) return "it is not in material points in the reference frame";
+    if (f.particles == 0) return "the zones around its ends contain all of it";
+    if (f.elsewhere > 0) return "it is not among material points in the reference frame";
     return NULL;
 }
 

@@ -12,7 +12,7 @@
  * NULL if nothing in the scene prevents it. */
 static const char *scene_obstacle(const struct scene *s)
 {
-    if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
+    if (s->conversion.notch == NOTCH_BONDS) return "the scene sets this";
     if (s->growths > 0) return "growth lets bonds along cracks fade";
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_SIF) return "a sif probe needs the bonds of its crack";
@@ -26,7 +26,7 @@ static const char *scene_obstacle(const struct scene *s)
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
-    if (!why && !reference_frame_is_in_use(r)) why = "there are no material points in the reference frame";
+    if (!why && !reference_frame_is_in_use(r)) why = "no material points are in the reference frame";
     if (!why && grid_has_mirror_plane_between_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }
@@ -39,7 +39,7 @@ static status notches_check(const struct scene *s, const struct notches *n)
         if (!n->notch[k].slit)
             return status_set(REFUSED,
                               "conversion.notch: crack %d cannot be a slit of the mesh (a row of doubled nodes): %s; "
-                              "conversion.notch: auto or bonds is expected",
+                              "set conversion.notch: auto or bonds",
                               k + 1, n->notch[k].reason);
     return OK;
 }
@@ -68,7 +68,7 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
                                          size_t capacity)
 {
     if (n->notch[crack_number].slit)
-        snprintf(text, capacity, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / spacing);
+        snprintf(text, capacity, "slit of the mesh; bonds within %.3g spacings of its ends", n->radius / spacing);
     else
         snprintf(text, capacity, "cut bonds: %s", n->notch[crack_number].reason);
 }

@@ -23,14 +23,15 @@ status reversion_check_scene_allows_reversion(const struct scene *s)
 {
     const char *why = NULL;
     if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
-    if (!(s->conversion.criteria & CONVERT_ON_STRESS)) why = "criteria with stress, which says what a low one is";
+    if (!(s->conversion.criteria & CONVERT_ON_STRESS))
+        why = "conversion.criteria with stress, because only then it is known which stress is low";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
-        why = "coupling partial stress or handshake";
-    if (s->growths > 0) why = "no growth, whose bonds fade";
-    if (scene_is_single_equilibrium(s)) why = "solver explicit";
+        why = "coupling: partial stress or handshake";
+    if (s->growths > 0) why = "no key growth, whose bonds fade";
+    if (scene_is_single_equilibrium(s)) why = "solver: explicit";
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m])) why = "materials that do not yield";
-    return why ? status_set(REFUSED, "conversion.reversion: true goes with %s", why) : OK;
+    return why ? status_set(REFUSED, "conversion.reversion: true needs %s", why) : OK;
 }
 
 /* Returns the sum of elastic and kinetic energies of the bodies at the present positions [J]. */

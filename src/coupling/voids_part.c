@@ -118,33 +118,31 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
     const real reach = voids_interaction_distance(s, e->source.family.cutoff);
     closed_on_grid(&e->part, e->source.voids, &e->cells, reach, uncut, &grid, &plane);
     if (grid.n > 0)
-        warnings_add_if_new(
-            warning_list,
-            "body %s has a void too narrow for its grid, at (%s) m: %lld material points share grid nodes with "
-            "points on the other side of the void, which closes it; use %smethod: pd, method: adaptive or a "
-            "smaller particles.spacing",
-            s->body[e->part.body[grid.first]].name, particle_position_text(&e->part, grid.first, 4).text,
-            (long long)grid.n, reference_possible && !uncut ? "mpm.frame: reference, " : "");
+        warnings_add_if_new(warning_list,
+                            "body %s has a void too narrow for its grid, at (%s) m: %lld material points share grid "
+                            "nodes with points on the other side, so the void has no effect; use %smethod: pd, method: "
+                            "adaptive or a smaller particles.spacing",
+                            s->body[e->part.body[grid.first]].name,
+                            particle_position_text(&e->part, grid.first, 4).text, (long long)grid.n,
+                            reference_possible && !uncut ? "mpm.frame: reference, " : "");
     if (plane.n > 0)
-        warnings_add_if_new(
-            warning_list,
-            "body %s: between it and a plane of symmetry is a gap too narrow for its grid, at (%s) m: the plane "
-            "holds %lld material points that do not touch it; use method: pd, method: adaptive or a smaller "
-            "particles.spacing",
-            s->body[e->part.body[plane.first]].name, particle_position_text(&e->part, plane.first, 4).text,
-            (long long)plane.n);
+        warnings_add_if_new(warning_list,
+                            "body %s: the gap between it and a plane of symmetry is too narrow for its grid, at (%s) "
+                            "m: the plane holds %lld material points that do not touch it; use method: pd, method: "
+                            "adaptive or a smaller particles.spacing",
+                            s->body[e->part.body[plane.first]].name,
+                            particle_position_text(&e->part, plane.first, 4).text, (long long)plane.n);
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || joined_bodies_are_all_defined_by_solids(s, b)) continue;
         const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, reach);
         if (gap.n == 0) continue;
-        warnings_add_if_new(
-            warning_list,
-            "body %s has a void one or two particles wide at (%s) m, beside %lld particles in all: a list or "
-            "image defines no faces, so that %s join both sides of the void; define its faces by the key "
-            "cracks, or use a smaller particles.spacing",
-            s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
-            s->method == METHOD_MPM  ? "cells"
-            : s->method == METHOD_PD ? "bonds"
-                                     : "bonds and cells");
+        warnings_add_if_new(warning_list,
+                            "body %s has a void one or two particles wide at (%s) m, beside %lld particles in all: a "
+                            "list or image defines no faces, so %s join both sides of the void; define its faces by "
+                            "the key cracks, or use a smaller particles.spacing",
+                            s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
+                            s->method == METHOD_MPM  ? "cells"
+                            : s->method == METHOD_PD ? "bonds"
+                                                     : "bonds and cells");
     }
 }

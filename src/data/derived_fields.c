@@ -86,8 +86,9 @@ static void directions_from(const real *from, real *to)
 const struct derived_field derived_fields[DERIVED_FIELDS] = {
     {"von_mises", "Pa", "equivalent stress of von Mises", FROM_STRESS, 1, mises_from},
     {"pressure", "Pa", "minus the mean of the normal stresses", FROM_STRESS, 1, pressure_from},
-    {"principal_stress", "Pa", "the three principal stresses, descending", FROM_STRESS, 3, principal_from},
-    {"principal_directions", "", "their axes, three unit vectors", FROM_STRESS, 9, directions_from},
+    {"principal_stress", "Pa", "the three principal stresses in descending order", FROM_STRESS, 3, principal_from},
+    {"principal_directions", "", "directions of the principal stresses, three unit vectors", FROM_STRESS, 9,
+     directions_from},
     {"speed", "m/s", "length of the velocity", FROM_VELOCITY, 1, speed_from},
 };
 

@@ -57,9 +57,11 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
     for (int d = 0; d < g->dim; d++) {
         low[d] = floor((lower[d] - g->anchor[d]) / g->h), high[d] = floor((upper[d] - g->anchor[d]) / g->h);
         if (!(fabs(low[d]) < NODE_FARTHEST && fabs(high[d]) < NODE_FARTHEST))
-            return status_set(
-                FAILED, "a material point is at %.3g m, %.3g cells from where the grid begins; is the run unstable?",
-                fabs(low[d]) < NODE_FARTHEST ? upper[d] : lower[d], real_max(fabs(low[d]), fabs(high[d])));
+            return status_set(FAILED,
+                              "a material point is at %.3g m, %.3g cells from the beginning of the grid; check for an "
+                              "instability (smaller time step)",
+                              fabs(low[d]) < NODE_FARTHEST ? upper[d] : lower[d],
+                              real_max(fabs(low[d]), fabs(high[d])));
     }
     for (int d = 0; d < g->dim; d++) {
         first[d] = box_floor((int64_t)low[d] - MARGIN);
@@ -76,8 +78,8 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
     }
     if (!(nodes <= (real)max_nodes))
         return status_set(FAILED,
-                          "the material points have spread so far that their grid would need %.3g nodes; "
-                          "is the run unstable, or does a fragment fly away?",
+                          "the material points have spread so far that their grid would need %.3g nodes; check for an "
+                          "instability (smaller time step) or a fragment flying away",
                           nodes);
     if (!*changed) return OK;
     if (g->n > 0) grid_arrays_free(g);

@@ -31,7 +31,7 @@ static status particles_check(const struct scene *s, const struct particles *p)
         if (!good || !(sum == 0))
             return status_set(FAILED,
                               "cannot resume: particle %lld of the checkpoint has a state that is impossible in a run "
-                              "of this scene; start again with --overwrite",
+                              "of this scene; it is damaged, start again with --overwrite",
                               (long long)i);
     }
     return OK;
@@ -50,8 +50,8 @@ static status kernels_archive(struct warnings *to, struct archive *a)
     then[sizeof then - 1] = 0;
     if (strcmp(then, now->name) == 0) return OK;
     snprintf(text, sizeof text,
-             "the checkpoint was written with %s kernels, and the run continues with %s: results agree to round-off, "
-             "not to the last bit; CLEAVE_SIMD=%s keeps the kernels where the processor has them",
+             "the checkpoint was written with %s kernels, but the run continues with %s: results agree to round-off, "
+             "not to the last bit; CLEAVE_SIMD=%s keeps the kernels if the processor has them",
              then, now->name, then);
     warnings_add_and_print(to, text);
     return OK;

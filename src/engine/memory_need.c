@@ -104,7 +104,7 @@ status engine_check_memory(const struct scene *s, const struct particles *p, con
     real longest;
     if (memory <= 0 || bytes <= memory) return OK;
     return status_set(REFUSED,
-                      "particles.spacing: about %.2g particles would need some %.2g GB of memory, and %.2g GB are "
-                      "available (%s); a larger one is expected",
+                      "particles.spacing: about %.2g particles would need %.2g GB of memory, but %.2g GB are available "
+                      "(%s); use a larger spacing",
                       particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, machine_memory_limit_name());
 }

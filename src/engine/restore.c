@@ -33,11 +33,15 @@ static status hollow_restore(struct run *e, struct archive *a)
     int64_t n = h->absent ? h->box.n : 0;
     ARCHIVE_VALUE(a, "hollow/cells", n);
     if (n == 0 && !h->absent) return OK;
-    if (n > 0 && n != h->box.n) return status_set(FAILED, "cannot resume: the checkpoint is of another body");
+    if (n > 0 && n != h->box.n)
+        return status_set(FAILED, "cannot resume: the checkpoint was written for a different body; restore the scene "
+                                  "it was written with, or start again with --overwrite");
     uint8_t *absent = n > 0 ? NEW("hollow.absent", n, uint8_t) : NULL;
     if (n > 0) TRY(a->exchange(a, "hollow/absent", absent, (size_t)n));
     for (int64_t J = 0; J < n; J++)
-        if (absent[J] > h->whole[J]) return status_set(FAILED, "cannot resume: the checkpoint lacks particles");
+        if (absent[J] > h->whole[J])
+            return status_set(
+                FAILED, "cannot resume: the checkpoint lacks particles; it is damaged, start again with --overwrite");
     return remake(e, absent);
 }
 

@@ -41,17 +41,17 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
 static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
-        warnings_add_if_new(
-            to, "method: mpm ignores the key cracks: its body is whole, as points on both sides of a crack share "
-                "the nodes of the grid; method pd and adaptive represent cracks");
+        warnings_add_if_new(to, "method: mpm ignores the key cracks: points on both sides of a crack share the nodes "
+                                "of the grid, so the body stays whole; use method: pd or adaptive");
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add_if_new(
-            to, "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
+            to,
+            "coupling pm and pmg are defined with mpm.shape: linear only; with another shape they act as pg and pgg");
     if (coupling_moves_by_grid(kind) && !scene_silences_warning(s, ACCEPT_COUPLING))
         warnings_add_if_new(
             to,
-            "coupling %s, as published, has no potential energy, and a long run may gain energy: watch "
-            "energy.balance_error, or use coupling: partial stress; if this is meant: accept: [coupling]",
+            "coupling %s, as published, has no potential energy, so a long run may gain energy: watch "
+            "energy.balance_error, or use coupling: partial stress; if this is intended, add accept: [coupling]",
             coupling_name[kind]);
 }
 
@@ -65,14 +65,14 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
     if (driven && on_grid && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
         warnings_add_if_new(
             to,
-            "mpm.shape: %s beside fixed and driven particles: stress is up to a third too large there, "
-            "displacements 2 to 3 %%: use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
+            "mpm.shape: %s beside fixed and driven particles: there stress is up to a third too large and "
+            "displacements 2 to 3 %%; use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
             s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
     if (s->method != METHOD_PD && s->cell < 1.5 && !scene_silences_warning(s, ACCEPT_CELL))
         warnings_add_if_new(
             to,
-            "mpm.cell: %.3g puts one point in a cell, and a wave that crosses a coupling interface leaves an "
-            "oscillation of 0.8 %% of its amplitude behind; use mpm.cell: 2; if this is meant: accept: [cell]",
+            "mpm.cell: %.3g puts one point into a cell, so a wave that crosses a coupling interface leaves an "
+            "oscillation of 0.8 %% of its amplitude; use mpm.cell: 2; if this is intended, add accept: [cell]",
             s->cell);
 }
 
@@ -81,21 +81,21 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
-                      : !scene_is_dynamic(s)    ? "a static solver has no use for coarse cells"
+                      : !scene_is_dynamic(s)    ? "a static solver cannot use coarse cells"
                       : frame->mesh.points == 0 ? "no material points are in the reference frame"
                                                 : NULL;
     const char *all = scene_why_all_particles_needed(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
-        warnings_add_if_new(to, "mpm.levels: %d has no effect, as %s; use auto or 0", s->levels, why);
+        warnings_add_if_new(to, "mpm.levels: %d has no effect: %s; use auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
-        warnings_add_if_new(to, "mpm.fill: needed has no effect, and all particles are made, as %s; use auto or all",
+        warnings_add_if_new(to, "mpm.fill: needed has no effect (all particles are made): %s; use auto or all",
                             why   ? why
                             : all ? all
                                   : "there are no coarse cells");
     if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
-        warnings_add_if_new(
-            to, "conversion.notch: slit has no effect with method %s%s; conversion.notch: auto is expected",
-            s->method == METHOD_PD ? "pd" : "mpm", s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
+        warnings_add_if_new(to, "conversion.notch: slit has no effect with method %s%s; use conversion.notch: auto",
+                            s->method == METHOD_PD ? "pd" : "mpm",
+                            s->method == METHOD_PD ? ", in which pre-cracks are cut bonds" : "");
 }
 
 /* Adds warnings to *to about materials whose points convert at a stress above the one at which bonds break. */
@@ -106,9 +106,8 @@ static void warn_of_materials(const struct scene *s, const struct material_table
         if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger_mean > a->young * a->onset_stretch)
             warnings_add_if_new(
                 to,
-                "material %s: material points convert to bonds at a stress of %.4g Pa, above the %.4g Pa (E "
-                "%s) at which bonds %s, so that they may exceed %s stretch before they convert: "
-                "use a lower conversion.stress",
+                "material %s: material points become peridynamic at a stress of %.4g Pa, above the %.4g Pa (E %s) at "
+                "which bonds %s, so they may exceed %s stretch before they do: use a lower conversion.stress",
                 a->name, tables->elastic[m].trigger_mean, a->young * a->onset_stretch,
                 material_has_softening_bonds(a) ? "s_0" : "s_c",
                 material_has_softening_bonds(a) ? "begin to soften" : "break",
@@ -137,11 +136,10 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
     for (int m = 0; m < s->materials; m++) yields |= material_yields(&s->material[m]);
     for (int k = 0; k < s->probes && yields; k++)
         if (s->probe[k].kind == PROBE_SIF)
-            warnings_add_if_new(
-                to,
-                "probe %s: K_I, K_II and J hold for an elastic body; where a material yields within the ring "
-                "they are meaningless, and differ with the radius (contour_spread)",
-                s->probe[k].name);
+            warnings_add_if_new(to,
+                                "probe %s: K_I, K_II and J hold for an elastic body; they are wrong while the material "
+                                "yields within the ring, and then differ with the radius (contour_spread)",
+                                s->probe[k].name);
 }
 
 /* Adds warnings to *to about columns of particle lists that are not read, or for which a default is used. */
@@ -157,7 +155,7 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
     if (asked & ASK_PLASTIC_STRAIN && (asked & ASK_OTHERS) != ASK_OTHERS && !p->plastic_strain && !b->plastic_path)
-        warnings_add_if_new(to, "output.fields: no material yields, so frames will have no plastic_strain");
+        warnings_add_if_new(to, "output.fields: no material has a yield_stress, so frames will have no plastic_strain");
 }
 
 /* Adds warnings to *to about regions for which the scene requests frames of their own but which contain no particle. */
@@ -166,7 +164,9 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
 {
     for (int k = 0; k < s->n_series; k++)
         if (!region_is_met(frame, p, &s->series[k].region))
-            warnings_add_if_new(to, "output.regions: %s holds no particle: its frames will be empty",
+            warnings_add_if_new(to,
+                                "output.regions: %s holds no particle, so its frames will be empty: check its "
+                                "coordinates and their unit (mm?)",
                                 s->series[k].name);
 }
 
@@ -186,11 +186,10 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
 static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
 {
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
-    warnings_add_if_new(
-        to,
-        "the time step is above the critical one: time.step is %.4g s, %.3g times the critical %.4g s, and the "
-        "run will be unstable: leave time.step out, or use at most %.3g s",
-        clock->dt, clock->dt / clock->dt_critical, clock->dt_critical, 0.8 * clock->dt_critical);
+    warnings_add_if_new(to,
+                        "the time step is too large: time.step is %.4g s, %.3g times the critical %.4g s, so the run "
+                        "will be unstable; leave time.step out, or use at most %.3g s",
+                        clock->dt, clock->dt / clock->dt_critical, clock->dt_critical, 0.8 * clock->dt_critical);
 }
 
 #define HORIZON_LEAST 1.45 /* [spacings] below it a particle of a lattice has no diagonal neighbours, at sqrt(2) */
@@ -201,17 +200,15 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
 {
     if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;
     if (s->dim == 1)
-        warnings_add_if_new(
-            to,
-            "particles.horizon: %.3g: the neighbours of a bar lie exactly at the horizon; use 1.015 for one "
-            "neighbour on each side, or 3.015",
-            s->horizon);
+        warnings_add_if_new(to,
+                            "particles.horizon: %.3g: the neighbours of a bar are exactly at the horizon; use 1.015 "
+                            "for one neighbour on each side, or 3.015",
+                            s->horizon);
     else
-        warnings_add_if_new(
-            to,
-            "particles.horizon: %.3g: each particle has bonds along the axes of the lattice only (%d), so that "
-            "the body has no stiffness in shear, and cracks follow the axes; 3.015 is usual",
-            s->horizon, 2 * s->dim);
+        warnings_add_if_new(to,
+                            "particles.horizon: %.3g: each particle has bonds along the axes of the lattice only (%d), "
+                            "so the body has no shear stiffness, and cracks follow the axes; use 3.015",
+                            s->horizon, 2 * s->dim);
 }
 
 #define STIFFNESS_APART 0.05 /* relative error of a bulk modulus that is worth a warning; vmpd has 0.02 */
@@ -229,7 +226,7 @@ static void warn_of_stiffness(const struct scene *s, const struct family *f, str
     if (fabs(ratio - 1) > STIFFNESS_APART)
         warnings_add_if_new(to,
                             "pd.calibration: %s gives bonds of this influence function and horizon %.2f times the bulk "
-                            "modulus of the material: pd.calibration: lattice is exact",
+                            "modulus of the material; use pd.calibration: lattice, which is exact",
                             f->calibration == CALIBRATION_CONTINUUM ? "continuum" : "vmpd", ratio);
 }
 
@@ -238,9 +235,10 @@ void engine_warn_of_suspicious_input(struct run *e)
     const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
     if (s->renamed[0])
-        warnings_add_if_new(
-            to, "the scene uses earlier names of keys (%s), which this version still accepts with the same meaning",
-            s->renamed);
+        warnings_add_if_new(to,
+                            "the scene uses earlier names of keys (%s), which this version still accepts with the same "
+                            "meaning; use the new names",
+                            s->renamed);
     warn_of_step(s, &e->clock, to);
     warn_of_horizon(s, to);
     warn_of_stiffness(s, &e->source.family, to);

@@ -72,11 +72,10 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
         if (s->cracks > SEARCHED ? crack_overlaps_box(c, low, high, s->dim, reach) : crack_meets_particles(c, p, reach))
             continue;
         far++;
-        warnings_add_if_new(
-            to,
-            "crack %d is outside of every body, %.3g m from the nearest particle, and has no effect: check its "
-            "coordinates and their unit (mm?)",
-            k + 1, crack_distance(c, p));
+        warnings_add_if_new(to,
+                            "crack %d is outside all bodies, %.3g m from the nearest particle, and has no effect: "
+                            "check its coordinates and their unit (mm?)",
+                            k + 1, crack_distance(c, p));
     }
     return far > 0;
 }
@@ -88,8 +87,7 @@ static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
     const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);
     for (int k = 0; k < s->probes && !breaks; k++)
         if (s->probe[k].kind == PROBE_TIP || s->probe[k].kind == PROBE_BREAK)
-            warnings_add_if_new(to, "probe %s: no bond can break, as %s: the probe will have no result",
-                                s->probe[k].name,
+            warnings_add_if_new(to, "probe %s will have no result, because no bond can break: %s", s->probe[k].name,
                                 s->method == METHOD_MPM ? "method mpm has no bonds (use pd or adaptive)"
                                                         : "no material has an energy_release_rate, toughness or "
                                                           "critical_stretch");
@@ -110,19 +108,18 @@ static void warn_of_growths(const struct scene *s, const struct particles *p, st
                 g->name, outside);
         if (g->start >= s->duration)
             warnings_add_if_new(
-                to, "growth %s: starts at %.3g s, but the duration is %.3g s: check the unit of start (us?)", g->name,
+                to, "growth %s: starts at %.3g s, after the duration of %.3g s: check the unit of start (us?)", g->name,
                 g->start, s->duration);
         else if (growth < s->spacing)
-            warnings_add_if_new(
-                to,
-                "growth %s: at %.3g m/s it grows by %.3g m in the run, less than a spacing of %.3g m: check "
-                "the units of speed (m/s) and duration",
-                g->name, g->speed, growth, s->spacing);
+            warnings_add_if_new(to,
+                                "growth %s: at %.3g m/s it grows by %.3g m in the run, less than a spacing of %.3g m: "
+                                "check the units of speed (m/s) and duration",
+                                g->name, g->speed, growth, s->spacing);
         if (g->speed > rayleigh && rayleigh > 0 && !scene_silences_warning(s, ACCEPT_RAYLEIGH))
             warnings_add_if_new(
                 to,
-                "growth %s: %.3g m/s is %.3g times the speed of Rayleigh waves, %.4g m/s, which a crack that "
-                "opens does not pass: check the unit of speed (m/s); if this is meant: accept: [rayleigh]",
+                "growth %s: %.3g m/s is %.3g times the speed of Rayleigh waves, %.4g m/s, the limit for a crack that "
+                "opens: check the unit of speed (m/s); if this is intended, add accept: [rayleigh]",
                 g->name, g->speed, g->speed / rayleigh, rayleigh);
     }
 }
@@ -134,5 +131,6 @@ void engine_warn_of_useless_cracks(const struct scene *s, const struct particles
     warn_of_growths(s, p, warnings);
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, longest_bond, warnings)) return;
     if (!bonds_are_cut(b))
-        warnings_add_if_new(warnings, "the pre-cracks cut no bond: check that they are inside the body");
+        warnings_add_if_new(warnings,
+                            "the pre-cracks cut no bond: check that they are inside the body, and their unit (mm?)");
 }

@@ -102,11 +102,10 @@ static void warn_of_flight(const struct scene *s, const struct flight *f, int a,
                             "velocity, or the duration",
                             s->body[a].name, s->body[other].name, soonest, s->duration);
     else
-        warnings_add_if_new(
-            to,
-            "body %s meets no other body, as its velocity leads past %s or away from it: check its position "
-            "and the sign of its velocity",
-            s->body[a].name, s->body[other].name);
+        warnings_add_if_new(to,
+                            "body %s never reaches another body, because its velocity leads past %s or away from it: "
+                            "check its position and the sign of its velocity",
+                            s->body[a].name, s->body[other].name);
 }
 
 void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings)

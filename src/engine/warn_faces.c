@@ -22,9 +22,9 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
     if (rows > ROWS_FEW) return;
     warnings_add_if_new(
         to,
-        "body %s: it has %.0f row%s of particles along %c, and with pd.surface: moments bears up to 1.8 times "
-        "the force of the continuum in tension and bending; particles.spacing: %.3g m (%d rows) is off by 2 %% "
-        "in the plane, 12 %% in space; if this is meant: accept: [particles]",
+        "body %s has %.0f row%s of particles along %c, so with pd.surface: moments it carries up to 1.8 times the "
+        "force of the continuum in tension and bending; with particles.spacing: %.3g m (%d rows) the error is 2 %% in "
+        "the plane, 12 %% in space; if this is intended, add accept: [particles]",
         s->body[b].name, rows, rows > 1.5 ? "s" : "", "xyz"[axis], s -> spacing *rows / ROWS_ENOUGH, ROWS_ENOUGH);
 }
 
@@ -33,12 +33,11 @@ void engine_warn_of_uncorrected_faces(const struct scene *s, const struct partic
 {
     if (s->surface != SURFACE_MOMENTS || s->method != METHOD_PD || s->dim < 2) return;
     if (weights->residual > UNSOLVED)
-        warnings_add_if_new(
-            warnings,
-            "pd.surface: moments: the solver of the weights of bonds near faces has given up at a residual of "
-            "%.2g of the first one (1e-13 is solved): the stiffness near faces is between that of moments and "
-            "that of none; a larger particles.spacing, or pd.surface: volume, is solved",
-            weights->residual);
+        warnings_add_if_new(warnings,
+                            "pd.surface: moments: the weights of bonds near faces have not converged (residual %.2g, "
+                            "required 1e-13): the stiffness near faces is between that of moments and that of none; "
+                            "use a larger particles.spacing, or pd.surface: volume",
+                            weights->residual);
     for (int b = 0; b < s->bodies && p->n == p->n_body && !scene_silences_warning(s, ACCEPT_PARTICLES); b++)
         warn_of_thin(s, p, b, warnings);
 }

@@ -13,9 +13,9 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
     const struct boundary *b = l->boundary;
     const unsigned all = (1u << s->dim) - 1;
     if (!boundary_holds_at_rest(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all) return;
-    warnings_add_if_new(to,
-                        "boundary %s holds all %lld particles: nothing can move; check the units of its region (mm?)",
-                        b->name, (long long)l->n);
+    warnings_add_if_new(
+        to, "boundary %s holds all %lld particles, so nothing can move; check the units of its region (mm?)", b->name,
+        (long long)l->n);
 }
 
 /* Returns true if load l prescribes a motion whose displacement is known at all times. */
@@ -63,11 +63,10 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
     for (int d = 0; d < s->dim; d++)
         if (apart >> d & 1)
             used += snprintf(axes + used, sizeof axes - (size_t)used, "%s%c", used ? "," : "", "xyz"[d]);
-    warnings_add_if_new(
-        to,
-        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s, so that "
-        "energies are wrong: leave one of them out, or give each a face or region of its own",
-        a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s");
+    warnings_add_if_new(to,
+                        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s, so "
+                        "energies are wrong: remove one of the two, or give each a face or region of its own",
+                        a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s");
 }
 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,

@@ -58,8 +58,8 @@ static void warn_of_overlap(const struct scene *s, const struct particles *p, in
     const char *name = s->body[inner].name, *other = s->body[outer].name;
     warnings_add_if_new(
         to,
-        "bodies %s and %s overlap: %lld particles of %s are inside %s, the deepest by %.3g m at (%s) m: move one "
-        "body, or subtract its shape from the other; if this is meant: accept: [contact]",
+        "bodies %s and %s overlap: %lld particles of %s are inside %s, the deepest by %.3g m at (%s) m: move one body, "
+        "or subtract its shape from the other; if this is intended, add accept: [contact]",
         name, other, (long long)found->n, name, other, found->depth, particle_position_text(p, found->deepest, 4).text);
 }
 
@@ -120,15 +120,14 @@ static void warn_of_mirror_beside(const struct scene *s, const struct particles 
     const real reach = p->n_free > 0 ? 1.5 * s->cell : s->cell + 0.5; /* of nodes of the grid, of the mesh */
     const bool nodes = s->method != METHOD_PD && distance < (reach - ON_SURFACE) * s->spacing;
     const bool meets = s->contact_between == CONTACT_ALL && scene_is_dynamic(s);
-    const char *effect = bonds || nodes ? "holds the body across the gap, too softly"
-                         : meets        ? "only keeps the body from its mirror image, by contact"
-                                        : "does nothing";
-    warnings_add_if_new(
-        to,
-        "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, where half a spacing, "
-        "%.3g m, is expected, and %s; %s: check its position and the unit (mm?)",
-        mirror->name, "xyz"[mirror->axis], mirror -> at, distance, 0.5 * s -> spacing, effect,
-        particles_extent_text(p).text);
+    const char *effect = bonds || nodes ? "holds the body too softly across the gap"
+                         : meets        ? "only acts on the body by contact with its mirror image"
+                                        : "has no effect";
+    warnings_add_if_new(to,
+                        "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, but "
+                        "should be half a spacing (%.3g m) away: it %s (%s); check its position and unit (mm?)",
+                        mirror->name, "xyz"[mirror->axis], mirror -> at, distance, 0.5 * s -> spacing, effect,
+                        particles_extent_text(p).text);
 }
 
 void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,

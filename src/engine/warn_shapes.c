@@ -61,7 +61,7 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
             b->name, k + 1, apart);
     else if (!point_found(&b->shape.solid[k], &before, dim, true, low, high))
         warnings_add_if_new(
-            to, "body %s: solid %d of its shape removes nothing, as it is outside the body; check its position",
+            to, "body %s: solid %d of its shape removes nothing, because it is outside the body; check its position",
             b->name, k + 1);
 }
 
@@ -75,11 +75,10 @@ static void warn_of_added(const struct scene_body *b, int k, int dim, struct war
     for (int d = 0; d < dim; d++)
         if (!isfinite(box.high[d] - box.low[d])) return;
     if (!point_found(&b->shape.solid[k], &before, dim, false, box.low, box.high))
-        warnings_add_if_new(
-            to,
-            "body %s: solid %d of its shape adds nothing, as the solids before it contain it; to cut it out: "
-            "subtract: {...}",
-            b->name, k + 1);
+        warnings_add_if_new(to,
+                            "body %s: solid %d of its shape adds nothing, because the solids before it contain it; to "
+                            "cut it out, use subtract: {...}",
+                            b->name, k + 1);
 }
 
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings)
@@ -103,9 +102,9 @@ void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *war
         if (again > AGAIN_LEAST * h->volume)
             warnings_add_if_new(
                 warnings,
-                "%s: about %.2g of the %.4g m^%d that its %lld shells enclose are enclosed twice and filled once, as "
-                "shells overlap or are inside each other with normals that all point outwards: the shell of a cavity "
-                "needs normals into the cavity, or a file of its own and subtract",
+                "%s: about %.2g of the %.4g m^%d that its %lld shells enclose are enclosed twice but filled once, "
+                "because shells overlap or are inside each other with normals that all point outwards: the shell of a "
+                "cavity needs normals into the cavity, or a file of its own and subtract",
                 printable_name(f->path[0]).text, again, h->volume, h->dim, (long long)h->shells);
     }
 }

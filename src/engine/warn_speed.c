@@ -83,12 +83,11 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
     const real within = body_crossing_time(p, s, d->body);
     const real change = load_largest_velocity_change(d->load, p, s->duration, within);
     if (change > d->limit)
-        warnings_add_if_new(
-            to,
-            "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
-            "its body; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: use a "
-            "slower change; if an impact is meant: accept: [speed]",
-            d->load->boundary->name, change, within, d->limit);
+        warnings_add_if_new(to,
+                            "boundary %s: its velocity changes by up to %.3g m/s within %.3g s, the time a wave takes "
+                            "across its body; from %.3g m/s on (critical stretch x wave speed) bonds beside it break: "
+                            "change it more slowly; if an impact is intended, add accept: [speed]",
+                            d->load->boundary->name, change, within, d->limit);
 }
 
 /* Adds warnings to *warnings about boundaries that move particles, or change their velocity at t = 0, by more than the
@@ -114,16 +113,15 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
         else if (speed > limit)
             warnings_add_if_new(
                 warnings,
-                "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
-                "the critical stretch times the wave speed: use a longer time; if an impact is meant: accept: [speed]",
+                "boundary %s: its displacement grows by up to %.3g m/s; from %.3g m/s on (critical stretch x wave "
+                "speed) bonds beside it break: use a longer time; if an impact is intended, add accept: [speed]",
                 s->boundary[b].name, speed, limit);
         else
-            warnings_add_if_new(
-                warnings,
-                "boundary %s: it moves its particles up to %.3g m/s faster than they are at t = 0; bonds beside "
-                "it break at %.3g m/s, the critical stretch times the wave speed: use a lower "
-                "velocity; if an impact is meant: accept: [speed]",
-                s->boundary[b].name, jump, limit);
+            warnings_add_if_new(warnings,
+                                "boundary %s: it moves its particles up to %.3g m/s faster than they are at t = 0; "
+                                "from %.3g m/s on (critical stretch x wave speed) bonds beside it break: use a lower "
+                                "velocity; if an impact is intended, add accept: [speed]",
+                                s->boundary[b].name, jump, limit);
     }
     memory_free(body);
 }
@@ -132,9 +130,8 @@ void engine_warn_of_particles_faster_than_waves(const struct particles *p, real 
 {
     const real speed = particles_largest_speed_of_all(p);
     if (speed > wave_speed)
-        warnings_add_if_new(
-            warnings,
-            "particles start with %.3g m/s, %.3g times the wave speed, and a run stops where particles are "
-            "faster than waves: check the initial velocities and their units",
-            speed, speed / wave_speed);
+        warnings_add_if_new(warnings,
+                            "particles start with %.3g m/s, %.3g times the wave speed, but a run stops where particles "
+                            "are faster than waves: check the initial velocities and their units",
+                            speed, speed / wave_speed);
 }

@@ -37,8 +37,8 @@ static const struct {
         {1e-6, 0.05, "its bonds break at a stretch of", "",
          "critical_stretch (%?), energy_release_rate (J/m^2) or toughness (MPa m^0.5), young and spacing"},
     [ACCEPT_STRESS] = {1e-2, 1e3,
-                       "the largest stress that loads, speeds and displacements can make, over the strength, is", "",
-                       "loads (Pa), speeds (m/s), displacements (m) and what says when bonds break"},
+                       "the largest stress that its loads, speeds and displacements can cause, over the strength, is",
+                       "", "loads (Pa), speeds (m/s), displacements (m) and the keys that let bonds break"},
     [ACCEPT_STRAIN] = {0, 0.05, "its load over Young's modulus is", "", "the load and young (MPa? GPa?)"},
     [ACCEPT_STEPS] = {20, 1e8, "the number of time steps is", "", "duration, spacing (mm?), young and density"},
     [ACCEPT_REACH] = {1, INFINITY, "in the duration waves travel", " spacings",
@@ -56,8 +56,8 @@ static const struct {
     [ACCEPT_HEAT] = {50, 2e4, "its specific heat is", " J/(kg K)", "specific_heat (J/(kg K); kJ/(kg K)?)"},
     [ACCEPT_GROWTH] =
         {0.1, INFINITY,
-         "no crack can grow: what one as long as the body could release, over the energy release rate, is", "",
-         "energy_release_rate (J/m^2; kJ?), loads (Pa), lengths (mm?) and young (GPa?)"},
+         "no crack can grow: the energy that one as long as the body could release, over the energy release rate, is",
+         "", "energy_release_rate (J/m^2; kJ?), loads (Pa), lengths (mm?) and young (GPa?)"},
     [ACCEPT_MASS] = {50, 25e3, "its mass over its volume is", " kg/m^3", "mass (kg; g?) and lengths (mm?)"},
     [ACCEPT_BRITTLENESS] = {0, 30, "its length E G_c/tensile_strength^2 over the longest edge of the bodies is", "",
                             "energy_release_rate (J/m^2; kJ?), tensile_strength (MPa?) and lengths (mm?)"},
@@ -75,7 +75,7 @@ static void units_judge_between(const struct scene *s, enum accept k, real least
     const bool low = (value < least), high = (value > most);
     if ((!low && !high) || scene_silences_warning(s, k)) return;
     for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
-    warnings_add_if_new(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is meant: accept: [%.*s]",
+    warnings_add_if_new(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is intended, add accept: [%.*s]",
                         subject, rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? least : most,
                         rule[k].look, (int)strcspn(word, "|"), word);
 }
@@ -99,11 +99,10 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
     if (!(m->wave_speed > rule[ACCEPT_WAVES].most) || bar > rule[ACCEPT_WAVES].most || m->poisson <= 0.4)
         units_judge(s, ACCEPT_WAVES, subject, m->wave_speed, "", to);
     else if (!scene_silences_warning(s, ACCEPT_WAVES))
-        warnings_add_if_new(
-            to,
-            "%s: its Poisson's ratio of %.6g makes its waves as fast as %.3g m/s, %.3g times as fast as at "
-            "0.4; if this is meant: accept: [waves]",
-            subject, m->poisson, m->wave_speed, m->wave_speed / usual);
+        warnings_add_if_new(to,
+                            "%s: its Poisson's ratio of %.6g makes waves as fast as %.3g m/s, %.3g times as fast as at "
+                            "0.4: check it; if this is intended, add accept: [waves]",
+                            subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
 /* Adds a warning to *to if a hardening constant of material a is so small, relative to Young's modulus, that the
@@ -124,11 +123,10 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
     if (!l->given || scene_silences_warning(s, ACCEPT_YIELD)) return;
     for (size_t k = 0; k < COUNT_OF(constant); k++)
         if (constant[k].value > 0 && constant[k].value < HARDENING_LEAST * a->young)
-            warnings_add_if_new(
-                to,
-                "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so that it does not harden: "
-                "check the unit (MPa?); if this is meant: accept: [yield]",
-                subject, constant[k].key, constant[k].value);
+            warnings_add_if_new(to,
+                                "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so it does not harden: "
+                                "check the unit (MPa?); if this is intended, add accept: [yield]",
+                                subject, constant[k].key, constant[k].value);
 }
 
 /* Adds warnings to *to about implausible wave speeds, densities, energy release rates, specific heats, yield stresses
@@ -210,7 +208,7 @@ static void units_of_times(const struct scene *s, real dt, struct warnings *to)
 {
     static const char *const early[] = {[TIME_STEP] = "it never acts",
                                         [TIME_PULSE] = "it never acts",
-                                        [TIME_RAMP] = "it acts at once, as without time",
+                                        [TIME_RAMP] = "it acts at once, as if without time",
                                         [TIME_TABLE] = "it has its last value at once"};
     char subject[NAME_MAX_LENGTH + 16];
     for (int b = 0; b < s->boundaries; b++) {
@@ -221,11 +219,10 @@ static void units_of_times(const struct scene *s, real dt, struct warnings *to)
         snprintf(subject, sizeof subject, "boundary %s", s->boundary[b].name);
         if (most > 0) units_judge(s, ACCEPT_TIMES, subject, factor_largest_until(f, s->duration) / most, "", to);
         if (scene_is_dynamic(s) && end < EARLY * dt && !scene_silences_warning(s, ACCEPT_TIMES))
-            warnings_add_if_new(
-                to,
-                "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so that %s: "
-                "check the units of its times (us?); if this is meant: accept: [times]",
-                subject, end, dt, early[f->kind]);
+            warnings_add_if_new(to,
+                                "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so "
+                                "%s: check the units of its times (us?); if this is intended, add accept: [times]",
+                                subject, end, dt, early[f->kind]);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         snprintf(subject, sizeof subject, "body %s", s->body[b].name);
@@ -377,11 +374,10 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     stress = real_max(stress, scene_is_dynamic(s) ? real_min(stretched, enough) : stretched);
     if (stress == 0 && scene_has_moving_rigid_body(s)) return; /* it loads by contact alone */
     if (stress == 0 && !scene_silences_warning(s, ACCEPT_STRESS)) {
-        warnings_add_if_new(
-            to,
-            "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
-            "their values and times (us?); if this is meant: accept: [stress]",
-            s->duration);
+        warnings_add_if_new(to,
+                            "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g "
+                            "s; check their values and times (us?); if this is intended, add accept: [stress]",
+                            s->duration);
         return;
     }
     snprintf(note, sizeof note, " (%.3g Pa; E s_c is %.3g Pa)", stress, strength);

@@ -69,9 +69,9 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
         ++*n;
         if (!(distance2(&e->part, i, it.bond.nbr) <= square(x->cutoff)))
             return bond_refuse(x, i,
-                               "lies at the horizon, which LAMMPS cuts to the last digit; a horizon between "
-                               "two distances of the lattice is expected, as -s particles.horizon=3.015");
-        if (!weight_alike(x, i, &it.bond)) return bond_refuse(x, i, "weighs otherwise than LAMMPS would weigh it");
+                               "is as long as the horizon, where LAMMPS depends on the last digit; set a horizon "
+                               "between two distances of the lattice, such as -s particles.horizon=3.015");
+        if (!weight_alike(x, i, &it.bond)) return bond_refuse(x, i, "has a weight that LAMMPS does not support");
     }
     return OK;
 }

@@ -28,37 +28,37 @@ static bool any_yields(const struct scene *s)
 static status carries_method(const struct scene *s)
 {
     if (s->method == METHOD_MPM)
-        return lammps_refuse(s, "method: mpm has no bonds, and LAMMPS no material points of this kind; method: pd or "
-                                "adaptive is expected");
-    if (s->dim == 1)
-        return lammps_refuse(s, "space: line is not in LAMMPS, whose particles lie in a plane or in space");
+        return lammps_refuse(
+            s, "method: mpm has no bonds, and LAMMPS has no material points of this kind; set method: pd or adaptive");
+    if (s->dim == 1) return lammps_refuse(s, "space: line does not exist in LAMMPS; use a plane space or solid");
     if (!scene_is_dynamic(s))
-        return lammps_refuse(s, "solver: LAMMPS' peridynamics has steps in time only; explicit is expected");
+        return lammps_refuse(s, "solver: peridynamics in LAMMPS has time steps only; set explicit");
     if (s->model == MODEL_MOSPD)
-        return lammps_refuse(s, "model: mospd is not in LAMMPS, which has bond (peri/pmb) and ospd (peri/lps)");
+        return lammps_refuse(s, "model: mospd does not exist in LAMMPS; use bond (peri/pmb) or ospd (peri/lps)");
     return OK;
 }
 
 static status carries_materials(const struct scene *s, bool bond_style)
 {
-    if (any_yields(s)) return lammps_refuse(s, "yield_stress: plastic bonds are not in LAMMPS; inf is expected");
+    if (any_yields(s)) return lammps_refuse(s, "yield_stress: LAMMPS has no plastic bonds; set inf");
     for (int m = 0; m < s->materials; m++)
         if (material_has_softening_bonds(&s->material[m]))
-            return lammps_refuse(s,
-                                 "tensile_strength: bonds that soften are not in LAMMPS; without it, bonds are brittle "
-                                 "and their strength is E s_c");
+            return lammps_refuse(s, "tensile_strength: LAMMPS has no bonds that soften; remove it (bonds are then "
+                                    "brittle, and their strength is E s_c)");
     if (s->model == MODEL_OSPD && s->materials > 1)
-        return lammps_refuse(s, "peri/lps mixes two materials by other rules than families here; one material, or "
-                                "model: bond, is expected");
+        return lammps_refuse(
+            s, "peri/lps joins two materials by other rules than Cleave; use one material, or model: bond");
     if (stretches_differ(s) && !bond_style)
-        return lammps_refuse(s, "several critical stretches: peri/pmb breaks bonds by the largest of a particle's "
-                                "(lammps issue 984); one for all, or --style bpm, is expected");
-    if (s->rigids > 0) return lammps_refuse(s, "rigid bodies are not exported; a driven body of particles is expected");
+        return lammps_refuse(s, "several critical stretches: peri/pmb breaks bonds by the largest one of a particle "
+                                "(lammps issue 984); use one for all, or --style bpm");
+    if (s->rigids > 0)
+        return lammps_refuse(s, "rigid bodies cannot be exported; use a body of particles that a boundary drives");
     if (scene_strength_scatters(s))
-        return lammps_refuse(s, "strength that scatters from place to place is not in LAMMPS' types; none is expected");
-    if (s->damping > 0) return lammps_refuse(s, "damping is not exported; 0 is expected");
-    if (scene_has_viscosity(s)) return lammps_refuse(s, "viscosity: bulk viscosity is not exported; none is expected");
-    if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks that grow by prescription");
+        return lammps_refuse(
+            s, "a strength that scatters in space cannot be exported to the atom types of LAMMPS; remove scatter");
+    if (s->damping > 0) return lammps_refuse(s, "damping cannot be exported; set 0");
+    if (scene_has_viscosity(s)) return lammps_refuse(s, "viscosity: bulk viscosity cannot be exported; remove it");
+    if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks with prescribed growth; remove it");
     return OK;
 }
 
@@ -75,10 +75,11 @@ static void settings_add(struct lammps_settings *to, bool differs, const char *k
  * is switched off. */
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
-    static const char *const effect = "pieces that meet push each other by LAMMPS' rule for pairs of particles";
+    static const char *const effect =
+        "fragments that touch repel each other by the rule of LAMMPS for pairs of particles";
     if (s->contact_between == CONTACT_NONE) return;
     if (!own) {
-        settings_add(to, true, "contact.between", "none", "pieces that meet pass through each other");
+        settings_add(to, true, "contact.between", "none", "fragments that touch pass through each other");
         return;
     }
     settings_add(to, s->contact_between != CONTACT_ALL, "contact.between", "all", effect);
@@ -99,23 +100,22 @@ static void pd_settings(struct lammps_settings *to, const struct scene *s, bool 
 {
     const bool state = s->model == MODEL_OSPD, touches = s->contact_between != CONTACT_NONE && !state;
     const bool any_volume = !bond_style && !touches && s->volume == VOLUME_WHOLE;
-    settings_add(
-        to, s->volume != VOLUME_CUT_RAMP && !any_volume, "pd.volume", "cut-ramp",
-        "neighbours at the horizon's edge count by their share within it: stiffness is calibrated anew, speeds of "
-        "waves differ by some percent");
+    settings_add(to, s->volume != VOLUME_CUT_RAMP && !any_volume, "pd.volume", "cut-ramp",
+                 "neighbours at the edge of the horizon count by their share within it: stiffness is calibrated anew, "
+                 "wave speeds differ by a few percent");
     settings_add(to, s->calibration == CALIBRATION_VMPD, "pd.calibration", "lattice",
                  "stiffness is that of a full family on the lattice");
     settings_add(to, s->surface != SURFACE_NONE, "pd.surface", "none",
                  "bonds near faces keep their plain weight: faces are softer, thin parts bend more");
     settings_add(to, s->shells != SHELLS_UNIFORM, "pd.weights", "uniform",
-                 "all bonds weigh alike: the lattice's anisotropy of some percent stays");
+                 "all bonds have the same weight: the lattice keeps its anisotropy of a few percent");
     settings_add(to, s->influence != (state ? INFLUENCE_INVERSE : INFLUENCE_ONE), "pd.influence",
-                 state ? "inverse" : "one", "bonds weigh by another function of their length");
+                 state ? "inverse" : "one", "the weight of a bond is another function of its length");
     settings_add(to, state && s->bulk, "pd.normalisation", "local",
-                 "constants come from the family that a particle has: those at faces weigh otherwise");
+                 "constants come from the family that a particle has, so those of particles at faces differ");
     settings_add(to, scene_bonds_break(s) && s->last_force != LAST_FORCE_WHOLE, "pd.last_force", "whole",
-                 "a bond acts for the whole step in which it breaks: breaks come a step later, which decides where two "
-                 "paths of a crack are nearly alike");
+                 "a bond acts for the whole step in which it breaks: it breaks one step later, which decides between "
+                 "two almost equal paths of a crack");
 }
 
 status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style)

@@ -47,8 +47,8 @@ void lammps_write_run_time_estimate(FILE *file, const struct exported *x)
     fprintf(file,
             "Break-even: %.0f ranks of LAMMPS with perfect parallel efficiency are as fast as Cleave on %d core%s.\n",
             ceil(cores * there / t.here), cores, cores == 1 ? "" : "s");
-    fputs("Lost there: material points and conversion (all particles have bonds from start to end), the balance of\n"
-          "energy, stress, crack tips and their speed, stress-intensity factors, probes, fragments, the same bits on\n"
-          "any number of ranks.\n",
+    fputs("Not in LAMMPS: material points and conversion (all particles have bonds from start to end), the balance "
+          "of\nenergy, stress, crack tips and their speed, stress-intensity factors, probes, fragments, the same bits "
+          "on\nany number of ranks.\n",
           file);
 }

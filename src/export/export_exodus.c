@@ -74,7 +74,8 @@ static status frames_open(struct exodus_export *x)
 {
     struct output_frame f;
     TRY(run_list_frames(x->folder, &x->frames, &x->frame));
-    if (x->frames == 0) return status_set(REFUSED, "%s: has no frames", printable_name(x->folder).text);
+    if (x->frames == 0)
+        return status_set(REFUSED, "%s: has no frames; give a finished run", printable_name(x->folder).text);
     const struct path path = run_frame_path(x->folder, x->frame[0].number);
     TRY(frame_read(&f, path.text));
     for (int k = 0; k < FIELDS; k++) {
@@ -99,8 +100,8 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
         same = p->id[i] >= 0 && p->id[i] < f->n && f->id[p->id[i]] == p->id[i];
     if (same) return OK;
     return status_set(REFUSED,
-                      "%s: at %.6g s the run has %lld particles, the body %lld: an Exodus file has one list for all "
-                      "times; a run with -s mpm.fill=all -s mpm.levels=0 is expected",
+                      "%s: at %.6g s the run has %lld particles, but the body has %lld, while an Exodus file has one "
+                      "list for all times; run it with -s mpm.fill=all -s mpm.levels=0",
                       printable_name(x->folder).text, f->t, (long long)f->n, (long long)x->mesh.n);
 }
 
@@ -368,7 +369,7 @@ static status exodus_check_name(const char *path)
     const char *point = strrchr(path, '.');
     for (size_t k = 0; k < COUNT_OF(endings); k++)
         if (point && strcasecmp(point, endings[k]) == 0) return OK;
-    return status_set(REFUSED, "%s: a name that ends in .exo, .e or .g is expected", path);
+    return status_set(REFUSED, "%s: give a name that ends in .exo, .e or .g", path);
 }
 
 /* Creates the particles of the scene, lists the frames if a run is exported, and writes the file. Returns REFUSED if
@@ -415,7 +416,8 @@ status export_exodus(const struct export_request *request)
     if (path_is_folder(request->scene)) scene.scene = run.text, x->folder = request->scene;
     status s = exodus_check_name(request->folder);
     if (s == OK && x->folder && request->overrides > 0)
-        s = status_set(REFUSED, "%s: is a run, whose scene -s cannot change", printable_name(x->folder).text);
+        s = status_set(REFUSED, "%s: is a run, whose scene -s cannot change; give the scene instead",
+                       printable_name(x->folder).text);
     if (s == OK) s = export_check_file_may_be_written(request->folder, EXODUS_SIGN, request->overwrite);
     if (s == OK) s = exodus_make(x, &scene);
     if (s == OK) exodus_print(x);

@@ -41,11 +41,11 @@ static status settings_refuse(const struct lammps_settings *settings, const stru
                                    settings->of[k].value);
     if (settings->n == 0)
         return status_set(REFUSED,
-                          "%s: results differ once bonds break, as in LAMMPS (peri/lps) the weighted volume of a "
-                          "particle still includes broken bonds; model: bond, or --allow-different, is expected",
+                          "%s: results will differ from LAMMPS once bonds break: LAMMPS (peri/lps) keeps broken bonds "
+                          "in the weighted volume of a particle; set model: bond, or pass --allow-different",
                           printable_name(s->path).text);
     return status_set(REFUSED,
-                      "%s: LAMMPS has the same result only with%s; set these keys in the scene, or use "
+                      "%s: LAMMPS has the same result only with%s; set these keys in the scene, or pass "
                       "--allow-different, which overrides them",
                       printable_name(s->path).text, list);
 }
@@ -106,9 +106,8 @@ static void readme_write(FILE *to, const struct exported *x)
                 k ? "" : "\nThe results differ from those of the scene as it was, by LAMMPS' rules:\n",
                 x->settings.of[k].key, x->settings.of[k].value, x->settings.of[k].effect);
     if (lammps_keeps_weighted_volume_of_intact_family(x->s))
-        fputs("\nThe results differ once bonds break: families of LAMMPS keep the weight that they had whole, those of "
-              "Cleave\n"
-              "do not. check.csv agrees to round-off only as long as nothing has broken.\n",
+        fputs("\nThe results differ once bonds break: families of LAMMPS keep the weight of their broken bonds, those "
+              "of Cleave\ndo not. check.csv agrees to round-off only until the first bond breaks.\n",
               to);
     if (x->bond_style)
         fputs("\nbond_style bpm/peri was written by its documentation (LAMMPS of 2 September 2026) and has not been "
@@ -116,11 +115,10 @@ static void readme_write(FILE *to, const struct exported *x)
               "comment at pair_style.\n",
               to);
     else if (x->s->contact_between != CONTACT_NONE)
-        fputs("\nPieces that meet push each other, by the same rule in both programs.\n", to);
-    fputs("\nBonds compressed below 0.7 of their length repel in Cleave, which those of LAMMPS do not. One rank and "
-          "several\n"
-          "differ in the last digits. Frames of Cleave have velocities half a step older than those of LAMMPS, and\n"
-          "damage without the bonds that break at their positions.\n",
+        fputs("\nFragments that touch repel each other, by the same rule in both programs.\n", to);
+    fputs("\nBonds compressed below 0.7 of their length repel in Cleave, but not in LAMMPS. One rank and "
+          "several\ndiffer in the last digits. Frames of Cleave have velocities half a step older than those of "
+          "LAMMPS, and\ndamage without the bonds that break at their positions.\n",
           to);
 }
 
@@ -250,7 +248,8 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
 {
     printf("%s: run LAMMPS in this folder with: lmp -in in.lammps\n", printable_name(x->request->folder).text);
     if (x->bond_style)
-        puts("bond_style bpm/peri: not run with a LAMMPS of that style; compare with check.csv before you rely on it");
+        puts("bond_style bpm/peri has not been tested with a LAMMPS of that style; compare with check.csv before you "
+             "rely on it");
     if (x->cut > 0) printf("%lld bonds are cut by pre-cracks", (long long)x->cut);
     if (x->cut > 0 && t->pairs > 0)
         printf(": LAMMPS excludes %lld pairs among %d types of particles", (long long)t->pairs, t->n);
@@ -260,8 +259,7 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
     if (lammps_keeps_weighted_volume_of_intact_family(x->s))
-        puts("differs from Cleave once bonds break: in peri/lps the weighted volume of a particle still includes "
-             "broken bonds");
+        puts("differs from Cleave once bonds break: peri/lps keeps broken bonds in the weighted volume of a particle");
 }
 
 static status export_write(struct exported *x)

@@ -44,17 +44,17 @@ static status load_carries(const struct load *load)
     const struct boundary *b = load->boundary;
     const char *why = NULL;
     if (b->kind == BOUNDARY_MIRROR)
-        why = "LAMMPS has no planes of symmetry; the whole body is expected";
+        why = "LAMMPS has no planes of symmetry; use the whole body";
     else if (b->kind == BOUNDARY_ABSORBING)
-        why = "absorbing faces are not exported; a larger body is expected";
+        why = "absorbing faces cannot be exported; use a larger body";
     else if (!is_force(load) && b->kind != BOUNDARY_VELOCITY)
-        why = "this kind of load is not exported to LAMMPS";
+        why = "this kind of load cannot be exported to LAMMPS";
     else if (has_formula(b) || b->rotates)
-        why = "formulas and rotation are not exported to LAMMPS; numbers and a function of time are expected";
+        why = "formulas and rotation cannot be exported to LAMMPS; use numbers and a function of time";
     else if (!function_carries(&b->time))
-        why = "this function of time is not exported to LAMMPS; a table is expected";
+        why = "this function of time cannot be exported to LAMMPS; use a table";
     else if (b->time.kind == TIME_TABLE && b->time.n > TABLE_MOST)
-        why = "LAMMPS would work out all of a table's values in every step; 500 are the most";
+        why = "LAMMPS evaluates the whole table in every step; use at most 500 values";
     return why ? status_set(REFUSED, "%s%s", b->place, why) : OK;
 }
 
@@ -65,8 +65,8 @@ status lammps_find_loads_of_particles(struct exported *exported)
     const struct loads *l = &exported->e->loads;
     for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
     if (l->n > LOADS_MOST)
-        return status_set(REFUSED, "%s: %d loads; LAMMPS has groups for %d", printable_name(exported->s->path).text,
-                          l->n, LOADS_MOST);
+        return status_set(REFUSED, "%s: %d loads, but LAMMPS has groups for %d only; use fewer",
+                          printable_name(exported->s->path).text, l->n, LOADS_MOST);
     exported->loads = NEW("export.loads", exported->e->part.n, uint32_t);
     for (int k = 0; k < l->n; k++)
         for (int64_t q = 0; q < l->load[k].n; q++) exported->loads[l->load[k].particle[q]] |= 1u << k;

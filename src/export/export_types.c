@@ -73,8 +73,8 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
     for (int64_t i = 0; i < x->e->part.n; i++)
         if ((t->of[i] = class_of(c, x, i)) < 0)
             return status_set(REFUSED,
-                              "%s: more than %d different combinations of mass, material and loads; LAMMPS would need "
-                              "an atom type for each",
+                              "%s: more than %d different combinations of mass, material and loads, each of which "
+                              "needs an atom type of LAMMPS; use fewer loads or materials",
                               printable_name(x->s->path).text, CLASSES_MOST);
     return OK;
 }
@@ -115,11 +115,12 @@ status lammps_types_assign_to_particles(struct lammps_types *types, struct expor
     const int colours = s == OK && touched.n > 0 ? particle_colours_assign_and_count(colour, &touched) : 0;
     if (s == OK && touched.n > 0 && colours == 0)
         s = status_set(REFUSED,
-                       "%s: the cracks touch %lld particles, which would need more than %d types of LAMMPS, "
-                       "whose tables grow with their square; straight cracks on a lattice need fewer",
+                       "%s: the cracks touch %lld particles, which need more than %d types of LAMMPS, too many for its "
+                       "tables; use straight cracks on the lattice",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
     if (s == OK && colours > 0 && !(pair = particle_colours_find_bonded_pairs(colour, colours, &touched)))
-        s = status_set(FAILED, "export: the cracks cut bonds that types of LAMMPS particles cannot tell from others");
+        s = status_set(FAILED, "export: the cracks cut bonds that cannot be told from others by types of LAMMPS "
+                               "particles; use straight cracks");
     if (s == OK) s = types_give(types, x, &touched, colour, colours, pair);
     memory_free(pair);
     memory_free(colour);

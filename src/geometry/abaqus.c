@@ -45,7 +45,7 @@ static status set_named(struct deck *d, const char *name, bool of_nodes, int *se
 {
     const char *given = parameter(d, name);
     *set = given ? element_mesh_find_or_create_set(d->m, given, of_nodes) : -1;
-    return given && *set < 0 ? source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
+    return given && *set < 0 ? source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX) : OK;
 }
 
 /* Reads the data lines of *NODE, each a label and coordinates. If the keyword has the parameter NSET, the nodes are
@@ -55,8 +55,8 @@ static status nodes_read(struct deck *d)
     int set;
     const char *system = parameter(d, "SYSTEM");
     if (system && strcasecmp(system, "R") != 0)
-        return source_report_fault(
-            d->s, "coordinates in the system %.10s are not supported; Cartesian x, y, z are expected", system);
+        return source_report_fault(d->s, "coordinates in the system %.10s are not supported; use Cartesian x, y, z",
+                                   system);
     TRY(set_named(d, "NSET", true, &set));
     for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
@@ -134,11 +134,11 @@ static status generate_line(struct deck *d, int set)
     int32_t bound[3] = {0, 0, 1};
     char field[FIELD];
     for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_label(d->s, field, &bound[k]));
-    if (bound[2] < 1 || bound[1] < bound[0]) return source_report_fault(d->s, "first, last and step are expected");
+    if (bound[2] < 1 || bound[1] < bound[0])
+        return source_report_fault(d->s, "a set with GENERATE needs first, last and step");
     d->generated += (bound[1] - bound[0]) / bound[2] + 1;
     if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s,
-                                   "sets have more members than the file can hold nodes or elements: it is damaged");
+        return source_report_fault(d->s, "sets list more nodes or elements than the file has; it is damaged");
     for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) element_mesh_add_to_set(d->m, set, label);
     return OK;
 }
@@ -148,11 +148,10 @@ static status generate_line(struct deck *d, int set)
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
     const int other = element_mesh_find_or_create_set(d->m, name, of_nodes);
-    if (other < 0) return source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
+    if (other < 0) return source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX);
     d->generated += d->m->set[other].n;
     if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s,
-                                   "sets have more members than the file can hold nodes or elements: it is damaged");
+        return source_report_fault(d->s, "sets list more nodes or elements than the file has; it is damaged");
     for (int64_t k = d->m->set[other].resolved; other != set && k < d->m->set[other].n; k++)
         element_mesh_add_to_set(d->m, set, d->m->set[other].member[k]);
     return OK;
@@ -201,10 +200,11 @@ static status set_join_nodes_of(struct deck *d, int set, const char *name)
     const int64_t first = d->scope[d->now].element;
     const int other = element_mesh_find_or_create_set(d->m, name, false);
     struct label_map of;
-    if (other < 0) return source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
+    if (other < 0) return source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX);
     d->generated += (ELEMENT_CORNERS_MAX + ELEMENT_MIDDLES_MAX) * d->m->set[other].n;
     if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
+        return source_report_fault(d->s,
+                                   "sets list more nodes or elements than the file has; it is damaged or incomplete");
     label_map_make(&of, d->m->element_label + first, first, d->m->elements - first);
     for (int64_t k = d->m->set[other].resolved; k < d->m->set[other].n; k++)
         nodes_of_element_add(d, set, &of, d->m->set[other].member[k]);
@@ -220,7 +220,7 @@ static status set_read(struct deck *d, bool of_nodes)
     const char *instance = parameter(d, "INSTANCE"), *elements = parameter(d, "ELSET");
     const bool generate = parameter(d, "GENERATE") != NULL;
     TRY(set_named(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
-    if (set < 0) return source_report_fault(d->s, "a set without a name");
+    if (set < 0) return source_report_fault(d->s, "a set has no name; give it one");
     if (of_nodes && elements) TRY(set_join_nodes_of(d, set, elements));
     for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
@@ -240,7 +240,7 @@ static status set_read(struct deck *d, bool of_nodes)
     }
     if (!instance) return OK;
     const int scope = scope_find(d, instance, true);
-    if (scope < 0) return source_report_fault(d->s, "there is no instance %.40s", instance);
+    if (scope < 0) return source_report_fault(d->s, "there is no instance %.40s; check its spelling", instance);
     sets_resolve(d, &d->scope[scope]);
     return OK;
 }
@@ -253,7 +253,7 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
 {
     const int64_t index = label_map_find(&scope->node_of, *node);
     if (index < 0)
-        return source_report_fault(d->s, "element %lld has node %d, which the file does not define in its part",
+        return source_report_fault(d->s, "element %lld has node %d, but its part has no such node",
                                    (long long)d->m->element_label[k], (int)*node);
     *node = (int32_t)index;
     return OK;
@@ -303,7 +303,7 @@ static void scope_begin(struct deck *d, const char *name)
  * invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
-    if (d->scopes >= PARTS_MAX) return source_report_fault(d->s, "more than %d parts", PARTS_MAX);
+    if (d->scopes >= PARTS_MAX) return source_report_fault(d->s, "more than %d parts; join some", PARTS_MAX);
     TRY(scope_end(d));
     scope_begin(d, name ? name : "");
     return OK;
@@ -318,11 +318,11 @@ static status instance_read(struct deck *d)
     real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
     if (scope < 0)
-        return source_report_fault(d->s, "an instance refers to part %.40s, which the file does not define",
+        return source_report_fault(d->s, "an instance uses part %.40s, but the file has no such part",
                                    part ? part : "?");
     struct scope *p = &d->scope[scope];
     if (p->placed)
-        return source_report_fault(d->s, "part %.40s is in the assembly twice; a part of its own for each is expected",
+        return source_report_fault(d->s, "part %.40s is in the assembly twice; give each instance a part of its own",
                                    p->name);
     if (abaqus_find_data_line(d->s)) {
         for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &shift[k]));
@@ -354,22 +354,22 @@ static status input_read(struct deck *d, status (*read)(struct deck *d), bool ke
     struct source file, *const outer = d->s;
     char path[PATH_LENGTH], keyword[FIELD];
     snprintf(keyword, sizeof keyword, "%s", d->key.name);
-    if (!name || !*name) return source_report_fault(d->s, "*%s has no INPUT=FILE", keyword);
+    if (!name || !*name) return source_report_fault(d->s, "*%s has no INPUT=FILE; add it", keyword);
     const int before = slash && *name != '/' ? (int)(slash - folder) + 1 : 0;
     if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
-        return source_report_fault(d->s, "the name of an included file is too long");
+        return source_report_fault(d->s, "the name of an included file is too long; shorten it");
     if (d->depth >= DEPTH_MAX) return source_report_fault(d->s, "more than %d files include each other", DEPTH_MAX);
     if (source_read_whole_file(&file, path) != OK)
         return source_report_fault(d->s, "*%s: %.200s", keyword, status_message());
     d->s = &file, d->depth++, d->length += file.length;
     status s = OK;
     if (keywords && abaqus_find_data_line(&file))
-        s = source_report_fault(&file, "an included file begins with a keyword, such as *NODE");
+        s = source_report_fault(&file, "an included file does not begin with a keyword, such as *NODE");
     if (s == OK) s = read(d);
     while (s == OK && abaqus_find_data_line(&file)) source_skip_to_next_line(&file); /* of types that are left out */
     if (s == OK && file.at < file.length)
-        s = source_report_fault(&file, "a keyword among the data lines of *%.40s; data lines alone are expected",
-                                keyword);
+        s = source_report_fault(
+            &file, "a keyword is among the data lines of *%.40s; only data lines are possible there", keyword);
     d->s = outer, d->depth--;
     source_close(&file);
     return s;
@@ -392,8 +392,7 @@ static status keyword_follow(struct deck *d)
     for (size_t k = 0; k < COUNT_OF(makers); k++)
         if (strcmp(name, makers[k]) == 0)
             return source_report_fault(
-                d->s, "keyword *%s is not supported; a deck that lists all nodes and elements in x, y, z is expected",
-                name);
+                d->s, "keyword *%s is not supported; write a deck that lists all nodes and elements in x, y, z", name);
     if (strcmp(name, "STEP") == 0) d->in_step = true;
     if (strcmp(name, "ENDSTEP") == 0) d->in_step = false;
     if (strcmp(name, "INCLUDE") == 0) /* files of steps have loads */
@@ -425,7 +424,8 @@ status abaqus_read(struct element_mesh *m, struct source *s)
     scope_begin(&d, "");
     status result = keywords_read(&d);
     if (result == OK) result = scope_end(&d);
-    if (result == OK && m->nodes == 0) result = source_report_fault(s, "no *NODE; a deck of Abaqus is expected");
+    if (result == OK && m->nodes == 0)
+        result = source_report_fault(s, "no *NODE, so this is not a mesh in the format of Abaqus");
     for (int k = 0; k < d.scopes; k++) {
         label_map_free(&d.scope[k].node_of);
         label_map_free(&d.scope[k].element_of);

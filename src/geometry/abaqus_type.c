@@ -46,7 +46,6 @@ status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct sour
                 return OK;
             }
     }
-    return source_report_fault(file,
-                               "element type %.40s is not known; one such as C3D8R, C3D10M, CPS4R or S4 is expected",
+    return source_report_fault(file, "element type %.40s is unknown; use one such as C3D8R, C3D10M, CPS4R or S4",
                                *type ? type : "without a name");
 }

@@ -265,13 +265,13 @@ static status body_dim_of(const struct element_mesh *m, const char *path, int di
     for (int64_t k = 0; k < m->elements; k++) n[element_dim[m->element[k].kind]]++;
     *body_dim = dim == 3 && n[3] == 0 ? 2 : dim;
     if (dim == 2 && n[3] > 0)
-        return status_set(REFUSED,
-                          "%s: the mesh has volume elements; space: solid, or a plane mesh of triangles or "
-                          "quadrilaterals, is expected",
-                          path);
+        return status_set(
+            REFUSED,
+            "%s: the mesh has volume elements; set space: solid, or give a plane mesh of triangles or quadrilaterals",
+            path);
     if (n[*body_dim] > 0) return OK;
-    return status_set(REFUSED, "%s: the mesh has %lld nodes but no elements that can fill a body%s%s; %s are expected",
-                      path, (long long)m->nodes, m->skipped[0] ? ", but others such as " : "", m->skipped,
+    return status_set(REFUSED, "%s: the mesh has %lld nodes but no elements that can fill a body%s%s; give it %s", path,
+                      (long long)m->nodes, m->skipped[0] ? ", but others such as " : "", m->skipped,
                       dim == 2 ? "triangles or quadrilaterals"
                                : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
 }
@@ -290,10 +290,10 @@ static status check_plane(const struct element_mesh *m, const char *path)
     }
     const real extent = real_max(high[0] - low[0], high[1] - low[1]);
     if (high[2] - low[2] <= 1e-6 * extent) return OK;
-    return status_set(REFUSED,
-                      "%s: the elements are not in one plane z = const, but z varies from %.6g to %.6g; a plane mesh "
-                      "is expected in this space",
-                      path, low[2], high[2]);
+    return status_set(
+        REFUSED,
+        "%s: the elements are not in one plane z = const: z varies from %.6g to %.6g; give a plane mesh in this space",
+        path, low[2], high[2]);
 }
 
 /* Corners of an element in ascending order, unused ones -1, and its index in the mesh. */
@@ -342,8 +342,8 @@ static status check_elements_differ(const struct element_mesh *m, const char *pa
     const long long first = m->element_label[pair[0]], other = m->element_label[pair[1]];
     if (first == other) return status_set(REFUSED, "%s: element %lld is given twice", path, first);
     return status_set(REFUSED,
-                      "%s: %lld element%s the corners of another one, as element %lld has those of element %lld; each "
-                      "element is expected once",
+                      "%s: %lld element%s the corners of another one (element %lld has those of element %lld); keep "
+                      "each element once",
                       path, (long long)doubles, doubles == 1 ? " has" : "s have", other, first);
 }
 

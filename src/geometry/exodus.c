@@ -81,11 +81,10 @@ static status kind_of(const struct exodus *x, const char *type, int64_t nodes, e
             if (nodes == sizes[*kind][order]) return OK;
         break;
     }
-    return exodus_report_fault(
-        &x->file,
-        "elements of type %s with %lld nodes are not read; triangles and quadrilaterals, tetrahedra, "
-        "pyramids, wedges and hexahedra of first or second order are",
-        type, (long long)nodes);
+    return exodus_report_fault(&x->file,
+                               "elements of type %s with %lld nodes cannot be read; use triangles, quadrilaterals, "
+                               "tetrahedra, pyramids, wedges or hexahedra of first or second order",
+                               type, (long long)nodes);
 }
 
 /* Appends an element to the mesh. label[nodes]: its nodes, as numbers in the file, which count from 1. Returns REFUSED
@@ -97,7 +96,7 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = -1;
     for (int k = 0; k < nodes; k++) {
         if (label[k] < 1 || label[k] > x->m->nodes)
-            return exodus_report_fault(&x->file, "element %lld has node %lld; nodes from 1 to %lld are expected",
+            return exodus_report_fault(&x->file, "element %lld has node %lld; a number from 1 to %lld is expected",
                                        (long long)x->elements + 1, (long long)label[k], (long long)x->m->nodes);
         const int slot = k < corners ? -1 : middle_at[kind][k - corners];
         if (k < corners) node[k] = (int32_t)(label[k] - 1);
@@ -202,7 +201,7 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     const bool solid = element_dim[e.kind] == 3, shell = !solid && x->file.dim == 3;
     const int sides = solid ? element_sides[e.kind].n : element_edges[e.kind].n + (shell ? 2 : 0);
     if (side < 1 || side > sides)
-        return exodus_report_fault(&x->file, "set %s has side %lld of an element that has %d sides",
+        return exodus_report_fault(&x->file, "set %s has side %lld of an element, but the element has %d sides",
                                    x->m->set[set].name, (long long)side, sides);
     if (shell && side <= 2) {
         element_mesh_add_to_set(x->m, set, element);
@@ -219,7 +218,7 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
-        return exodus_report_fault(&x->file, "set %s has element %lld; elements from 1 to %lld are expected",
+        return exodus_report_fault(&x->file, "set %s has element %lld; a number from 1 to %lld is expected",
                                    x->m->set[set].name, (long long)label, (long long)x->elements);
     *element = x->element[label - 1];
     return OK;
@@ -258,7 +257,7 @@ static status node_set_add(struct exodus *x, int64_t number)
     status s = OK;
     for (int64_t k = 0; k < n && s == OK; k++)
         if (node[k] < 1 || node[k] > x->m->nodes)
-            s = exodus_report_fault(&x->file, "set %s has node %lld; nodes from 1 to %lld are expected",
+            s = exodus_report_fault(&x->file, "set %s has node %lld; a number from 1 to %lld is expected",
                                     x->m->set[set].name, (long long)node[k], (long long)x->m->nodes);
         else
             element_mesh_add_to_set(x->m, set, node[k] - 1);

@@ -46,7 +46,7 @@ static status arrays_open(struct exodus_file *f)
     if (f->length >= 8 && memcmp(text, hdf5, 8) == 0) return exodus_hdf5_open(f);
     if (f->length >= 8 && memcmp(text, "CDF", 3) == 0 && (text[3] == 1 || text[3] == 2 || text[3] == 5))
         return exodus_classic_open(f);
-    return exodus_report_fault(f, "does not begin as a netCDF file; a file in the format Exodus II is expected");
+    return exodus_report_fault(f, "does not begin like a netCDF file; give a file in the format Exodus II");
 }
 
 /* Reads the dimension and the numbers of nodes, blocks and sets, which every mesh has, into f. Returns REFUSED if they
@@ -62,9 +62,7 @@ static status counts_read(struct exodus_file *f)
     f->dim = (int)dim;
     if (dim >= 1 && dim <= DIM_MAX && f->nodes >= 1) return OK;
     return exodus_report_fault(
-        f,
-        "a netCDF file with num_dim = %lld and num_nodes = %lld; a mesh in the format Exodus II is "
-        "expected",
+        f, "a netCDF file with num_dim = %lld and num_nodes = %lld; give a mesh in the format Exodus II",
         (long long)dim, (long long)f->nodes);
 }
 
@@ -144,7 +142,7 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t nam
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
     if (!array_find(f, name, a)) return exodus_report_fault(f, "array %s is missing", name);
-    if (a->type == EXODUS_CHAR) return exodus_report_fault(f, "array %s holds letters; numbers are expected", name);
+    if (a->type == EXODUS_CHAR) return exodus_report_fault(f, "array %s contains letters instead of numbers", name);
     if (a->extent[0] * a->extent[1] != n)
         return exodus_report_fault(f, "array %s has %lld x %lld numbers; %lld are expected", name,
                                    (long long)a->extent[0], (long long)a->extent[1], (long long)n);
@@ -240,7 +238,7 @@ status exodus_read_block_header(const struct exodus_file *f, int64_t block_numbe
     struct exodus_array a;
     name_numbered(called, "connect", block_number);
     if (!array_find(f, called, &a) || a.type == EXODUS_CHAR)
-        return exodus_report_fault(f, "block %lld has no list of nodes %s; blocks of elements with nodes are expected",
+        return exodus_report_fault(f, "block %lld has no list of nodes %s; remove it, or give its elements nodes",
                                    (long long)block_number, called);
     if (!a.elements[0])
         return exodus_report_fault(f, "block %lld does not name the type of its elements (attribute elem_type of %s)",

@@ -37,8 +37,8 @@ static status check_not_plane(const struct hull *s, const char *path)
     for (int d = 0; d < s->dim && s->dim == 3; d++)
         if (high[d] - low[d] <= 1e-6 * longest)
             return status_set(REFUSED,
-                              "%s: its elements are plane, all at %c = %.6g m, and fill no volume; space: plane stress "
-                              "or plane strain, or extrude with this mesh as its shape, is expected",
+                              "%s: its elements are plane, all at %c = %.6g m, and fill no volume; set space: plane "
+                              "stress or plane strain, or use this mesh as the shape of extrude",
                               path, "xyz"[d], low[d]);
     return OK;
 }
@@ -49,10 +49,10 @@ static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;
     if (s->faces == 0)
-        return status_set(REFUSED,
-                          "%s: pairs of its faces coincide and cancel each other, so that no body is left; the surface "
-                          "of a body is expected",
-                          path);
+        return status_set(
+            REFUSED,
+            "%s: pairs of its faces coincide and cancel each other, so no body is left; give the surface of a body",
+            path);
     for (int d = 0; d < s->dim; d++)
         if (!(fabs(s->node[0].low[d]) < FARTHEST && fabs(s->node[0].high[d]) < FARTHEST))
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
@@ -62,11 +62,11 @@ static status check_closed(const struct hull *s, const char *path)
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,
                           "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "
-                          "that %.0f %% of the positions in it are neither inside nor outside; a closed surface is "
-                          "expected (admesh or MeshLab close holes and orient faces)",
+                          "%.0f %% of the positions in it are neither inside nor outside; close it (admesh or MeshLab "
+                          "close holes and orient faces)",
                           path, (long long)s->open_edges, at[0], at[1], at[2], 100 * doubt);
     if (s->volume > 0) return OK;
-    return status_set(REFUSED, "%s: encloses no volume; a body is expected", path);
+    return status_set(REFUSED, "%s: encloses no volume; give the surface of a body", path);
 }
 
 /* Reads the mesh or surface file `path` into g. dim: dimensions of the space; scale: length of the file's unit [m];
@@ -78,7 +78,8 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
     struct element_mesh m = {0};
     struct source source;
     if (!format)
-        return status_set(REFUSED, "%s: a file that ends in .stl, .msh, .inp or .exo (.e, .g) is expected", path);
+        return status_set(REFUSED, "%s: is not a shape file; give one that ends in .stl, .msh, .inp or .exo (.e, .g)",
+                          path);
     TRY(source_read_whole_file(&source, path));
     status s = format->read(&m, &source);
     source_close(&source);

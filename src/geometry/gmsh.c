@@ -72,11 +72,10 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
             *type = &types[k];
             return OK;
         }
-    return source_report_fault(
-        s,
-        "Gmsh's element type %lld is not supported; lines, triangles, quadrilaterals, tetrahedra, "
-        "hexahedra, prisms and pyramids are",
-        (long long)number);
+    return source_report_fault(s,
+                               "Gmsh's element type %lld is not supported; use lines, triangles, quadrilaterals, "
+                               "tetrahedra, hexahedra, prisms or pyramids",
+                               (long long)number);
 }
 
 /* Adds an element to the set of a physical group, which is created if it is new. dim, tag: dimension and number of the
@@ -90,7 +89,8 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
             if (g->name[k].dim == dim && g->name[k].tag == tag) memcpy(name, g->name[k].text, sizeof name);
         g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_or_create_set(g->m, name, false);
     }
-    if (g->last_set < 0) return source_report_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
+    if (g->last_set < 0)
+        return source_report_fault(g->s, "more than %d physical groups; remove some", ELEMENT_SETS_MAX);
     element_mesh_add_to_set(g->m, g->last_set, element);
     return OK;
 }
@@ -103,7 +103,7 @@ static status node_next(struct gmsh *g, int32_t *index)
     TRY((g->old ? source_read_int32 : source_read_int64)(g->s, "node of an element", &label));
     const int64_t found = label_map_find(&g->node, label);
     if (found < 0)
-        return source_report_fault(g->s, "an element has node %lld, which $Nodes does not define", (long long)label);
+        return source_report_fault(g->s, "an element has node %lld, but $Nodes does not define it", (long long)label);
     *index = (int32_t)found;
     return OK;
 }
@@ -121,9 +121,7 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
         along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
     if (arm2 * along2 - square(both) <= square(STRAIGHT * along2)) return OK;
     return source_report_fault(
-        g->s,
-        "curved elements of order %d are not supported; curved elements of order 2 are (gmsh -order 2 saves them)",
-        type->order);
+        g->s, "curved elements of order %d are not supported; save them with order 2 (gmsh -order 2)", type->order);
 }
 
 /* Reads the nodes of an element of type `type` and appends it to the mesh. Stores middle nodes of second-order
@@ -180,7 +178,8 @@ static status names_read(struct gmsh *g)
     TRY(source_read_integer(g->s, "number of names", &n));
     TRY(source_check_count_fits_file(g->s, "names", n, 4));
     g->announced = n, g->items = "names";
-    if (n > ELEMENT_SETS_MAX) return source_report_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
+    if (n > ELEMENT_SETS_MAX)
+        return source_report_fault(g->s, "more than %d physical groups; remove some", ELEMENT_SETS_MAX);
     GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
         struct group_name *name = &g->name[g->names];
@@ -336,7 +335,7 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks, int64_
 static status new_total(const struct gmsh *g, const char *what, int64_t announced, int64_t found)
 {
     if (found == announced) return OK;
-    return source_report_fault(g->s, "%lld %s are announced, but the blocks contain %lld: the file is damaged",
+    return source_report_fault(g->s, "the section gives %lld %s, but its blocks contain %lld: the file is damaged",
                                (long long)announced, what, (long long)found);
 }
 
@@ -423,12 +422,10 @@ static status format_read(struct gmsh *g)
     g->old = strcmp(version, "2.2") == 0 || strcmp(version, "2") == 0;
     if (!g->old && strcmp(version, "4.1") != 0)
         return source_report_fault(
-            g->s,
-            "Gmsh's file format %s is not supported; 2.2 and 4.1 are (gmsh -save -format msh41 writes the latter)",
-            version);
+            g->s, "Gmsh's file format %s is not supported; save it as 4.1 (gmsh -save -format msh41) or 2.2", version);
     TRY(source_read_integer(g->s, "kind of file", &bytes));
     TRY(source_read_integer(g->s, "size of numbers", &size));
-    if (size != 8) return source_report_fault(g->s, "numbers of %lld bytes; 8 are expected", (long long)size);
+    if (size != 8) return source_report_fault(g->s, "numbers have %lld bytes; 8 are expected", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
     source_skip_to_next_line(g->s);
@@ -459,10 +456,9 @@ static status section_end(struct gmsh *g, const char *name)
     source_skip_blanks(g->s);
     source_read_word(g->s, word, sizeof word);
     if (strcmp(word, end) == 0) return OK;
-    return source_report_fault(g->s,
-                               "%s announces %lld %s, but more follow where %s is expected: the count is wrong, or the "
-                               "file is damaged",
-                               name, (long long)g->announced, g->items, end);
+    return source_report_fault(
+        g->s, "%s gives %lld %s, but more follow where %s is expected: the count is wrong, or the file is damaged",
+        name, (long long)g->announced, g->items, end);
 }
 
 /* Reads the section `name`, such as $Nodes, or skips it if it is not needed. Returns REFUSED if it is malformed. */
@@ -476,8 +472,9 @@ static status section_read(struct gmsh *g, const char *name)
                     {"$Elements", old_elements, new_elements},
                     {"$Entities", NULL, entities_read}};
     if (strcmp(name, "$PartitionedEntities") == 0)
-        return source_report_fault(g->s, "a mesh in partitions; one without is expected");
-    if (strcmp(name, "$Nodes") == 0 && g->node.entry) return source_report_fault(g->s, "nodes are given twice");
+        return source_report_fault(g->s, "the mesh has partitions; save it without them");
+    if (strcmp(name, "$Nodes") == 0 && g->node.entry)
+        return source_report_fault(g->s, "there is a second section of nodes; keep one");
     for (size_t k = 0; k < COUNT_OF(sections); k++) {
         if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
         if (!g->old && g->bytes && k > 0) source_skip_to_next_line(g->s);
@@ -496,7 +493,7 @@ static status sections_read(struct gmsh *g)
     char name[40];
     source_read_word(g->s, name, sizeof name);
     if (strcmp(name, "$MeshFormat") != 0)
-        return source_report_fault(g->s, "no mesh of Gmsh: $MeshFormat is expected first");
+        return source_report_fault(g->s, "does not begin with $MeshFormat, so it is not a mesh of Gmsh");
     TRY(format_read(g));
     section_skip(g->s, name);
     while (source_skip_blanks(g->s)) {

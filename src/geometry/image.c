@@ -14,19 +14,18 @@ status pages_append_page(struct pages *p, const struct source *s, int64_t width,
 {
     const int64_t memory = machine_memory_size();
     const real all = (real)width * (real)height * (real)(p->n + 1);
-    if (width < 1 || height < 1) return status_set(REFUSED, "%s: an image without pixels", s->path);
+    if (width < 1 || height < 1) return status_set(REFUSED, "%s: the image has no pixels", s->path);
     if (p->n > 0 && (width != p->width || height != p->height))
-        return status_set(REFUSED,
-                          "%s: this slice has %lld x %lld pixels, and earlier slices have %lld x %lld; slices of equal "
-                          "size are expected",
-                          s->path, (long long)width, (long long)height, (long long)p->width, (long long)p->height);
+        return status_set(
+            REFUSED,
+            "%s: this slice has %lld x %lld pixels, but earlier slices have %lld x %lld; give slices of equal size",
+            s->path, (long long)width, (long long)height, (long long)p->width, (long long)p->height);
     if ((real)width * (real)height > (real)s->length * SHRINKS_MOST * BITS)
         return status_set(
             REFUSED, "%s: its header gives %lld x %lld pixels, more than a file of its size can contain; it is damaged",
             s->path, (long long)width, (long long)height);
     if (all > VOXELS_MAX || (memory > 0 && all * BYTES_A_VOXEL > (real)memory))
-        return status_set(REFUSED, "%s: %.3g voxels do not fit in memory; fewer or smaller slices are expected",
-                          s->path, all);
+        return status_set(REFUSED, "%s: %.3g voxels do not fit into memory; use fewer or smaller slices", s->path, all);
     const int64_t size = width * height;
     p->grey = memory_resize("image.grey", p->grey, p->n * size, (p->n + 1) * size, sizeof *p->grey);
     *grey_values = p->grey + p->n * size;
@@ -43,7 +42,7 @@ static status file_read(struct pages *p, const char *path)
     const bool tiff = s.length > 4 && (memcmp(s.text, "II", 2) == 0 || memcmp(s.text, "MM", 2) == 0);
     const status result = png    ? png_read_pages(p, &s)
                           : tiff ? tiff_read_pages(p, &s)
-                                 : status_set(REFUSED, "%s: neither PNG nor TIFF", path);
+                                 : status_set(REFUSED, "%s: neither PNG nor TIFF; save it as one of them", path);
     source_close(&s);
     return result;
 }
@@ -54,7 +53,7 @@ static status files_read(struct pages *p, int files, char *const *path, int dim)
 {
     for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));
     if (dim == 3 || p->n == 1) return OK;
-    return status_set(REFUSED, "%s: the file has %lld images; in plane spaces a single image is expected", path[0],
+    return status_set(REFUSED, "%s: the file has %lld images; in plane spaces give a single one", path[0],
                       (long long)p->n);
 }
 

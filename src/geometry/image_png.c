@@ -73,7 +73,7 @@ status png_read_pages(struct pages *p, struct source *s)
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_read_struct(&png, NULL, NULL);
-        return status_set(FAILED, "%s: libpng cannot begin", s->path);
+        return status_set(FAILED, "%s: libpng cannot start; memory may be short", s->path);
     }
     if (setjmp(png_jmpbuf(png)) == 0) {
         png_set_read_fn(png, s, bytes_next);
@@ -82,7 +82,7 @@ status png_read_pages(struct pages *p, struct source *s)
         result = page_read(png, info, p, s, &rows, &bytes);
     } else {
         text_replace_control_characters(what);
-        result = status_set(REFUSED, "%s: no whole PNG: %s", s->path, what);
+        result = status_set(REFUSED, "%s: not a complete PNG: %s", s->path, what);
     }
     memory_free((void *)rows);
     memory_free(bytes);

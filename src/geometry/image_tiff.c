@@ -97,26 +97,22 @@ static status check_samples(const struct samples *a, const char *path)
     if (a->format == SAMPLEFORMAT_IEEEFP || a->format == SAMPLEFORMAT_COMPLEXIEEEFP || a->bits > 16)
         return status_set(
             REFUSED,
-            "%s: pixels of %d bits or with fractions are not supported; grey values of 8 or 16 bits are expected", path,
+            "%s: pixels of %d bits or with fractions are not supported; save it with grey values of 8 or 16 bits", path,
             a->bits);
     if (a->format == SAMPLEFORMAT_INT || a->format == SAMPLEFORMAT_COMPLEXINT)
-        return status_set(REFUSED,
-                          "%s: pixels are signed values of %d bits; unsigned grey values are expected: add %d to each "
-                          "and save them as unsigned",
+        return status_set(REFUSED, "%s: pixels are signed values of %d bits; save unsigned grey values: add %d to each",
                           path, a->bits, 1 << (a->bits - 1));
     if (a->bits != 1 && a->bits != 2 && a->bits != 4 && a->bits != 8 && a->bits != 16)
-        return status_set(REFUSED, "%s: pixels of %d bits are not supported; grey values of 8 or 16 bits are expected",
+        return status_set(REFUSED, "%s: pixels of %d bits are not supported; save it with grey values of 8 or 16 bits",
                           path, a->bits);
     if (a->bits == 16 && samples_used(a) == 0)
-        return status_set(REFUSED,
-                          "%s: pixels of 16 bits are neither grey nor red, green and blue; an image of such pixels, or "
-                          "of 8 bits, is expected",
-                          path);
+        return status_set(
+            REFUSED,
+            "%s: pixels of 16 bits are neither grey nor red, green and blue; save it with such pixels, or with 8 bits",
+            path);
     if (a->orientation >= ORIENTATION_TOPLEFT && a->orientation <= ORIENTATION_BOTLEFT) return OK;
-    return status_set(
-        REFUSED,
-        "%s: its rows are stored as columns (TIFF orientation %d); an image that is stored row by row is expected",
-        path, a->orientation);
+    return status_set(REFUSED, "%s: its rows are stored as columns (TIFF orientation %d); save it row by row", path,
+                      a->orientation);
 }
 
 /* Samples of a page while they are read. */
@@ -211,18 +207,18 @@ static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
     TRY(check_samples(&a, s->path));
     TRY(pages_append_page(p, s, a.width, a.height, &page));
     const bool good = samples_used(&a) > 0 ? samples_read(tiff, page, &a) : colours_read(tiff, page, a.width, a.height);
-    return good
-               ? OK
-               : status_set(REFUSED,
-                            "%s: page %lld cannot be read: it is cut off, or compressed by a method that libtiff lacks",
-                            s->path, (long long)p->n);
+    return good ? OK
+                : status_set(
+                      REFUSED,
+                      "%s: page %lld cannot be read: the file is cut off, or compressed by a method that libtiff lacks",
+                      s->path, (long long)p->n);
 }
 
 status tiff_read_pages(struct pages *p, struct source *s)
 {
     TIFFSetErrorHandler(NULL), TIFFSetWarningHandler(NULL);
     TIFF *tiff = TIFFClientOpen(s->path, "rm", s, tiff_take, tiff_write, tiff_seek, tiff_close, tiff_size, NULL, NULL);
-    status result = tiff ? OK : status_set(REFUSED, "%s: no TIFF", s->path);
+    status result = tiff ? OK : status_set(REFUSED, "%s: not a TIFF file, or a damaged one", s->path);
     while (result == OK) {
         result = tiff_page(tiff, p, s);
         if (result != OK || !TIFFReadDirectory(tiff)) break;

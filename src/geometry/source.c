@@ -30,7 +30,8 @@ status source_read_whole_file(struct source *s, const char *path)
     if (s->length == length && length > 0) return OK;
     source_close(s);
     if (!fits)
-        return status_set(REFUSED, "%s: %.3g GB are too much for this machine's memory", path, 1e-9 * (real)length);
+        return status_set(REFUSED, "%s: its %.3g GB do not fit into the memory of this machine", path,
+                          1e-9 * (real)length);
     return status_set(REFUSED, length == 0 ? "%s: empty" : "%s: cannot be read", path);
 }
 
@@ -82,7 +83,7 @@ static status text_real(struct source *s, const char *what, real *value)
     *value = strtod(word, &end);
     if (end != word && *end == '\0' && isfinite(*value)) return OK;
     s->at = from;
-    return source_report_fault(s, "%.40s is no %s; a number is expected", word, what);
+    return source_report_fault(s, "%.40s is not a %s; a number is expected", word, what);
 }
 
 /* Copies the next `size` bytes of a binary file to `value`. what: name of the value, for messages. Returns REFUSED
@@ -132,7 +133,7 @@ status source_check_count_fits_file(const struct source *s, const char *item_nam
 {
     if (count >= 0 && count <= (s->length - s->at) / bytes_per_item) return OK;
     return source_report_fault(
-        s, "%lld %s are announced, more than the rest of the file can contain: it is cut off or damaged",
+        s, "the header gives %lld %s, more than the rest of the file can contain: it is cut off or damaged",
         (long long)count, item_name);
 }
 

@@ -77,8 +77,7 @@ static status words_read(struct element_mesh *m, struct source *s)
             for (int d = 0; d < 3; d++) TRY(source_read_real(s, "coordinate", &X[d]));
             TRY(corner_add(m, s, X));
         } else if (strcasecmp(word, "endfacet") == 0 && m->nodes % 3 != 0) {
-            return source_report_fault(s, "a facet with %d corners is given; three corners are expected",
-                                       (int)(m->nodes % 3));
+            return source_report_fault(s, "a facet has %d corners; three are expected", (int)(m->nodes % 3));
         } else if (strcasecmp(word, "endsolid") == 0 || strcasecmp(word, "solid") == 0) {
             ended = strcasecmp(word, "endsolid") == 0;
             source_skip_to_next_line(s);
@@ -150,17 +149,16 @@ status stl_read(struct element_mesh *m, struct source *s)
     else if (s->length >= HEADER + COUNT) {
         const long long needed = HEADER + COUNT + FACET * (long long)word_at(s, HEADER);
         s->binary = true;
-        return source_report_fault(
-            s,
-            "not a whole STL file: it has %lld bytes, but the %lld triangles that its header gives "
-            "need %lld; %s or it is not in the STL format",
-            (long long)s->length, (long long)word_at(s, HEADER), needed,
-            s->length < needed ? "it is cut off" : "this number is wrong");
+        return source_report_fault(s,
+                                   "not a complete STL file: it has %lld bytes, but the %lld triangles that its header "
+                                   "gives need %lld; %s or it is not in the STL format",
+                                   (long long)s->length, (long long)word_at(s, HEADER), needed,
+                                   s->length < needed ? "it is cut off" : "this number is wrong");
     } else {
         return source_report_fault(s, "not an STL file: it neither begins with `solid` nor has a header of %d bytes",
                                    HEADER + COUNT);
     }
-    if (m->elements == 0) return source_report_fault(s, "holds no triangle");
+    if (m->elements == 0) return source_report_fault(s, "contains no triangle");
     corners_weld(m);
     return OK;
 }

@@ -49,8 +49,8 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
             if (!is_absorbing(&l->load[b]) || !absorbs_in_mirror(&l->load[b], &l->load[m], p, l->spacing)) continue;
             return status_prepend_location(
                 one->place, status_set(REFUSED,
-                                       "boundary %s: mirror %s continues the body at this face, so that it is not a "
-                                       "face of the whole body; choose a face that no mirror touches",
+                                       "boundary %s: mirror %s is a plane of symmetry at this face, so the whole body "
+                                       "has no surface here; choose a face that no mirror touches",
                                        one->name, mirror->name));
         }
     return OK;

@@ -93,7 +93,7 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
     }
     if (!(below && above)) return OK;
     return status_set(REFUSED,
-                      "boundary %s: the mirror plane %c = %.6g m cuts the body; a plane at its border is expected",
+                      "boundary %s: the mirror plane %c = %.6g m cuts the body; move it to the border of the body",
                       b->name, "xyz"[b->axis], b -> at);
 }
 
@@ -142,8 +142,8 @@ status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length
     if (k < 0) return OK;
     return status_prepend_location(
         b[k].place, status_set(REFUSED,
-                               "boundary %s: the mirror is %.6g m from that of %s; with bonds of %.6g m "
-                               "they must be farther apart than %.6g m: move one, or use a smaller horizon",
+                               "boundary %s: the mirror is %.6g m from that of %s; bonds of %.6g m need more than %.6g "
+                               "m between them: move one, or use a smaller horizon",
                                b[k].name, fabs(b[k].at - b[m].at), b[m].name, bond_length, bond_length - l->spacing));
 }
 

@@ -124,8 +124,8 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
         s = load_surface_make(l, &faces, boundary, boundaries, p, spacing);
     else if (!pressure_shares(l, p, area))
         s = status_set(REFUSED,
-                       "boundary %s: no particle in its region has a free face; let the region hold some of "
-                       "the body's surface",
+                       "boundary %s: no particle in its region has a free face; let the region contain part of the "
+                       "surface of the body",
                        b->name);
     for (int d = 0; d < p->dim; d++) memory_free(area[d]);
     surface_faces_free(&faces);

@@ -162,7 +162,7 @@ status load_find_particles_of_boundary(struct load *l, const struct boundary *b,
                           b->name, particles_extent_text(p).text);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,
-                      "boundary %s: other particles of the body are in front of every particle in its region, seen "
-                      "from %c%c; choose a region that contains the outer face there, or the wall of a hole",
+                      "boundary %s: seen from %c%c, other particles of the body are in front of every particle in its "
+                      "region; choose a region that contains the outer face there, or the wall of a hole",
                       b->name, 'x' + b->face, b->side > 0 ? '+' : '-');
 }

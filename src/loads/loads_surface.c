@@ -121,8 +121,8 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
         const bool on = place_on_lattice(s, (int32_t)i, k);
         s->site[s->n] = (struct site){site_key(s->p->body[i], k, s->p->dim), (int32_t)i};
         if (!on || s->site[s->n++].key < 0)
-            return status_set(REFUSED, "follow: true needs particles on a regular lattice of the spacing; follow: "
-                                       "false, or particles.irregularity: 0 and no list, is expected");
+            return status_set(REFUSED, "follow: true needs particles on a regular lattice of the spacing; set follow: "
+                                       "false, or particles.irregularity: 0 without a list");
     }
     array_sort(s->site, s->n, sizeof *s->site, by_key);
     return OK;
@@ -146,8 +146,8 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
             return status_prepend_location(
                 s->all[m].place,
                 status_set(REFUSED,
-                           "boundary %s: follow: true needs mirror planes midway between particles; a "
-                           "plane half a spacing from the first particles, or follow: false, is expected",
+                           "boundary %s: follow: true needs mirror planes midway between particles; move the plane to "
+                           "half a spacing from the first particles, or set follow: false",
                            s->all[m].name));
         }
     return OK;
@@ -390,8 +390,8 @@ status load_surface_make(struct load *l, const struct surface_faces *free_faces,
     struct sites s = {.p = p, .all = all_boundaries, .boundaries = boundary_count, .spacing = spacing};
     if (free_faces->n == 0)
         return status_set(REFUSED,
-                          "boundary %s: no particle in its region has a free face; let the region hold some "
-                          "of the body's surface",
+                          "boundary %s: no particle in its region has a free face; let the region contain part of the "
+                          "surface of the body",
                           l->boundary->name);
     status made = sites_make(&s, free_faces);
     if (made == OK) made = mirrors_between(&s, free_faces);

@@ -58,12 +58,12 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
     if (plane_with_fit(p, s, 0, hollow->absent, PLANE_MISFIT))
         return "a plane of symmetry is not at half a spacing from a layer of its particles";
     if (scene_is_dynamic(s) && plane_with_fit(p, s, 0, hollow->absent, PLANE_APART))
-        return "it starts apart from a plane of symmetry, which it may meet";
+        return "it starts away from a plane of symmetry, but may reach it";
     const int64_t pieces = mesh_count_connected_parts(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
         return "mpm.origin or a mirror shifts the grid nodes, so that grid cells do not contain two particles in each "
                "direction";
-    return pieces > 1 ? "it is in pieces, which meet on the grid of frame current only" : NULL;
+    return pieces > 1 ? "it is in separate parts, which have contact only in the current frame" : NULL;
 }
 
 /* Refuses planes of symmetry at which a body in the reference frame has no nodes. Returns OK or REFUSED, with a
@@ -76,8 +76,8 @@ static status planes_check(const struct reference_frame *r, const struct particl
         if (b)
             return status_set(REFUSED,
                               "boundary %s: body %s has no layer of particles at half a spacing from this plane of "
-                              "symmetry, so that the reference frame has no nodes there; choose particles.spacing so "
-                              "that the body is a whole number of spacings wide, or mpm.frame: current",
+                              "symmetry, so the reference frame has no nodes there; choose particles.spacing so that "
+                              "the body is a whole number of spacings wide, or mpm.frame: current",
                               b->name, s->body[body].name);
     }
     return OK;
@@ -91,11 +91,10 @@ static void warn_of_plane_apart(const struct reference_frame *r, const struct pa
 {
     const struct boundary *b = plane_with_fit(p, s, body, r->hollow.absent, PLANE_APART);
     if (b)
-        warnings_add_if_new(
-            to,
-            "boundary %s: body %s does not touch this plane of symmetry at the start, and the reference frame "
-            "does not stop it there later; if they meet, choose mpm.frame: current",
-            b->name, s->body[body].name);
+        warnings_add_if_new(to,
+                            "boundary %s: body %s does not touch this plane of symmetry at the start, and in the "
+                            "reference frame passes through it later; if they meet, choose mpm.frame: current",
+                            b->name, s->body[body].name);
 }
 
 /* Warns of planes of symmetry that do not fit the nodes. In the current frame they are neither on a node nor midway
@@ -109,8 +108,8 @@ void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings 
             !mirror_plane_fits_grid_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
             warnings_add_if_new(
                 warning_list,
-                "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: errors "
-                "of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",
+                "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: this causes "
+                "errors of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",
                 s->boundary[b].name);
     for (int body = 0; body < s->bodies && s->method != METHOD_PD && scene_is_dynamic(s); body++)
         if (e->frame->choice[body].reference) warn_of_plane_apart(e->frame, &e->part, s, body, warning_list);
@@ -144,15 +143,15 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
         if (why && said == FRAME_REFERENCE)
             return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
         take_frame(&r->choice[b], said != FRAME_CURRENT,
-                   said == FRAME_REFERENCE ? "the scene says so" : s->body[b].frame_reason);
+                   said == FRAME_REFERENCE ? "the scene sets this" : s->body[b].frame_reason);
     }
     background_grids_make(mpm, s, p, reference_frame_is_in_use(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
         const char *why = frame_obstacle(p, s, mpm, &r->hollow);
         take_frame(&r->choice[0], !why,
                    why             ? why
-                   : s->rigids > 0 ? "it keeps its neighbours and meets no other body but rigid ones"
-                                   : "it keeps its neighbours and meets no other body");
+                   : s->rigids > 0 ? "it keeps its neighbours and has contact with rigid bodies only"
+                                   : "it keeps its neighbours and has contact with no other body");
         if (why) background_grids_make(mpm, s, p, reference_frame_is_in_use(r));
     }
     if (s->method != METHOD_PD) TRY(planes_check(r, p, s));

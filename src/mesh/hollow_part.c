@@ -23,28 +23,30 @@ enum { MARGIN = 4, AHEAD = 16 };
  * created. */
 const char *scene_why_all_particles_needed(const struct scene *s)
 {
-    if (s->fill == FILL_ALL) return "the scene says so";
+    if (s->fill == FILL_ALL) return "the scene sets this";
     if (s->method == METHOD_PD || scene_is_single_equilibrium(s) || s->levels == 0) return "there are no coarse cells";
-    if (s->bodies != 1 || s->rigids > 0) return "bodies may meet";
+    if (s->bodies != 1 || s->rigids > 0) return "bodies may touch";
     if (s->body[0].file) return "they come from a list";
     if (scene_strength_scatters(s)) return "strength scatters from place to place";
-    if (s->body[0].parts > 0) return "the body has parts of other materials";
+    if (s->body[0].parts > 0) return "the body has parts of another material";
     if (s->body[0].frame == FRAME_CURRENT || scene_why_reference_frame_not_chosen_by_auto(s, 0))
         return "the body is in the current frame";
-    if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0) return "the body moves at first";
-    if (s->growths > 0) return "cracks grow by growth";
-    if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) return "peridynamic particles may become points again";
-    if (s->method == METHOD_ADAPTIVE && s->surface == SURFACE_MOMENTS) return "pd.surface moments looks at all faces";
-    if (s->contact_friction > 0) return "faces rub";
+    if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0)
+        return "the body moves at the start";
+    if (s->growths > 0) return "cracks grow by the key growth";
+    if (s->method == METHOD_ADAPTIVE && s->conversion.reverts)
+        return "peridynamic particles may become material points again";
+    if (s->method == METHOD_ADAPTIVE && s->surface == SURFACE_MOMENTS) return "pd.surface: moments needs all faces";
+    if (s->contact_friction > 0) return "faces slide with friction";
     for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_PRESSURE) return "a pressure looks at all faces";
+        if (s->boundary[b].kind == BOUNDARY_PRESSURE) return "a pressure needs all faces";
     for (int k = 0; k < s->probes; k++) {
         const enum probe_kind kind = s->probe[k].kind;
         const bool moves = kind == PROBE_SIF && isfinite(s->material[0].critical_stretch);
         if (moves) return "the ring of a sif probe may move";
         if (kind != PROBE_SIF && kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION &&
             kind != PROBE_POINT)
-            return "a probe looks at many of them";
+            return "a probe measures many of them";
     }
     return NULL;
 }

@@ -255,7 +255,8 @@ status levels_save_or_load(struct mesh_levels *l, const struct particles *p, con
     ARCHIVE_VALUE(a, "levels/changes", l->changes);
     if (!a->saving) {
         if (!levels_are_consistent(l))
-            return status_set(FAILED, "cannot resume: the levels of the checkpoint are no mesh");
+            return status_set(FAILED, "cannot resume: the refinement levels in the checkpoint do not form a valid "
+                                      "mesh; it is damaged, start again with --overwrite");
         cells_from_levels(l, p, source);
     }
     for (int level = 1; level <= l->n; level++) TRY(level_archive(&l->at[level].mesh, level, a));

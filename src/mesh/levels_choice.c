@@ -168,12 +168,12 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
     if (r->kind == RISE_BOUNDARY)
         snprintf(name, sizeof name, "boundary %s", s->boundary[r->number].name);
     else if (r->kind == RISE_BODY)
-        snprintf(name, sizeof name, "%s %s", r->number < s->bodies ? "the motion of body" : "the blow of",
+        snprintf(name, sizeof name, "%s %s", r->number < s->bodies ? "the motion of body" : "the impact of",
                  s->body[r->number].name);
     else
         snprintf(name, sizeof name, "initial %s %d", r->pulse ? "pulse" : "state", r->number + 1);
     if (r->kind == RISE_NONE)
-        snprintf(text, capacity, "nothing loads it");
+        snprintf(text, capacity, "nothing loads the body");
     else if (r->waves == 0)
         snprintf(text, capacity, "%s is sudden", name);
     else if (r->pulse)
@@ -194,7 +194,7 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
         snprintf(text, capacity, "require waves at least %g spacings long", 4 * RISES * edge);
     else
         snprintf(text, capacity,
-                 "require a rise over at least %g spacings, or a body at least %d spacings thick, and this one is %.3g",
+                 "require a rise over at least %g spacings, or a body at least %d spacings thick (this one: %.3g)",
                  RISES * edge, edges * edge, c->across);
 }
 
@@ -206,30 +206,31 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 4, ACROSS, want, sizeof want);
     if (c->why == LEVELS_AT_REST)
-        snprintf(text, capacity, "no coarse cells, as they save no time with a static solver");
+        snprintf(text, capacity, "no coarse cells: they save no time with a static solver");
     else if (c->why == LEVELS_NO_MESH)
-        snprintf(text, capacity, "no coarse cells, as no material points are in the reference frame");
+        snprintf(text, capacity, "no coarse cells: no material points are in the reference frame");
     else if (c->why == LEVELS_FEW)
-        snprintf(text, capacity, "no coarse cells, as the body has %lld particles: they save time from %d particles on",
+        snprintf(text, capacity,
+                 "no coarse cells: the body has only %lld particles, and they save time only from %d particles on",
                  (long long)c->particles, PAYS);
     else if (c->why == LEVELS_DAMPED)
-        snprintf(text, capacity, "no coarse cells, as damping requires one time step for the whole body");
+        snprintf(text, capacity, "no coarse cells: damping needs one time step for the whole body");
     else if (c->why == LEVELS_LONG_STEP)
         snprintf(
             text, capacity,
-            "no coarse cells, as time.step is %.2f of the critical time step, and they are stable up to %.2f of it",
+            "no coarse cells: time.step is %.2f of the critical time step, but they are stable only up to %.2f of it",
             c->step_share, LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
         snprintf(text, capacity,
-                 "no coarse cells, as no part of the body is %d spacings thick, which %d cells of 4 spacings need",
+                 "no coarse cells: no part of the body is %d spacings thick, which %d cells of 4 spacings need",
                  4 * CELLS_ACROSS, CELLS_ACROSS);
     else if (c->why == LEVELS_THIN)
         snprintf(
             text, capacity,
-            "coarse cells of up to %d spacings, as no part of the body is thick enough for %d cells of twice that size",
+            "coarse cells of up to %d spacings: no part of the body is thick enough for %d cells of twice that size",
             edge, CELLS_ACROSS);
     else if (c->automatic == 0)
-        snprintf(text, capacity, "no coarse cells, as %s: cells of 4 spacings %s", load, want);
+        snprintf(text, capacity, "no coarse cells: %s, but cells of 4 spacings %s", load, want);
     else if (c->rise.pulse || !(c->across / ACROSS > c->rise.waves / RISES))
         snprintf(text, capacity, "coarse cells of up to %d spacings, the largest that resolve the waves (%s)", edge,
                  load);
@@ -247,9 +248,9 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
     if (!c->given)
         snprintf(text, capacity, "%s", why);
     else if (c->levels == 0)
-        snprintf(text, capacity, "no coarse cells, as mpm.levels is 0; auto would choose: %s", why);
+        snprintf(text, capacity, "no coarse cells, because mpm.levels is 0; auto would choose: %s", why);
     else
-        snprintf(text, capacity, "coarse cells of up to %d spacings, as mpm.levels requires; auto would choose: %s",
+        snprintf(text, capacity, "coarse cells of up to %d spacings, set by mpm.levels; auto would choose: %s",
                  2 << c->levels, why);
 }
 
@@ -269,9 +270,9 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t capaci
     real at[DIM_MAX] = {0};
     for (int d = 0; d < g->dim; d++) at[d] = grid_node_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
     snprintf(text, capacity,
-             "mpm.levels: %d makes coarse cells of %d spacings in thin parts, as at (%.4g, %.4g, %.4g) m, with fewer "
-             "than %d cells across the part (%.0f %% of all coarse cells): such parts bend too stiffly, and natural "
-             "frequencies are some 5 %% too high; with mpm.levels: auto thin parts have no coarse cells",
+             "mpm.levels: %d makes coarse cells of %d spacings in thin parts, such as at (%.4g, %.4g, %.4g) m, with "
+             "fewer than %d cells across the part (%.0f %% of all coarse cells): such parts bend too stiffly, and "
+             "natural frequencies are about 5 %% too high; with mpm.levels: auto thin parts have no coarse cells",
              r->levels.n, 2 << level, at[0], at[1], at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
     return true;
 }
@@ -289,7 +290,7 @@ bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const stru
     want_text(c, 2 << c->levels, ACROSS_LEAST, want, sizeof want);
     snprintf(
         reason, capacity,
-        "mpm.levels: %d makes coarse cells of %d spacings, and %s: cells of this size %s; use mpm.levels: %d or auto",
+        "mpm.levels: %d makes coarse cells of %d spacings, but %s: cells of this size %s; use mpm.levels: %d or auto",
         c->levels, 2 << c->levels, load, want, levels);
     return true;
 }

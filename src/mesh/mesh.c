@@ -21,10 +21,9 @@
  * cell with another particle". */
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
-    return status_set(REFUSED,
-                      "mpm.frame: reference is impossible, as the particle at (%.6g, %.6g, %.6g) m %s; mpm.frame: "
-                      "current is expected",
-                      p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
+    return status_set(
+        REFUSED, "mpm.frame: reference is impossible: the particle at (%.6g, %.6g, %.6g) m %s; set mpm.frame: current",
+        p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
 int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle)
@@ -104,7 +103,7 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
             uint8_t *owner = &body[mesh_cell_corner_node(mesh, mesh->place[i] >> p->dim, c)];
             if (*owner != 0 && *owner != p->body[i] + 1)
-                s = meshed_body(p, i, "shares a node with another body, which would move with it");
+                s = meshed_body(p, i, "shares a node with another body, so both would move together");
             *owner = (uint8_t)(p->body[i] + 1);
         }
     memory_free(body);

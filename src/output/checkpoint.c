@@ -151,12 +151,16 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
     struct archive a = archive_of(&f, false);
     status s;
     if (f.failed)
-        s = status_set(FAILED, "cannot resume: %s is no checkpoint of this program", path);
+        s = status_set(FAILED, "cannot resume: %s is not a checkpoint of this program; start again with --overwrite",
+                       path);
     else if (version != CHECKPOINT_VERSION)
-        s = status_set(FAILED, "cannot resume: %s has format %d, this program reads format %d", path, (int)version,
-                       CHECKPOINT_VERSION);
+        s = status_set(FAILED,
+                       "cannot resume: checkpoint %s has format %d, but this program reads only format %d; start again "
+                       "with --overwrite, or use the version that wrote it",
+                       path, (int)version, CHECKPOINT_VERSION);
     else if (!same_scene(&f, scene_text))
-        s = status_set(FAILED, "cannot resume: %s belongs to another scene; choose another -o", path);
+        s = status_set(FAILED, "cannot resume: %s belongs to another scene; choose another -o, or restore that scene",
+                       path);
     else
         s = archive_all(context, &a);
     hdf_close(&f);
@@ -172,8 +176,8 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
     if (!fault) return state_read(newest.text, scene_text, save_or_load_all, context);
     const char *older_fault = file_describe_damage(previous.text);
     if (older_fault)
-        return status_set(FAILED, "cannot resume: in %s %s %s and %s %s", o->folder, newest_name, fault, previous_name,
-                          older_fault);
+        return status_set(FAILED, "cannot resume: in %s %s %s and %s %s; start again with --overwrite", o->folder,
+                          newest_name, fault, previous_name, older_fault);
     fprintf(stderr, "%s %s: resuming from %s\n", printable_name(newest.text).text, fault, previous_name);
     TRY(state_read(previous.text, scene_text, save_or_load_all, context));
     /* Rename the damaged file: the next checkpoint would otherwise replace the whole one by it. */

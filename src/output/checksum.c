@@ -135,15 +135,15 @@ static const char *open_fault(int fd)
     struct stat s;
     struct footer end;
     uint64_t hash;
-    if (fstat(fd, &s) != 0 || !S_ISREG(s.st_mode)) return "is no regular file";
+    if (fstat(fd, &s) != 0 || !S_ISREG(s.st_mode)) return "is not a regular file";
     if (s.st_size == 0) return "is empty";
     if (s.st_size <= (off_t)sizeof end) return "is cut short";
     uint64_t length = (uint64_t)s.st_size - sizeof end;
     if (pread(fd, &end, sizeof end, (off_t)length) != (ssize_t)sizeof end) return unread;
     if (memcmp(end.magic, footer_magic, sizeof end.magic) != 0) return "is cut short or damaged (no end mark)";
-    if (end.length != length) return "is damaged (its length is not the one it was written with)";
+    if (end.length != length) return "is damaged (its length has changed since it was written)";
     if (hash_file(fd, length, &hash) != 0) return unread;
-    return hash == end.hash ? NULL : "is damaged (its bytes are not those that were written)";
+    return hash == end.hash ? NULL : "is damaged (its bytes have changed since it was written)";
 }
 
 const char *file_describe_damage(const char *path)
@@ -151,7 +151,7 @@ const char *file_describe_damage(const char *path)
     if (!path_exists(path)) return "is missing";
     /* Open without blocking: a FIFO of this name would otherwise stop the program. */
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0) return errno == ENOENT ? "is a link to nothing" : unread;
+    if (fd < 0) return errno == ENOENT ? "is a link to a missing file" : unread;
     const char *fault = open_fault(fd);
     close(fd);
     return fault;
@@ -186,5 +186,5 @@ status file_contents_hash(const char *path, uint64_t *hash)
     if (!fault) fault = hash_file(fd, (uint64_t)s.st_size, hash);
     if (fd >= 0) close(fd);
     if (!fault) return OK;
-    return status_set(REFUSED, "%s: %s", path, fault == EINVAL ? "is no regular file" : strerror(fault));
+    return status_set(REFUSED, "%s: %s", path, fault == EINVAL ? "is not a regular file" : strerror(fault));
 }

@@ -36,12 +36,13 @@ status folder_check_writable(const struct folder_kind *kind, const char *folder,
 {
     const struct path sign = path_join(folder, kind->sign);
     *exists = false;
-    if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
+    if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM)
+        return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     for (size_t k = 0; k < COUNT_OF(kind->inner) && kind->inner[k]; k++) {
         const struct path inner = path_join(folder, kind->inner[k]);
         if (path_is_link(inner.text))
             return status_set(
-                REFUSED, "%s is a symbolic link, and a %s would remove and write files elsewhere; choose another -o",
+                REFUSED, "%s is a symbolic link, so a %s would remove and write files elsewhere; choose another -o",
                 inner.text, kind->what);
     }
     *exists = path_is_file(sign.text) && kind->is_sign(sign.text, scene_text);

@@ -64,7 +64,8 @@ static status read_rows(struct history *h, FILE *from, const char *path, char **
     while ((length = getline(line, room, from)) > 0 && (*line)[length - 1] == '\n') {
         GROW("history.value", h->value, (h->rows + 1) * h->columns);
         if (!read_row(h, *line, h->value + h->rows * h->columns))
-            return status_set(FAILED, "%s:%lld: not %d entries", path, (long long)h->rows + 2, h->columns);
+            return status_set(FAILED, "%s:%lld: the line does not have %d entries", path, (long long)h->rows + 2,
+                              h->columns);
         h->rows++;
     }
     return OK;
@@ -95,11 +96,11 @@ status history_read_file(struct history *h, const char *path)
     char *line = NULL;
     size_t room = 0;
     *h = (struct history){0};
-    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
+    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is not a regular file", path);
     FILE *from = fopen(path, "r");
     if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
     ssize_t length = getline(&line, &room, from);
-    status s = length > 0 && line[length - 1] == '\n' ? OK : status_set(FAILED, "%s:1: no header", path);
+    status s = length > 0 && line[length - 1] == '\n' ? OK : status_set(FAILED, "%s:1: the header is missing", path);
     if (s == OK) read_header(h, line);
     if (s == OK) s = read_rows(h, from, path, &line, &room);
     free(line);

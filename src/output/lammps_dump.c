@@ -75,7 +75,7 @@ static status head_columns(struct dump *d, struct dump_head *h)
             if (strcmp(name, wanted_name[w]) == 0) h->column[w] = k;
     }
     for (int w = 0; w < 4; w++)
-        if (h->column[w] < 0) return dump_fault(d, "columns id, x, y and z are expected");
+        if (h->column[w] < 0) return dump_fault(d, "the columns id, x, y and z are missing");
     return OK;
 }
 
@@ -86,14 +86,15 @@ static status head_next(struct dump *d, struct dump_head *h, bool *more)
     *more = dump_line(d);
     if (!*more) return OK;
     if (!dump_begins(d->text, "ITEM: TIMESTEP"))
-        return dump_fault(d, "ITEM: TIMESTEP, of a text dump of LAMMPS, is expected");
+        return dump_fault(d, "ITEM: TIMESTEP is missing; a text dump of LAMMPS is expected");
     h->n = -1;
-    if ((*more = dump_line(d)) && !dump_whole_number(d->text, &h->step)) return dump_fault(d, "no number of a step");
+    if ((*more = dump_line(d)) && !dump_whole_number(d->text, &h->step))
+        return dump_fault(d, "the number of a step is missing");
     while (*more && (*more = dump_line(d)) && !dump_begins(d->text, "ITEM: ATOMS")) {
         if (!dump_begins(d->text, "ITEM: NUMBER OF ATOMS")) continue;
         if (!(*more = dump_line(d))) break;
         if (!dump_whole_number(d->text, &h->n) || h->n < 0 || h->n > d->bytes / LEAST_LINE || h->n > INT32_MAX)
-            return dump_fault(d, "no number of particles that this file can hold");
+            return dump_fault(d, "is not a possible number of particles: the file is too short for it, or damaged");
     }
     if (!*more) return OK;
     return h->n < 0 ? dump_fault(d, "ITEM: NUMBER OF ATOMS is missing") : head_columns(d, h);
@@ -116,7 +117,7 @@ static status steps_read(struct dump *d, int *n, int64_t **step)
     for (;;) {
         TRY(head_next(d, &h, &more));
         if (!more || !skip_rows(d, h.n)) return OK;
-        if (*n > 0 && h.step <= (*step)[*n - 1]) return dump_fault(d, "steps do not ascend");
+        if (*n > 0 && h.step <= (*step)[*n - 1]) return dump_fault(d, "steps are not in ascending order");
         GROW("dump.steps", *step, *n + 1);
         (*step)[(*n)++] = h.step;
     }
@@ -132,9 +133,9 @@ status lammps_list_step_numbers(const char *path, int *step_count, int64_t **ste
     if (s == OK && *step_count > 0) return OK;
     memory_free(*step_numbers);
     *step_numbers = NULL, *step_count = 0;
-    return s != OK
-               ? s
-               : status_set(FAILED, "%s holds no complete time step of a LAMMPS dump yet", printable_name(path).text);
+    return s != OK ? s
+                   : status_set(FAILED, "%s does not yet hold a complete time step of a LAMMPS dump",
+                                printable_name(path).text);
 }
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
@@ -183,12 +184,11 @@ static status rows_take(struct dump *d, const struct dump_head *h, struct lammps
 {
     double value[WANTED];
     for (int64_t k = 0; k < h->n; k++) {
-        if (!dump_line(d) || !dump_row_read(d, h, value)) return dump_fault(d, "a particle's numbers are expected");
+        if (!dump_line(d) || !dump_row_read(d, h, value)) return dump_fault(d, "the numbers of a particle are missing");
         if (!(value[0] >= 1 && value[0] <= (double)h->n))
-            return dump_fault(d, "ids from 1 to the number of particles "
-                                 "are expected");
+            return dump_fault(d, "ids from 1 to the number of particles are expected");
         const int64_t i = (int64_t)value[0] - 1;
-        if (seen[i]++) return dump_fault(d, "an id is there twice");
+        if (seen[i]++) return dump_fault(d, "an id occurs twice");
         for (int a = 0; a < DIM_MAX; a++) f->x[a][i] = value[1 + a], f->v[a][i] = value[4 + a];
         f->damage[i] = value[7];
     }

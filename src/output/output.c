@@ -174,7 +174,7 @@ static status refuse_other_scene(const char *folder, const char *former, const c
                       "%s: %s holds the run of another scene, with `%.*s` instead of `%.*s`%s; choose another -o or "
                       "--overwrite",
                       key, folder, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b,
-                      lasts ? ": a run that goes on keeps its duration" : "");
+                      lasts ? ": a run cannot change its duration" : "");
 }
 
 /* Returns true if the file `path` is the scene.yaml of a run: its text is scene_text, or Cleave wrote it and it is
@@ -263,15 +263,14 @@ static status mode_check(const char *folder, enum output_mode mode)
                           !strcmp(ended, "done")     ? "a finished"
                           : !strcmp(ended, "failed") ? "a failed"
                                                      : "an interrupted",
-                          resumes ? "go on with --resume, " : "its checkpoints are gone; ");
+                          resumes ? "continue with --resume, " : "its checkpoints are gone; ");
     if (mode != OUTPUT_RESUME || checkpoint_exists(folder)) return OK;
     if (!resumes)
-        return status_set(
-            REFUSED,
-            "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "
-            "another -o",
-            folder);
-    fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", printable_name(folder).text);
+        return status_set(REFUSED,
+                          "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or "
+                          "choose another -o",
+                          folder);
+    fprintf(stderr, "warning: nothing to resume in %s: the run starts at t = 0\n", printable_name(folder).text);
     return OK;
 }
 
@@ -378,7 +377,7 @@ static bool index_lists(const char *path)
 static status frame_guard(const char *path)
 {
     if (!is_frame(strrchr(path, '/') + 1, "") || file_has_checksum_footer(path) || index_lists(path)) return OK;
-    return status_set(REFUSED, "%s was not written by cleave, or is cut short; move or remove it", path);
+    return status_set(REFUSED, "%s was not written by cleave, or is cut off; move or remove it", path);
 }
 
 /* Checks a file of rigid bodies that a run would remove. Returns REFUSED if it does not begin as Cleave's files of
@@ -420,8 +419,9 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     struct path clean = {{0}};
     size_t length = strlen(folder);
     *o = (struct output){.compress = compress, .lock.fd = -1, .series[0].particles.number = -1};
-    if (length == 0) return status_set(REFUSED, "-o: needs the name of a folder");
-    if (length + PATH_NAME_ROOM >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
+    if (length == 0) return status_set(REFUSED, "-o: give the name of a folder");
+    if (length + PATH_NAME_ROOM >= PATH_ROOM)
+        return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     while (length > 1 && folder[length - 1] == '/') length--;
     memcpy(clean.text, folder, length);
     TRY(folder_make(clean.text));
@@ -449,7 +449,7 @@ status output_check_series_folder_is_free(const char *folder, const char *series
 {
     const struct path path = series_folder(folder, series_name);
     if (path_is_link(path.text))
-        return status_set(REFUSED, "%s is a symbolic link: frames would be written to another folder; remove it",
+        return status_set(REFUSED, "%s is a symbolic link, so frames would be written to another folder; remove it",
                           path.text);
     if (path_exists(path.text) && !path_is_folder(path.text))
         return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path.text);
@@ -504,7 +504,7 @@ static status series_archive(struct frame_series *s, struct archive *a)
         if (frames < 0 || a->stored_size(a, entry_name) != (int64_t)frames * (int64_t)sizeof *s->entry)
             return status_set(FAILED,
                               "cannot resume: the checkpoint counts %d frames, but its list of frames has a different "
-                              "length, so that it is damaged: start again with --overwrite",
+                              "length; it is damaged, start again with --overwrite",
                               frames);
         memory_free(s->entry);
         s->entry = NEW("output.frames", frames, struct frame_entry);

@@ -156,9 +156,9 @@ status file_check_replaceable(const char *path)
     struct stat s;
     if (lstat(path, &s) != 0) return OK;
     if (!S_ISREG(s.st_mode) && !S_ISLNK(s.st_mode) && !S_ISDIR(s.st_mode))
-        return status_set(REFUSED, "%s is no regular file and is not replaced; choose another -o", path);
+        return status_set(REFUSED, "%s is not a regular file and is not replaced; choose another -o", path);
     if (!input_file_was_read(path)) return OK;
-    return status_set(REFUSED, "%s is read by this command and never written over; choose another -o", path);
+    return status_set(REFUSED, "%s is an input of this command and is not replaced; choose another -o", path);
 }
 
 status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginnings)
@@ -301,7 +301,8 @@ static status folder_make_one(const char *path)
 status folder_make(const char *path)
 {
     struct path part = {{0}};
-    if (strlen(path) >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
+    if (strlen(path) >= PATH_ROOM)
+        return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     for (size_t k = 0; path[k]; k++) {
         if (path[k] == '/' && k > 0 && !path_is_folder(part.text)) TRY(folder_make_one(part.text));
         part.text[k] = path[k];
@@ -314,7 +315,7 @@ status folder_make_for_file(const char *path)
     struct path above = {{0}};
     const char *end = strrchr(path, '/');
     if (!end || end == path) return OK;
-    if (end - path >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
+    if (end - path >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     snprintf(above.text, sizeof above.text, "%.*s", (int)(end - path), path);
     return folder_make(above.text);
 }
@@ -354,7 +355,7 @@ status file_read_whole(const char *path, char **text, size_t *length)
     if (fd < 0) return status_set(FAILED, "cannot read %s: %s", path, strerror(errno));
     if (fstat(fd, &s) != 0 || !S_ISREG(s.st_mode)) {
         close(fd);
-        return status_set(FAILED, "cannot read %s: it is no regular file", path);
+        return status_set(FAILED, "cannot read %s: it is not a regular file", path);
     }
     *text = NEW("output.text", s.st_size + 1, char);
     int64_t have = output_files_read_all(fd, *text, (size_t)s.st_size);

@@ -350,7 +350,7 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
     seen->known =
         !seen->fault && path_is_file(path.text) && particles_file_read_content_hash(path.text, &seen->content);
     if (seen->known && number == s->particles.number && seen->content != s->particles.content)
-        seen->fault = "is of another run";
+        seen->fault = "belongs to another run";
 }
 
 /* Reads time [s] and the hash of its particles file from the frame at `path`. Returns false if the frame cannot be
@@ -380,9 +380,9 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
     if (particles->fault)
         return snprintf(text, capacity, "links to %s, which %s", particles->name, particles->fault) > 0;
     if (!frame_read_marks(path, &time, &content)) return false;
-    if (!reals_are_bitwise_equal(time, e->time)) return snprintf(text, capacity, "is another one") > 0;
+    if (!reals_are_bitwise_equal(time, e->time)) return snprintf(text, capacity, "belongs to another time") > 0;
     if (!particles->known || content == particles->content) return false;
-    return snprintf(text, capacity, "and %s, to which it links, are of different runs", particles->name) > 0;
+    return snprintf(text, capacity, "and %s, to which it links, belong to different runs", particles->name) > 0;
 }
 
 /* Marks the frames of a series that are lost (damaged or missing) and adds their number to *lost. If *lost was 0,
@@ -426,8 +426,8 @@ status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_co
     if (*lost_frame_count == 0) return OK;
     const size_t used = strlen(message);
     if (*lost_frame_count > 1)
-        snprintf(message + used, capacity - used, ", and %d frames more are lost", *lost_frame_count - 1);
-    strncat(message, ": the indices leave out what is lost; a run of its own would make it again",
+        snprintf(message + used, capacity - used, ", and %d more frames are lost", *lost_frame_count - 1);
+    strncat(message, ": the indices leave out lost frames; to make them again, run the scene in another folder",
             capacity - strlen(message) - 1);
     return OK;
 }

@@ -78,15 +78,15 @@ static status history_cut(const struct output *o)
     char *text = NULL;
     size_t length = 0;
     if (!path_is_file(path.text))
-        return status_set(FAILED, "cannot resume: %s is missing; begin anew with --overwrite", path.text);
+        return status_set(FAILED, "cannot resume: %s is missing; start again with --overwrite", path.text);
     TRY(file_read_whole(path.text, &text, &length));
     const bool shorter = (int64_t)length < o->history_bytes;
     const bool same = !shorter && hash_bytes(HASH_START, text, (size_t)o->history_bytes) == o->history_hash;
     const status cut = same ? file_write_whole(path.text, text, (size_t)o->history_bytes) : OK;
     memory_free(text);
     if (same) return cut;
-    return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); begin anew with --overwrite",
-                      path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
+    return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); start again with --overwrite",
+                      path.text, shorter ? "shorter than" : "different from what it was", (long long)o->history_bytes);
 }
 
 /* Opens history.csv at `path` for writing, without following a link. resume: true to continue it at its end, false to

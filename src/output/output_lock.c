@@ -89,7 +89,7 @@ status folder_lock(struct folder_lock *l, const char *folder)
         }
         if (fault) {
             close(fd);
-            fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n",
+            fprintf(stderr, "warning: cannot lock %s (%s): make sure that no other run uses it\n",
                     printable_name(folder).text, strerror(fault));
             return OK;
         }
@@ -102,12 +102,11 @@ status folder_lock(struct folder_lock *l, const char *folder)
         TRY(own);
         if (shared)
             return status_set(REFUSED,
-                              "%s is a hard link, so that a run would also write to the same file elsewhere; remove it",
+                              "%s is a hard link, so a run would also write to the same file elsewhere; remove it",
                               path.text);
     }
     if (l->fd < 0)
-        return status_set(REFUSED, "%s: other runs begin and end in this folder all the time; choose another -o",
-                          folder);
+        return status_set(REFUSED, "%s: other runs keep starting and ending in this folder; choose another -o", folder);
     sign(l->fd);
     return OK;
 }
@@ -116,7 +115,7 @@ status folder_check_lock(const struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
     return status_set(FAILED,
-                      "%s was moved, removed or replaced while this run wrote to it; the folder that has this name now "
+                      "%s was moved, removed or replaced while this run wrote to it; the folder that now has this name "
                       "is not changed",
                       folder);
 }

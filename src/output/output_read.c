@@ -95,7 +95,7 @@ status frame_read(struct output_frame *f, const char *path)
     crash_message_set_file_in_use(NULL);
     if (whole && linked == OK) return OK;
     frame_free(f);
-    return linked == OK ? status_set(FAILED, "cannot read %s: it is damaged, or no frame of Cleave", path) : linked;
+    return linked == OK ? status_set(FAILED, "cannot read %s: it is damaged, or not a frame of Cleave", path) : linked;
 }
 
 void frame_free(struct output_frame *f)
@@ -174,7 +174,7 @@ status frame_field_read(const struct output_frame *f, const char *path, const ch
     if (whole) return OK;
     memory_free(*value);
     *value = NULL;
-    return status_set(FAILED, "%s has no field %s: `output: {fields: [%s]}` makes a run write it", path, name, name);
+    return status_set(FAILED, "%s has no field %s; for new runs, `output: {fields: [%s]}` adds it", path, name, name);
 }
 
 /* ---- times of frames --------------------------------------------------------------------------------------------- */
@@ -205,7 +205,7 @@ status run_list_frames(const char *folder, int *frame_count, struct listed_frame
     if (!path_exists(path.text))
         return status_set(
             FAILED,
-            "%s holds no frames (no frames.hdf.series); give the folder of a run, as cleave run names it at its end",
+            "%s holds no frames (no frames.hdf.series); give the folder of a run, which cleave run prints at its end",
             folder);
     TRY(file_read_whole(path.text, &text, &length));
     int count = 0;

@@ -140,7 +140,7 @@ const char *particles_file_describe_damage(const char *path, int64_t *content_ha
 {
     const char *fault = file_describe_damage(path);
     if (fault) return fault;
-    return particles_file_read_content_hash(path, content_hash) ? NULL : "is no particles file";
+    return particles_file_read_content_hash(path, content_hash) ? NULL : "is not a particles file";
 }
 
 status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *path)
@@ -151,12 +151,12 @@ status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *
     if (!hdf_read_external_link_target(frame, "/VTKHDF/Types", name, sizeof name)) return OK;
     hdf_read_attribute(frame, "/Cleave", "content", HDF_I64, &content);
     if (frame->failed || !name[0] || strchr(name, '/'))
-        return status_set(FAILED, "cannot read %s: frames/NNNNNN.hdf of a results folder is expected", path);
+        return status_set(FAILED, "cannot read %s; give a frame inside a results folder: frames/NNNNNN.hdf", path);
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash + 1 - path) : 0;
     snprintf(file.text, sizeof file.text, "%.*s%s", folder, path, name);
     const char *fault = particles_file_describe_damage(file.text, &found);
-    if (!fault && found != content) fault = "is of another run";
+    if (!fault && found != content) fault = "belongs to another run";
     if (!fault) return OK;
     return status_set(FAILED, "cannot read %s: %s beside it, to which it links, %s", path, name, fault);
 }

@@ -101,10 +101,10 @@ status picture_replace_by_temporary(const char *path, enum picture_format format
     if (!fault) return file_replace_by_temporary(path);
     file_discard_temporary(path);
     if (fault > 0) return file_report_write_failure(path, fault);
-    return status_set(FAILED,
-                      "cannot write %s: the picture is cut short, as on a full disk; free space or choose "
-                      "another -o",
-                      path);
+    return status_set(
+        FAILED,
+        "cannot write %s: the picture is cut off, perhaps because the disk is full; free space or choose another -o",
+        path);
 }
 
 bool picture_file_is_from_cleave(const char *path)

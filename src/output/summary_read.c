@@ -183,7 +183,7 @@ static bool value(struct reader *r, const char *rest, int depth)
  * be read. */
 static status read_text(const char *path, char **text)
 {
-    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
+    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is not a regular file", path);
     FILE *from = fopen(path, "rb");
     if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
     size_t length = 0, room = 1 << 16, got;

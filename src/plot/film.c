@@ -47,7 +47,7 @@ status film_check_encoder_is_installed(void)
     const bool there = process > 0 && waitpid(process, &ended, 0) == process && WIFEXITED(ended) && !WEXITSTATUS(ended);
     return there ? OK
                  : status_set(REFUSED, "plot: films are made by ffmpeg, which is missing: install the package ffmpeg, "
-                                       "or take --format png");
+                                       "or use --format png");
 }
 
 /* Creates a pipe and stores its descriptors in ends[2]. They are closed in programs that are started later. Returns
@@ -79,7 +79,7 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
     char *h264[] = {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-f", "mp4", to.text, NULL};
     if (!gif) memcpy(word + 16, h264, sizeof h264);
     *f = (struct ffmpeg){.to = -1, .complaints = tmpfile()};
-    if (!pipe_make(ends)) return status_set(FAILED, "%s: no pipe to ffmpeg: %s", sheet.path, strerror(errno));
+    if (!pipe_make(ends)) return status_set(FAILED, "%s: no connection to ffmpeg: %s", sheet.path, strerror(errno));
     interrupt_signals_block(true);
     f->process = (int)fork();
     if (f->process == 0) become_ffmpeg(word, ends[0], f->complaints ? fileno(f->complaints) : -1);
@@ -138,7 +138,7 @@ status film_draw_frames_as_video(struct sheet sheet, int fps, const char *title,
     struct path picture;
     const int length = snprintf(picture.text, sizeof picture.text, "%s" ASIDE_ENDING ".png", sheet.path);
     if (length >= (int)(sizeof picture.text - sizeof ASIDE_ENDING))
-        return status_set(FAILED, "%s: the name is too long", sheet.path);
+        return status_set(FAILED, "%s: the name is too long; choose a shorter one", sheet.path);
     TRY(file_check_replaceable(sheet.path));
     unlink(path_of_temporary_file(sheet.path).text); /* a link of this name is not followed */
     status s = ffmpeg_start(&f, sheet, fps);

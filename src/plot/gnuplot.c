@@ -68,7 +68,7 @@ static status gnuplot_start(struct gnuplot *g)
     g->complaints = own < 0 ? NULL : fdopen(own, "w+"); /* an unlinked file in the folder of the picture */
     if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->path, strerror(errno));
     remove(g->aside);
-    if (pipe(ends) != 0) return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
+    if (pipe(ends) != 0) return status_set(FAILED, "%s: no connection to gnuplot: %s", g->path, strerror(errno));
     signal(SIGPIPE, SIG_IGN); /* an early end of gnuplot becomes an error instead of a signal */
     g->process = (int)fork();
     if (g->process == 0) become_gnuplot(ends, fileno(g->complaints));
@@ -81,7 +81,7 @@ static status gnuplot_start(struct gnuplot *g)
     if (g->to != NULL) return OK;
     int cause = errno;
     close(ends[1]); /* an open copy of this end would keep gnuplot waiting for input */
-    return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(cause));
+    return status_set(FAILED, "%s: no connection to gnuplot: %s", g->path, strerror(cause));
 }
 
 static void set_style(FILE *to)
@@ -173,9 +173,10 @@ static status open_with_letters(struct gnuplot *g, const char *path, enum pictur
     *g = (struct gnuplot){0};
     for (const char *c = path; *c; c++)
         if (iscntrl((unsigned char)*c))
-            return status_set(
-                REFUSED, "%s: gnuplot draws into no folder whose name holds a line break or other control character",
-                path);
+            return status_set(REFUSED,
+                              "%s: gnuplot cannot draw into a folder whose name contains a line break or other control "
+                              "character; rename it",
+                              path);
     g->path = strdup(path);
     /* gnuplot interprets a name that begins with a bar as a command. */
     if (g->path == NULL || asprintf(&g->aside, "%s%s" ASIDE_ENDING, path[0] == '/' ? "" : "./", path) < 0) {

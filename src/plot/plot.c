@@ -95,12 +95,12 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
                       latest = sheet_path(r, DRAWN_LAST),
                       field = picture_path_of_field(r->pictures, view.field->name, picture_ending[r->format]);
     const bool something = has.damage || map == MAP_FIELD;
-    TRY(has.damage
-            ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
-            : report_picture_not_drawn(damage.text, "no bond breaks; --field von_mises, speed, ... draw other fields"));
+    TRY(has.damage ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
+                   : report_picture_not_drawn(damage.text,
+                                              "no bond breaks; draw another field with --field von_mises, speed, ..."));
     if (map == MAP_FIELD) TRY(draw_map(r, field.text, map, &view, cloud, frames->shown));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
-                  : report_picture_not_drawn(kind.text, "all particles are of one method"));
+                  : report_picture_not_drawn(kind.text, "all particles have the same method"));
     TRY(something || has.kinds ? draw_map(r, latest.text, something ? map : MAP_KIND, &view, last, 1)
                                : report_picture_not_drawn(latest.text, "nothing happens in this run"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
@@ -122,7 +122,7 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
                                        : report_picture_not_drawn(surface.text, "nothing happens in this run"));
     if (!has.cracks) return report_picture_not_drawn(cracks.text, "no particle is damaged enough");
     if (has.cracked > 0.5)
-        return report_picture_not_drawn(cracks.text, "most particles are damaged, not those of cracks alone");
+        return report_picture_not_drawn(cracks.text, "most particles are damaged, not only those of cracks");
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
@@ -224,7 +224,8 @@ status run_draw_standard_pictures(const struct plot_request *request)
     for (size_t end = strlen(pictures.text); end > 1 && pictures.text[end - 1] == '/'; end--)
         pictures.text[end - 1] = '\0';
     if (strlen(pictures.text) + PATH_NAME_ROOM >= PATH_ROOM)
-        return status_set(REFUSED, "%s: the name is too long", printable_name(pictures.text).text);
+        return status_set(REFUSED, "%s: the name is too long; choose a shorter one",
+                          printable_name(pictures.text).text);
     r.pictures = pictures.text;
     if (r.panels == 0) r.panels = PANELS;
     r.projection.in_steps = run_has_load_steps(r.folder);

@@ -31,7 +31,7 @@ static status profile_read(struct history *h, const char *folder, const char *pr
 {
     char path[PATH_LENGTH];
     if (snprintf(path, sizeof path, "%s/%s_%06d.csv", folder, probe, number) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", folder);
+        return status_set(FAILED, "%s: the name is too long; choose a shorter one", folder);
     return history_read_file(h, path);
 }
 

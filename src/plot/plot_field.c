@@ -90,7 +90,7 @@ static status field_unknown(const char *name, const char *const *names)
             used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", used ? ", " : "", own);
     }
     if (listed > 0)
-        return status_set(REFUSED, "plot: --field %s: it has several components, draw one of %s",
+        return status_set(REFUSED, "plot: --field %s: it has several components; draw one of %s",
                           printable_name(name).text, components);
     return status_set(REFUSED, "plot: --field %s: there is no such field%s there are %s", printable_name(name).text,
                       word_propose_similar(name, names, COUNT_OF(fields)).text, all);

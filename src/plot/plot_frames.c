@@ -34,7 +34,8 @@ bool folder_holds_study(const char *folder)
 status run_read_frame(struct output_frame *f, const char *folder, int frame_number)
 {
     const struct path path = run_frame_path(folder, frame_number);
-    return path.text[0] ? frame_read(f, path.text) : status_set(FAILED, "%s: the name is too long", folder);
+    return path.text[0] ? frame_read(f, path.text)
+                        : status_set(FAILED, "%s: the name is too long; choose a shorter one", folder);
 }
 
 /* Selects at most `panels` of the frames r->list, evenly spread from the first to the last. A single one is the last
@@ -70,9 +71,9 @@ static status times_within(const struct run_frames *f, const double *time, int t
     const struct unit second = unit_for_largest_value(last, "s");
     for (int k = 0; k < times; k++)
         if (time[k] < fmin(first - beside, 0) || time[k] > last + beside)
-            return status_set(REFUSED, "plot: --times: %.4g %s is not in the run: its frames go from %.4g to %.4g %s",
-                              time[k] / second.factor, second.name, first / second.factor, last / second.factor,
-                              second.name);
+            return status_set(
+                REFUSED, "plot: --times: %.4g %s is not in the run, whose frames are from %.4g to %.4g %s",
+                time[k] / second.factor, second.name, first / second.factor, last / second.factor, second.name);
     return OK;
 }
 
@@ -118,7 +119,7 @@ void frames_free(struct output_frame *frames, int frame_count)
 status pictures_folder_make(const char *path, bool overwrite)
 {
     if (path_is_link(path))
-        return status_set(REFUSED, "%s is a symbolic link: pictures would be written to another folder; remove it",
+        return status_set(REFUSED, "%s is a symbolic link, so pictures would be written to another folder; remove it",
                           path);
     TRY(folder_make(path));
     return overwrite ? OK : files_visit(path, file_name_is_of_picture, "", picture_check_replaceable);
@@ -128,7 +129,7 @@ status picture_choose_path(struct path *path, const char *option_argument, const
 {
     const char *end = strrchr(option_argument, '/');
     if (!*option_argument || strlen(option_argument) >= sizeof path->text)
-        return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected",
+        return status_set(REFUSED, "plot: -o '%s': give the name of a file or folder",
                           printable_name(option_argument).text);
     TRY(folder_make_for_file(option_argument));
     if (end > option_argument && !end[1]) {
@@ -139,7 +140,9 @@ status picture_choose_path(struct path *path, const char *option_argument, const
         *path = path_join(option_argument, name);
     else
         snprintf(path->text, sizeof path->text, "%s", option_argument);
-    if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", printable_name(option_argument).text);
+    if (!path->text[0])
+        return status_set(REFUSED, "%s: the name is too long; choose a shorter one",
+                          printable_name(option_argument).text);
     TRY(file_check_replaceable(path->text));
     if (overwrite || !path_exists(path->text) || picture_file_is_from_cleave(path->text)) return OK;
     return status_set(REFUSED,

@@ -236,8 +236,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
 static status say_missing_load(const char *path, const struct reactions *r)
 {
     if (r->n > 0)
-        return report_picture_not_drawn(path, "what bears the load does not move; a point probe where the body moves "
-                                              "adds the displacement: probes: [{point: {at: [...]}}]");
+        return report_picture_not_drawn(path, "the boundary that carries the load does not move; a point probe where "
+                                              "the body moves adds the displacement: probes: [{point: {at: [...]}}]");
     return report_picture_not_drawn(path, "neither a support nor a rigid body has a force");
 }
 

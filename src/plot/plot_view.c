@@ -186,7 +186,7 @@ static status view_set_options(struct view *v, const struct plot_request *r)
         TRY(range_end_read(&high, r, 1, v->field));
         TRY(range_end_read(&low, r, 0, v->field));
         if (!(high > low))
-            return status_set(REFUSED, "plot: --range %s:%s: the lower end is expected first",
+            return status_set(REFUSED, "plot: --range %s:%s: give the lower end first",
                               printable_name(r->range[0]).text, printable_name(r->range[1]).text);
         v->low = v->bottom = low, v->high = v->top = high;
     }

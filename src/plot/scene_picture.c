@@ -369,8 +369,8 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     struct path path;
     struct plotted_particles c;
     if (r->projection.outside && s->dim < 3)
-        return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s", s->dim,
-                          s->dim > 1 ? "s" : "");
+        return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s, so remove it",
+                          s->dim, s->dim > 1 ? "s" : "");
     TRY(engine_set_up_run(e, s, NULL));
     TRY(scene_sheet(&path, s, r));
     scene_cloud(&c, e, &r->projection.camera);
@@ -394,7 +394,7 @@ status scene_draw_picture(const char *path, const struct scene_override *overrid
     struct scene s = {0};
     struct run e = {0};
     struct pilot_wish wish;
-    if (picture_is_film(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
+    if (picture_is_film(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: use png, svg or pdf");
     TRY(scene_read_or_list_pilot_requirements(&s, &wish, path, override, overrides));
     if (wish.wanted) {
         s = wish.provisional;

@@ -135,7 +135,7 @@ static status divergence_report(const struct particles *p, int64_t i, real limit
     if (isfinite(speed2) && speed2 > limit * limit)
         snprintf(what, sizeof what, "moves at %.3g m/s, faster than the wave speed %.4g m/s", sqrt(speed2), limit);
     else
-        snprintf(what, sizeof what, "has a position or velocity that is no finite number");
+        snprintf(what, sizeof what, "has a position or velocity that is not a finite number (nan or inf)");
     return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s", (long long)step, t,
                       (int)p->id[i], particle_position_text(p, i, 6).text, what);
 }

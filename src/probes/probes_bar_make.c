@@ -48,11 +48,11 @@ static status find_bar(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     struct bar *b = q->bar;
-    if (p->dim != 1) return refuse(q, "a closed form of a bar; space line is expected");
-    if (p->n < 3) return refuse(q, "the bar has fewer than three particles; a smaller particles.spacing is expected");
+    if (p->dim != 1) return refuse(q, "an analytical solution is for a bar in one dimension; set space: line");
+    if (p->n < 3) return refuse(q, "the bar has fewer than three particles; use a smaller particles.spacing");
     for (int64_t i = 1; i < p->n; i++)
         if (p->material[i] != p->material[0])
-            return refuse(q, "the bar is made of several materials; it is solved for one");
+            return refuse(q, "the bar has several materials, but the analytical solution is for one; use one material");
     b->n = p->n;
     b->order = NEW("probes.order", b->n, int32_t), b->rank = NEW("probes.rank", b->n, int32_t);
     b->displacement = NEW("probes.displacement", b->n, real), b->velocity = NEW("probes.velocity", b->n, real);
@@ -61,8 +61,8 @@ static status find_bar(struct probe *q, const struct observed_run *o)
     for (int64_t k = 1; k < b->n; k++) {
         real step = p->X[0][b->order[k]] - p->X[0][b->order[k - 1]];
         if (step <= 0 || step > 2.5 * o->spacing)
-            return refuse(q, step <= 0 ? "two particles are at one position; one bar is expected"
-                                       : "the bodies do not touch; one bar is expected");
+            return refuse(q, step <= 0 ? "two particles are at one position; use a single bar"
+                                       : "the bodies do not touch; use a single bar");
     }
     const struct material *m = &o->material[p->material[0]];
     b->exact.left = p->X[0][b->order[0]] - 0.5 * o->spacing;
@@ -97,7 +97,7 @@ static status find_ends(struct probe *q, const struct observed_run *o)
             bool mirror = c->kind == BOUNDARY_MIRROR && fabs(c->at - position[end]) < o->spacing;
             bool held = c->kind == BOUNDARY_VELOCITY && acts_on(l, outermost);
             if (c->kind == BOUNDARY_VELOCITY && c->value[0] != 0)
-                return refuse(q, "a boundary drives the bar with a velocity; fixed, mirror or nothing is expected");
+                return refuse(q, "a boundary drives the bar with a velocity; use fixed, mirror or no boundary instead");
             if (mirror || held) b->exact.reflection[end] = 1;
         }
     }
@@ -141,17 +141,17 @@ static status find_traction(struct probe *q, const struct observed_run *o)
     struct bar *b = q->bar;
     const struct load *l = NULL;
     int n = probes_bar_make_count_of(o, BOUNDARY_TRACTION, &l);
-    if (n == 0) return refuse(q, "no boundary is a traction; one on an end of the bar is expected");
-    if (n > 1) return refuse(q, "more than one boundary is a traction; one on an end of the bar is expected");
+    if (n == 0) return refuse(q, "no boundary is a traction; add one on an end of the bar");
+    if (n > 1) return refuse(q, "more than one boundary is a traction; keep one, on an end of the bar");
     const struct boundary *c = l->boundary;
     int end = c->side > 0 ? 1 : 0;
     if (!acts_on(l, b->order[end == 1 ? b->n - 1 : 0]))
-        return refuse(q, "the traction is not on the bar's end; leave out its region or let it reach there");
+        return refuse(q, "the traction does not act on the end of the bar; remove its region, or extend it to the end");
     if (c->time.kind != TIME_CONSTANT || c->formula[0].n > 0)
-        return refuse(q, "the traction changes with time; time: constant is expected");
+        return refuse(q, "the traction changes with time; set time: constant");
     if (b->exact.reflection[end] > 0) return refuse(q, "the loaded end is held; hold the other one");
     b->exact.loaded = c->side, b->exact.load = c->side * c->value[0];
-    if (b->exact.load == 0) return refuse(q, "the traction is 0; a stress is expected");
+    if (b->exact.load == 0) return refuse(q, "the traction is 0; give it a value");
     return OK;
 }
 
@@ -164,30 +164,31 @@ static status find_load(struct probe *q, const struct observed_run *o)
     if (probes_bar_make_count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
         return refuse(q, "a body_force acts on the bar; leave it out");
     if (probes_bar_make_count_of(o, BOUNDARY_PRESSURE, &other) > 0)
-        return refuse(q, "a pressure acts on the bar; a traction on one end is expected");
+        return refuse(q, "a pressure acts on the bar; use a traction on one end instead");
     if (probes_bar_make_count_of(o, BOUNDARY_ABSORBING, &other) > 0)
-        return refuse(
-            q,
-            "an end of the bar is absorbing, for which it has no closed form; use fixed, mirror or no boundary there");
+        return refuse(q, "an end of the bar is absorbing, for which there is no analytical solution; use fixed, mirror "
+                         "or no boundary there");
     TRY(find_ends(q, o));
     if (q->request.form == EXACT_PULSE) {
-        if (o->pulses == 0) return refuse(q, "the scene starts no pulse; initial with a pulse is expected");
+        if (o->pulses == 0) return refuse(q, "the scene starts no pulse; add one to initial");
         if (probes_bar_make_count_of(o, BOUNDARY_TRACTION, &other) > 0)
             return refuse(q, "a traction acts on the bar; leave it out");
         q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
         return starts_with_pulses(&q->bar->exact, o->part)
                    ? OK
-                   : refuse(q, "the start is not that of its pulses alone, clear of the ends");
+                   : refuse(q, "the initial state is not that of its pulses alone, away from the ends; remove other "
+                               "initial states, or move the pulses");
     }
     if (!probes_bar_make_at_rest(o->part))
-        return refuse(q, "the bar moves or is strained at the start; it begins at rest");
+        return refuse(q, "the bar moves or is strained at the start; let it start at rest");
     TRY(find_traction(q, o));
     if (q->request.form == EXACT_STEP_BAR) return OK;
-    if (!material_yields(m)) return refuse(q, "the material does not yield; material.yield_stress is expected");
+    if (!material_yields(m)) return refuse(q, "the material does not yield; add material.yield_stress");
     if (m->law.given && (m->law.flow != FLOW_LINEAR || m->law.kinematic.modulus > 0))
-        return refuse(q, "its closed form is that of yield_stress and yield_tangent; the material has another law");
+        return refuse(q, "its analytical solution is for yield_stress and yield_tangent, but the material has another "
+                         "law; use these keys");
     if (fabs(q->bar->exact.load) > m->yield_stress && !(m->yield_tangent > 0))
-        return refuse(q, "no plastic front without hardening; material.yield_tangent is expected");
+        return refuse(q, "without hardening there is no plastic front; add material.yield_tangent");
     return OK;
 }
 

@@ -103,7 +103,7 @@ static status bind_line(struct probe *q, const struct observed_run *o)
     int dim = o->part->dim, inside = 0;
     real X[DIM_MAX];
     if (q->request.points < 1)
-        return status_set(REFUSED, "probe \"%s\": stations: 0 places on its line are too few; 1 or more is expected",
+        return status_set(REFUSED, "probe \"%s\": stations: 0 positions on its line are too few; give at least 1",
                           q->request.name);
     q->list = NEW("probes.list", q->request.points, int32_t);
     for (; q->n < q->request.points; q->n++) {
@@ -144,11 +144,13 @@ static status bind_support(const struct probe *q, const struct observed_run *o)
         bool has_reaction = b->kind == BOUNDARY_VELOCITY || (o->in_steps && boundary_applies_force(b));
         if (strcmp(b->name, q->request.boundary) == 0 && has_reaction) return OK;
         if (strcmp(b->name, q->request.boundary) == 0)
-            return status_set(REFUSED, "probe \"%s\": boundary \"%s\" prescribes no motion%s, and has no reaction",
-                              q->request.name, b->name,
-                              o->in_steps                 ? " and no force"
-                              : boundary_applies_force(b) ? " (its force is that of the scene)"
-                                                          : "");
+            return status_set(
+                REFUSED,
+                "probe \"%s\": boundary \"%s\" prescribes no motion%s, so it has no reaction; name another one",
+                q->request.name, b->name,
+                o->in_steps                 ? " and no force"
+                : boundary_applies_force(b) ? " (its force is given in the scene)"
+                                            : "");
         if (has_reaction && used < sizeof known)
             used += (size_t)snprintf(known + used, sizeof known - used, "%s\"%s\"", used > 0 ? ", " : "", b->name);
     }

@@ -38,8 +38,7 @@ status pulse_probe_store_incident_amplitude(struct probe *q, const struct observ
     for (int d = 0; d < DIM_MAX; d++) direction[d] = length > 0 ? direction[d] / length : d == 0;
     q->memory.incident = probes_pulse_fastest(q, o->part, NULL, 0);
     if (q->memory.incident > 0) return OK;
-    return status_set(REFUSED, "probe \"%s\": nothing moves at the start; an initial pulse is expected",
-                      q->request.name);
+    return status_set(REFUSED, "probe \"%s\": nothing moves at the start; add a pulse to initial", q->request.name);
 }
 
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o)

@@ -92,8 +92,7 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
         if (strcmp(g->probe, r->name) == 0 && k != w->growth)
             return status_set(
                 REFUSED,
-                "probe \"%s\": it controls %s but measures the tip at (%.6g, %.6g) m; at: [%.6g m, %.6g m] "
-                "is expected",
+                "probe \"%s\": it controls %s but measures the tip at (%.6g, %.6g) m; set at: [%.6g m, %.6g m]",
                 r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
     }
     return OK;
@@ -114,7 +113,7 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
     if (!tip && !r->has_direction)
         return status_set(
             REFUSED,
-            "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; give `direction`, in which the crack would grow",
+            "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; give `direction`, the direction of crack growth",
             r->name, r->at[0], r->at[1]);
     const real *position = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
     const real length = hypot(along[0], along[1]);
@@ -173,10 +172,10 @@ static status refuse_leaving(const struct sif_tracked *w, const char *name, cons
     char fits[80] = "a smaller probes.sif.outer or particles.spacing";
     real beyond[2];
     for (int tenths = 1; tenths < 10 && !ring_leaves(&w->tip, 0.1 * tenths * w->reach, o, beyond); tenths++)
-        snprintf(fits, sizeof fits, "sif: {outer: %.3g m}, or less,", 0.1 * tenths * w->reach);
+        snprintf(fits, sizeof fits, "sif: {outer: %.3g m}, or less", 0.1 * tenths * w->reach);
     return status_set(REFUSED,
-                      "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body at (%.6g, "
-                      "%.6g) m; %s is expected",
+                      "probe \"%s\": the ring of radius %.6g m around the tip (%.6g, %.6g) m leaves the body at (%.6g, "
+                      "%.6g) m; use %s",
                       name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1], fits);
 }
 
@@ -190,8 +189,8 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
         const struct contour *c = &w->contour[k];
         if (c->outer - c->inner < NARROWEST * o->spacing * (1 - 1e-9))
             return status_set(REFUSED,
-                              "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; "
-                              "sif: {outer: %.3g m}, or more, is expected",
+                              "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; use sif: "
+                              "{outer: %.3g m}, or more",
                               r->name, c->inner, c->outer, NARROWEST, w->reach * NARROWEST * o->spacing / narrowest);
     }
     if (ring_leaves(&w->tip, w->reach, o, position)) return refuse_leaving(w, r->name, o, position);
@@ -200,8 +199,8 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
         const real distance = hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]);
         if (k != w->follows && distance < w->reach)
             return status_set(REFUSED,
-                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; sif: "
-                              "{outer: %.3g m}, or less, is expected",
+                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; use "
+                              "sif: {outer: %.3g m}, or less",
                               r->name, other[0], other[1], w->reach, 0.99 * distance);
     }
     return OK;
@@ -227,7 +226,7 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
         if (p->material[i] != p->material[ahead] || p->body[i] != w->tip.body)
             return status_set(REFUSED,
                               "probe \"%s\": another material or body is within its radius %.6g m, at (%.6g, %.6g) m; "
-                              "sif: {outer: %.3g m}, or less, is expected",
+                              "use sif: {outer: %.3g m}, or less",
                               r->name, w->reach, p->X[0][i], p->X[1][i], 0.99 * distance);
     }
     return OK;
@@ -237,7 +236,7 @@ status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_ru
 {
     const struct probe_request *r = &q->request;
     if (o->part->dim != 2)
-        return status_set(REFUSED, "probe \"%s\": it requires space: plane stress or plane strain", r->name);
+        return status_set(REFUSED, "probe \"%s\": it needs space: plane stress or plane strain; remove it", r->name);
     struct sif_tracked *w = q->sif = NEW("sif", 1, struct sif_tracked);
     make_contours(w, r, o->spacing);
     TRY(find_tip(w, r, o));

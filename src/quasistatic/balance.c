@@ -106,8 +106,8 @@ static status equilibrium_failed(const struct statics *s, const struct particles
     if (s->balance.n > 0) unknown_compute_reference_position(s, p, mesh, s->balance.worst, X);
     return status_set(
         FAILED,
-        "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (at most %.3g is "
-        "required), most of it near x = %.6g, y = %.6g, z = %.6g m: check that every part is held and that the body "
+        "load step %lld, t = %.6g s: no equilibrium: the out-of-balance force stays at %.3g of the load (at most %.3g "
+        "is allowed), most of it near x = %.6g, y = %.6g, z = %.6g m: check that every part is held and that the body "
         "can carry the loads, or use %ssteps.control: energy, more steps or a larger solver_tolerance",
         (long long)step, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
         p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");

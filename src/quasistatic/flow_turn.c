@@ -97,11 +97,11 @@ void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, str
     const real angle = turn->angle / DEGREE;
     char text[320], z[40] = "";
     if (dim > 2) snprintf(z, sizeof z, ", z = %.4g", turn->position[2]);
-    snprintf(text, sizeof text,
-             "the direction of plastic flow turns by %.0f degrees within load step %lld, near x = %.4g, y = %.4g%s m, "
-             "and stresses there may be off by %.0f %%: use more load steps (steps.number; twice as many halve the "
-             "error)",
-             angle, (long long)turn->step, turn->position[0], turn->position[1], z,
-             real_min(ERROR_PER_DEGREE * angle, ERROR_MOST));
+    snprintf(
+        text, sizeof text,
+        "the direction of plastic flow turns by %.0f degrees within load step %lld, near x = %.4g, y = %.4g%s m, so "
+        "stresses there may be off by %.0f %%: use more load steps (steps.number; twice as many halve the error)",
+        angle, (long long)turn->step, turn->position[0], turn->position[1], z,
+        real_min(ERROR_PER_DEGREE * angle, ERROR_MOST));
     if (angle > TURN_MOST) warnings_add_and_print(warnings, text);
 }

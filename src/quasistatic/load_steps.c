@@ -261,7 +261,7 @@ static status check_loads_grow(const struct scene *s, real quarter, real half, r
     if (s->steps.control == CONTROL_LOAD || half != whole || quarter != whole) return OK;
     return status_set(
         REFUSED,
-        "steps.control: energy or opening requires loads or displacements that grow with pseudo-time, and all of this "
+        "steps.control: energy or opening needs loads or displacements that grow with pseudo-time, but all in this "
         "scene are constant; add time: {ramp: {until: %.3g s}} to the boundary that loads the body",
         s->duration);
 }
@@ -277,8 +277,8 @@ status statics_check_scene_is_solvable(const struct run *e)
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->frame->choice[b].reference)
             return status_set(REFUSED,
-                              "solver: load steps require material points in the reference frame, and body %s is in "
-                              "the current frame%s%s; method: pd, or solver: explicit, is expected",
+                              "solver: load steps need material points in the reference frame, but body %s is in the "
+                              "current frame%s%s; set method: pd, or solver: explicit",
                               s->body[b].name, e->frame->choice[b].reason ? ": " : "",
                               e->frame->choice[b].reason ? e->frame->choice[b].reason : "");
     return OK;
@@ -289,9 +289,8 @@ status statics_check_scene_is_solvable(const struct run *e)
 static void warn_closed_faces(struct warnings *to, real K_I, const struct contact *c)
 {
     if (K_I < 0 && c->law.between == CONTACT_NONE)
-        warnings_add_and_print(
-            to, "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
-                "contact.between: all");
+        warnings_add_and_print(to, "K_I of a crack is negative: its faces are pressed together and pass through each "
+                                   "other; set contact.between: all");
 }
 
 #define FLOW_LARGE 0.1 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
@@ -317,8 +316,8 @@ static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
     for (int a = 0; a < DIM_MAX; a++) {
         char text[240];
         snprintf(text, sizeof text,
-                 "a body slid by %.3g m along %c, where nothing but contact holds it: load steps have no friction, and "
-                 "forces change with its place; add a boundary with fixed: [%c] on a few of its particles",
+                 "a body slid by %.3g m along %c, where only contact holds it: load steps have no friction, so forces "
+                 "change with its position; add a boundary with fixed: [%c] on a few of its particles",
                  slid[a], 'x' + a, 'x' + a);
         if (slid[a] > SLID_LEAST * spacing) warnings_add_and_print(to, text);
     }
@@ -345,9 +344,8 @@ static status check_constrained(struct run *e, bool *apart)
     const status held = unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
-        warnings_add_and_print(&e->warnings,
-                               "the crack goes through: after its next increment a fragment of the body would be "
-                               "almost unsupported under its loads, and the run ends before it");
+        warnings_add_and_print(&e->warnings, "the crack cuts the body: after its next increment a fragment would be "
+                                             "almost unsupported under its loads; the run ends before it");
     return parts ? OK : held;
 }
 

@@ -26,14 +26,13 @@ status gauge_check_positions(const struct scene *scene, const struct particles *
         for (int d = 0; d < part->dim; d++) away += square(X[d] - at[k][d]);
         if (sqrt(away) > FAR_OFF * scene->spacing)
             return status_set(REFUSED,
-                              "steps.%s: the body is %.3g m away from this position; a position on the body, where the "
-                              "gauge is mounted, is expected",
+                              "steps.%s: this position is %.3g m away from the body; give a position on the body, "
+                              "where the gauge is mounted",
                               k ? "to" : "from", sqrt(away));
     }
     if (nearest[0] != nearest[1]) return OK;
     return status_set(
-        REFUSED,
-        "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
+        REFUSED, "steps.from and steps.to are at the same particle; give two positions, one on each side of the crack");
 }
 
 real gauge_opening(const struct particles *part, const struct statics *statics)
@@ -127,6 +126,6 @@ status opening_go_to(struct run *e, real wanted, real t)
     if (opening_is_near(at, wanted, OPENING_FAR)) return OK;
     return status_set(FAILED,
                       "load step %lld: no load opens the gauge by %.6g m; the last one tried opens it by %.6g m: use "
-                      "larger loads or more steps, or displacement with steps.control: load",
+                      "larger loads or more steps, or a displacement with steps.control: load",
                       (long long)e->clock.step + 1, wanted, at);
 }

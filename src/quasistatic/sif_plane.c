@@ -98,7 +98,8 @@ static const char *mirrors_find(struct sif_plane *plane)
         const int axis = m.axis;
         if (plane->dim == 3 && fabs(plane->front[axis]) > 1 - STRAIGHT) continue;
         for (m.axis = 0; m.axis < 2 && fabs(plane->axis[m.axis][axis]) < 1 - STRAIGHT;) m.axis++;
-        if (m.axis == 2 || plane->mirrors == 2 * DIM_MAX) return "a plane of symmetry is oblique to the crack fronts";
+        if (m.axis == 2 || plane->mirrors == 2 * DIM_MAX)
+            return "a plane of symmetry is neither parallel nor perpendicular to the crack fronts";
         if (plane->axis[m.axis][axis] < 0) m.at = -m.at, m.outside = -m.outside;
         plane->mirror[plane->mirrors++] = m;
     }

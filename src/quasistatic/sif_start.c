@@ -100,8 +100,8 @@ status sif_growth_check_scene_allows_it(const struct run *e)
     if (!scene_has_load_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
     const char *fault = sif_growth_why_impossible(e, NULL);
     return fault ? status_set(REFUSED,
-                              "steps.path: hoop (crack growth by the hoop stress) requires straight, parallel crack "
-                              "fronts through the whole body, and %s; steps.path: bonds or auto is expected",
+                              "steps.path: hoop (crack growth by the hoop stress) needs straight, parallel crack "
+                              "fronts through the whole body, but %s; set steps.path: bonds or auto",
                               fault)
                  : OK;
 }

@@ -139,12 +139,12 @@ static status search_run(struct run *e, struct search *f)
         for (int d = 0; d < e->part.dim; d++) memory_free(applied[d]);
     }
     TRY(found);
-    return status_set(
-        FAILED,
-        "load step %lld, t = %.6g s: no equilibrium of softening bonds, the residual stays at %.3g of the "
-        "load: %s is expected",
-        (long long)e->clock.step + 1, s->t, f->residual,
-        isfinite(f->spent) ? "a smaller steps.energy" : "steps.control: energy, which follows loads that fall,");
+    return status_set(FAILED,
+                      "load step %lld, t = %.6g s: no equilibrium found while bonds soften (the out-of-balance force "
+                      "stays at %.3g of the load); use %s",
+                      (long long)e->clock.step + 1, s->t, f->residual,
+                      isfinite(f->spent) ? "a smaller steps.energy"
+                                         : "steps.control: energy, which can follow a falling load");
 }
 
 /* Adds to the fracture energy what families of state-based models have lost since the last equilibrium by softening, at

@@ -65,8 +65,8 @@ static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[200];
     snprintf(text, sizeof text,
-             "in this equilibrium %lld bonds exceed their critical stretch, and bonds do not break here: use smaller "
-             "loads, load steps or solver: explicit",
+             "in this equilibrium %lld bonds exceed their critical stretch, but this solver breaks no bonds: use "
+             "smaller loads, load steps or solver: explicit",
              (long long)past);
     if (past > 0) warnings_add_and_print(to, text);
 }
@@ -94,9 +94,8 @@ static void warn_large_rotation(struct warnings *to, const struct bonds *b, cons
             largest = real_max(largest, fabs(stretch));
         }
     snprintf(text, sizeof text,
-             "bonds rotate by up to %.2g degrees, which falsifies stretches by up to %.2g %% of the largest one: the "
-             "equations of solver: cg are those of small displacements; use smaller loads, or solver: static or "
-             "relaxation",
+             "bonds rotate by up to %.2g degrees, which makes stretches wrong by up to %.2g %% of the largest one, "
+             "because solver: cg is for small displacements; use smaller loads, or solver: static or relaxation",
              sqrt(2 * falsified) * 180 / acos(-1), 100 * falsified / largest);
     if (falsified > TURN_STRAIN_MOST * largest) warnings_add_and_print(to, text);
 }
@@ -115,8 +114,8 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
         for (int k = 0; k < symmetric_component_count(p->dim); k++)
             most = real_max(most, fabs(p->stress[k][i]) / material[p->material[i]].young);
     snprintf(text, sizeof text,
-             "stresses of the solution reach %.3g times Young's modulus, beyond any solid and beyond small strains: "
-             "check the loads and their units",
+             "stresses of the solution reach %.3g times Young's modulus, more than any solid can carry and too much "
+             "for small strains: check the loads and their units",
              most);
     if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);
 }
@@ -152,17 +151,18 @@ static status not_converged(const struct static_solver *s, real tolerance, int64
     if (!(s->residual < INFINITY))
         return status_set(
             FAILED,
-            "the solver diverged at step %lld: use smaller loads, or solver: relaxation in place of cg, or explicit",
+            "the solver diverged at step %lld: use smaller loads, or solver: relaxation (instead of cg) or explicit",
             (long long)step);
     if (s->residual * s->scale <= s->noise)
         return status_set(FAILED,
-                          "the residual stays at %.3g of the load, and %.3g is required: strains are so small that "
-                          "round-off of the positions dominates; use a larger solver_tolerance",
+                          "the out-of-balance force stays at %.3g of the load, but %.3g is required: strains are so "
+                          "small that round-off of the positions dominates; use a larger solver_tolerance",
                           s->residual, tolerance);
-    return status_set(FAILED,
-                      "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is required; raise "
-                      "solver_steps, or check that every part of the body is held or has balanced loads",
-                      (long long)step, s->residual, tolerance);
+    return status_set(
+        FAILED,
+        "no equilibrium after %lld steps: the out-of-balance force is %.3g of the load, but %.3g is required; raise "
+        "solver_steps, or check that every part of the body is held or has balanced loads",
+        (long long)step, s->residual, tolerance);
 }
 
 /* Makes one iteration of the solver for bonds, or one damped time step on the grid. *done: set to true at equilibrium.

@@ -28,11 +28,10 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
         const real dissipated = toughness_of_material(family, s->model, own),
                    elastic = family_crack_energy_per_area(family, own);
         if (dissipated < (1 - ROUNDING) * elastic)
-            warnings_add_if_new(
-                to,
-                "bonds of material %s yield before they break, so that a crack dissipates %.3g J/m^2; elastic "
-                "bonds of the same critical stretch would dissipate %.3g J/m^2",
-                own->name, dissipated, elastic);
+            warnings_add_if_new(to,
+                                "bonds of material %s yield before they break, so a crack dissipates %.3g J/m^2; "
+                                "elastic bonds of the same critical stretch would dissipate %.3g J/m^2",
+                                own->name, dissipated, elastic);
     }
 }
 
@@ -47,8 +46,8 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
     if (spacings <= ALIKE * STEP_SPACINGS_MOST) return;
     warnings_add_if_new(
         to,
-        "steps.energy: one load step dissipates as much energy as a crack that grows by %.3g spacings, so that "
-        "the largest load may be off by %s; at most %.3g J keeps the error within 4 %%, as the default does",
+        "steps.energy: one load step dissipates as much energy as a crack that grows by %.3g spacings, so the largest "
+        "load may be off by %s; at most %.3g J (the default is less) keeps the error within 4 %%",
         spacings,
         spacings <= ALIKE       ? "8 %"
         : spacings <= 2 * ALIKE ? "15 %"
@@ -73,15 +72,13 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
             warnings_add_if_new(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
                                 s->body[b].name);
     if ((s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM)) && !scene_silences_warning(s, ACCEPT_CONTACT))
-        warnings_add_if_new(
-            to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
-                "where they close; if they do not close: accept: [contact]");
+        warnings_add_if_new(to, "in a static equilibrium bodies and faces of cracks have no contact and pass through "
+                                "each other where they close; if they do not close, add accept: [contact]");
     if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
-        warnings_add_if_new(
-            to,
-            "nothing loads the body at t = %.4g s, the end of the duration, whose loads this solver applies "
-            "(a load with time: {step: ...} that ends earlier is zero then)",
-            s->duration);
+        warnings_add_if_new(to,
+                            "nothing loads the body at t = %.4g s, the end of the duration: this solver applies the "
+                            "loads of that time (a load with time: {step: ...} that ends earlier is zero then)",
+                            s->duration);
 }
 
 /* Writes the results of load steps to the summary j: control, steps, equilibria, energy released. It is the callback

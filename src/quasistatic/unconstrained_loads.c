@@ -72,7 +72,7 @@ status unconstrained_fragments_check(const struct statics *s, const struct parti
                           "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, around x = %.6g, y = %.6g, z = "
                           "%.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its loads, or "
                           "use steps.control: energy, which reduces the loads while a crack grows",
-                          (long long)step, s->t, f->n == s->balance.n ? "the body" : "a piece of the body",
+                          (long long)step, s->t, f->n == s->balance.n ? "the body" : "a separate part of the body",
                           100 * (real)f->n / (real)s->balance.n, f->middle[0], f->middle[1], f->middle[2], 100 * share);
     }
     return OK;

@@ -17,13 +17,13 @@ static status folder_check_kind(const char *folder)
 {
     const struct printable_name shown = printable_name(folder);
     if (path_exists(folder) && !path_is_folder(folder))
-        return status_set(REFUSED, "%s is a file: the folder of a run or a study is expected", shown.text);
+        return status_set(REFUSED, "%s is a file; give the folder of a run or a study", shown.text);
     if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM)
-        return status_set(REFUSED, "%s: the name is too long", shown.text);
+        return status_set(REFUSED, "%s: the name is too long; choose a shorter one", shown.text);
     if (folder_holds_study(folder) || run_has_file(folder, "frames.hdf.series") || run_has_file(folder, "history.csv"))
         return OK;
     if (run_has_file(folder, "study.yaml"))
-        return status_set(REFUSED, "%s holds a study without a table: the same command with --collect makes it",
+        return status_set(REFUSED, "%s holds a study without a table; make it by the same command with --collect",
                           shown.text);
     return status_set(REFUSED, "%s holds neither a run (frames or history.csv) nor a study (sweep.csv, converge.csv)",
                       shown.text);
@@ -37,15 +37,15 @@ static status page_destination(struct path *path, const struct report_request *r
     const char *out = r->out ? r->out : r->folder;
     const size_t length = strlen(out);
     if (length == 0 || length + PATH_NAME_ROOM >= PATH_ROOM)
-        return status_set(REFUSED, "report: -o '%s': the name of a file or folder is expected",
-                          printable_name(out).text);
+        return status_set(REFUSED, "report: -o '%s': give the name of a file or folder", printable_name(out).text);
     snprintf(path->text, sizeof path->text, "%s", out);
     for (size_t end = length; end > 1 && path->text[end - 1] == '/'; end--) path->text[end - 1] = '\0';
     TRY(folder_make_for_file(out));
     if (path_is_folder(path->text)) *path = path_join(path->text, PAGE_NAME);
     TRY(file_check_replaceable(path->text));
     if (r->overwrite || !path_exists(path->text) || page_file_is_from_cleave(path->text)) return OK;
-    return status_set(REFUSED, "%s exists and is no page of cleave; choose another -o, or replace it with --overwrite",
+    return status_set(REFUSED,
+                      "%s exists and is not a page of cleave; choose another -o, or replace it with --overwrite",
                       printable_name(path->text).text);
 }
 

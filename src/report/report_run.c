@@ -120,7 +120,7 @@ static status write_picture(struct page *p, const char *scene, const char *path)
     struct plot_request r = {.format = PICTURE_PNG, .out = picture.text, .overwrite = true, .quiet = true};
     r.projection = (struct projection){.normal = -1, .camera = camera_isometric};
     if (snprintf(picture.text, sizeof picture.text, "%s" ASIDE_ENDING ".png", path) >= (int)sizeof picture.text - 20)
-        return status_set(FAILED, "%s: the name is too long", path);
+        return status_set(FAILED, "%s: the name is too long; choose a shorter one", path);
     unlink(picture.text); /* a link of this name is not followed */
     interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
     status s = scene_draw_picture(scene, NULL, 0, &r);

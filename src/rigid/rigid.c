@@ -86,8 +86,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
     for (int d = 0; d < DIM_MAX; d++) r->turn[d][d] = 1;
     if (!bounded && r->motion != RIGID_FIXED)
         return status_set(
-            REFUSED,
-            "rigid body %s moves, but its shape is infinite; a shape of boxes, balls, discs or cylinders is expected",
+            REFUSED, "rigid body %s moves, but its shape is infinite; build it from boxes, balls, discs or cylinders",
             r->name);
     if (bounded) region_compute_moments(shape, dim, from, to, &moments);
     if (bounded && !(moments.volume > 0))
@@ -95,7 +94,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
     if (r->motion == RIGID_FREE && moments.change > MOMENTS_UNCERTAIN)
         return status_set(REFUSED,
                           "rigid body %s moves freely, but its shape is so thin that its centre and inertia are known "
-                          "to %.2g %% only; a thicker shape is expected, or one without parts that hardly weigh",
+                          "only to %.2g %%; make it thicker, or remove its thin parts",
                           r->name, 100 * moments.change);
     memcpy(r->centre, moments.centre, sizeof r->centre);
     for (int d = 0; d < dim && bounded; d++) r->radius += square(0.5 * (to[d] - from[d]));

@@ -39,8 +39,8 @@ static status check_mirrors(const struct rigid_body *r, const struct scene *s)
         const real at = mirror->at, gap = s->spacing;
         if (mirror->kind != BOUNDARY_MIRROR || from[mirror->axis] > at + gap || to[mirror->axis] < at - gap) continue;
         return status_set(REFUSED,
-                          "rigid body %s moves freely (it has a mass), and mirrors do not act on it, so that it must "
-                          "not touch the mirror of boundary %s; a scene without the mirror is expected",
+                          "rigid body %s moves freely (it has a mass), but mirrors do not act on such bodies, so it "
+                          "must not touch the mirror of boundary %s; remove the mirror or the mass",
                           r->name, mirror->name);
     }
     return OK;
@@ -65,8 +65,8 @@ status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, 
         if (increment <= INCREMENT_MOST) continue;
         return status_set(
             FAILED,
-            "rigid body %s at step %lld, t = %.3g s: it moves %.3g spacings per step, so that particles would be "
-            "inside it before contact acts: check its speed and mass, or use a smaller time.safety (now %.2g)",
+            "rigid body %s at step %lld, t = %.3g s: it moves %.3g spacings per step, so particles would be inside it "
+            "before contact acts: check its speed and mass, or use a smaller time.safety (now %.2g)",
             r->name, (long long)clock->step, clock->t, increment, s->safety);
     }
     return OK;
@@ -106,8 +106,8 @@ void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struc
             char text[320];
             if (a == b || one->motion != RIGID_FREE || !have_met(one, other, spacing)) continue;
             snprintf(text, sizeof text,
-                     "rigid bodies %.60s and %.60s overlap at t = %.3g s: rigid bodies push particles, not each other; "
-                     "change their motion, or make one of them a body of particles",
+                     "rigid bodies %.60s and %.60s overlap at t = %.3g s, because they push particles but not each "
+                     "other: change their motion, or make one of them a body of particles",
                      one->name, other->name, t);
             warnings_add_and_print(warning_list, text);
             rigid->met = true;

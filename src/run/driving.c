@@ -10,8 +10,8 @@ static status position_dependent_on_grid(const struct boundary *b, const struct 
     for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)
         if (particle_moves_with_nodes(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
             return status_set(REFUSED,
-                              "boundary %s: a %s by x, y, z depends on reference positions, which the grid of "
-                              "mpm.frame: current does not have; mpm.frame: reference, or method: pd, is expected",
+                              "boundary %s: a %s that depends on x, y, z needs reference positions, which the grid of "
+                              "mpm.frame: current does not have; set mpm.frame: reference, or method: pd",
                               b->name, b->displaces ? "displacement" : "velocity");
     return OK;
 }
@@ -27,10 +27,11 @@ static status starts_at_reference(const struct boundary *b, const struct particl
         for (int d = 0; d < p->dim; d++) {
             const real off = p->x[d][l->particle[k]] - p->X[d][l->particle[k]];
             if (b->components >> d & 1 && !(fabs(off) <= DISPLACEMENT_TOLERANCE * spacing))
-                return status_set(REFUSED,
-                                  "boundary %s: displacements are relative to the reference position, and `initial` "
-                                  "gives %.4g m along %c there; a velocity, or no initial state there, is expected",
-                                  b->name, off, "xyz"[d]);
+                return status_set(
+                    REFUSED,
+                    "boundary %s: displacements are relative to the reference position, but `initial` moves particles "
+                    "there by %.4g m along %c; give a velocity, or no initial state there",
+                    b->name, off, "xyz"[d]);
         }
     return OK;
 }
@@ -46,7 +47,7 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
             if (!(fabs(u[d]) <= DISPLACEMENT_TOLERANCE * spacing))
                 return status_set(REFUSED,
                                   "boundary %s: its displacement is %.4g m at t = 0 already, a jump within the first "
-                                  "step; one that grows from 0 is expected, as with time: {ramp: {until: 100 us}}",
+                                  "step; let it grow from 0, such as with time: {ramp: {until: 100 us}}",
                                   b->name, u[d]);
     }
     return OK;
@@ -72,13 +73,13 @@ status prescribed_motion_check(const struct loads *loads, const struct particles
             return status_prepend_location(b->place,
                                            status_set(REFUSED,
                                                       "boundary %s: its displacement jumps (time: step), which no body "
-                                                      "can follow; a ramp, pulse or table is expected as its time",
+                                                      "can follow; use time: ramp, pulse or table",
                                                       b->name));
-        return status_prepend_location(
-            b->place, status_set(REFUSED,
-                                 "boundary %s: its displacement grows by %.3g m/s, faster than the waves, "
-                                 "%.4g m/s; a longer time is expected for it, or a smaller one",
-                                 b->name, speed, wave_speed));
+        return status_prepend_location(b->place,
+                                       status_set(REFUSED,
+                                                  "boundary %s: its displacement grows by %.3g m/s, faster than the "
+                                                  "waves, %.4g m/s; use a longer time, or a smaller displacement",
+                                                  b->name, speed, wave_speed));
     }
     return OK;
 }

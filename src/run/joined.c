@@ -34,8 +34,8 @@ status joined_bodies_check_close_enough(const struct scene *s, const struct part
             are_near(p, cells, cutoff, &one->shape, &other->shape, tolerance))
             continue;
         return status_set(REFUSED,
-                          "interfaces[%d]: %s and %s are farther apart than the horizon, so no bond joins "
-                          "them; bodies that touch are expected, or no interface",
+                          "interfaces[%d]: %s and %s are farther apart than the horizon, so no bond joins them; let "
+                          "them touch, or remove the interface",
                           k, one->name, other->name);
     }
     return OK;

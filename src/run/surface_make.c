@@ -35,9 +35,9 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
     particle_reference_position(p, i, X);
     const real rows = fabs(X[m->axis] - m->at) / s->spacing, beside = rows - floor(rows);
     return status_set(REFUSED,
-                      "body %s: the mirror of boundary %s at %c = %.6g m does not continue its lattice, as its first "
-                      "row of particles is %.3g spacings from the plane; 0.5 spacings (a size along %c that is a "
-                      "multiple of particles.spacing), or pd.surface: volume, is expected",
+                      "body %s: the mirror of boundary %s at %c = %.6g m does not continue its lattice: its first row "
+                      "of particles is %.3g spacings from the plane, not 0.5; make its size along %c a multiple of "
+                      "particles.spacing, or set pd.surface: volume",
                       s->body[body_made_for(s, X, p->body[i])].name, m->name, "xyz"[m->axis], m -> at, beside,
                       "xyz"[m->axis]);
 }
@@ -64,15 +64,13 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
     if (body != beside)
         return status_set(
             REFUSED,
-            "bodies %s and %s are joined, but not on one lattice: their particles at (%s) m and (%s) m "
-            "are (%s) spacings apart; sizes and positions of both in whole spacings, or pd.surface: volume, "
-            "are expected",
+            "bodies %s and %s are joined, but not on one lattice: their particles at (%s) m and (%s) m are (%s) "
+            "spacings apart; give sizes and positions of both in whole spacings, or set pd.surface: volume",
             own, other, here.text, there.text, apart.text);
-    return status_set(
-        REFUSED,
-        "body %s: its particles at (%s) m and (%s) m are (%s) spacings apart, so that they are not on one "
-        "lattice; distances of whole spacings, or pd.surface: volume, are expected",
-        own, here.text, there.text, apart.text);
+    return status_set(REFUSED,
+                      "body %s: its particles at (%s) m and (%s) m are (%s) spacings apart, so they are not on one "
+                      "lattice; use distances of whole spacings, or set pd.surface: volume",
+                      own, here.text, there.text, apart.text);
 }
 
 status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct bond_source *source,

@@ -24,7 +24,7 @@ status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comm
         c->line++;
         const size_t length = strlen(c->text), first = strcspn(c->text, "\r");
         if (c->text[first] && c->text[first + 1 + strspn(c->text + first + 1, "\r\n")])
-            return status_set(REFUSED, "%s:%lld: its lines end in carriage returns alone, line feeds are expected",
+            return status_set(REFUSED, "%s:%lld: lines end in carriage returns only; convert the file to line feeds",
                               c->path, (long long)c->line);
         if (length == 0 || (c->text[length - 1] != '\n' && !feof(c->file)))
             return status_set(REFUSED, "%s:%lld: not a line of text; %s", c->path, (long long)c->line, c->holds);

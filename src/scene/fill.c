@@ -121,11 +121,11 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     const struct scene *s = d->scene;
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
     if (!region_compute_bounding_box_if_finite(&s->body[body].shape, s->dim, from, to))
-        return particle_draft_refuse_body(d, body,
-                                          "its shape is infinite; add boxes, balls or cylinders of finite size");
+        return particle_draft_refuse_body(
+            d, body, "its shape is infinite; build it from finite solids such as boxes, balls or cylinders");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
         !first_solid_box(&s->body[0].shape, s->dim, low, high))
-        return particle_draft_refuse_body(d, body, "its first solid is infinite; begin with one of finite size");
+        return particle_draft_refuse_body(d, body, "its first solid is infinite; begin with a finite one");
     for (int a = 0; a < s->dim; a++) {
         struct axis *x = &axis[a];
         x->centre = 0.5 * (low[a] + high[a]);
@@ -136,7 +136,7 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
             return particle_draft_refuse_body(
-                d, body, "too large for the spacing: use a larger one, or check the units of both (mm?)");
+                d, body, "too large for particles.spacing: use a larger spacing, or check the units of both (mm?)");
         x->first = (int64_t)first, x->last = (int64_t)last;
         axis_round(x);
     }
@@ -180,7 +180,7 @@ static status fill_lattice(struct particle_draft *d, int body)
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
     if (!(spacing > 0))
-        return particle_draft_refuse_body(d, body, "a shape is filled with particles.spacing, which is not given");
+        return particle_draft_refuse_body(d, body, "particles.spacing, at which a shape is filled, is missing");
     TRY(lattice_axes(d, body, axis));
     for (int64_t k = axis[2].first; k <= axis[2].last; k++)
         for (int64_t j = axis[1].first; j <= axis[1].last; j++)
@@ -197,7 +197,7 @@ status fill_compute_lattice_site_position(const struct scene *s, int body, real 
     const struct particle_draft d = {.scene = s};
     struct axis axis[DIM_MAX] = {{0}};
     if (!(s->spacing > 0))
-        return particle_draft_refuse_body(&d, body, "a shape is filled with particles.spacing, which is not given");
+        return particle_draft_refuse_body(&d, body, "particles.spacing, at which a shape is filled, is missing");
     TRY(lattice_axes(&d, body, axis));
     for (int a = 0; a < s->dim; a++) X[a] = axis_place(&axis[a], axis[a].first);
     return OK;
@@ -282,8 +282,8 @@ static status check_values(const struct particles *p, const struct particle_draf
         if (!good)
             return particle_draft_refuse_body(
                 d, p->body[i],
-                "a particle is beyond 1e7 spacings from the origin, where doubles no longer resolve strains, or has no "
-                "finite mass: check that positions and spacing have the same unit, and move the body to the origin");
+                "a particle is beyond 1e7 spacings from the origin, where double precision no longer resolves strains, "
+                "or has no finite mass: give positions and spacing in the same unit, and move the body to the origin");
     }
     return OK;
 }
@@ -302,8 +302,8 @@ static status check_start(const struct particles *p, const struct particle_draft
         if (!good || !isfinite(sum))
             return particle_draft_refuse_body(
                 d, p->body[i],
-                "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or "
-                "gives it a speed or stress that is no number; strains near 1e-3 are usual");
+                "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or gives it a "
+                "speed or stress that is not a number: check its values (strains near 1e-3 are usual)");
     }
     return OK;
 }
@@ -338,7 +338,7 @@ static status check_distances(const struct particles *p, const struct particle_d
         status_set(REFUSED, "body %s has two particles at (%.6g, %.6g, %.6g) m: remove one from its list", one->name,
                    X[0], X[1], X[2]);
     else
-        status_set(REFUSED, "bodies %s and %s both have a particle at (%.6g, %.6g, %.6g) m: move or cut one of them",
+        status_set(REFUSED, "bodies %s and %s both have a particle at (%.6g, %.6g, %.6g) m: move one body, or cut it",
                    one->name, two->name, X[0], X[1], X[2]);
     return status_prepend_location((one > two ? one : two)->place, REFUSED);
 }
@@ -441,7 +441,7 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
     if (growth > 0 && !inverted) return OK;
     return status_prepend_location(
         initial->place,
-        status_set(REFUSED, "its displacement gradient turns the body inside out; strains near 1e-3 are usual"));
+        status_set(REFUSED, "its displacement gradient turns the body inside out; use strains near 1e-3"));
 }
 
 /* Applies to particle i every initial state of the scene s whose body and region contain it, in the order of the scene.
@@ -499,7 +499,7 @@ status fill_bodies_with_particles(struct particles *p, const struct scene *s,
 {
     struct particle_draft draft = {.scene = s, .hollow = hollow};
     *p = (struct particles){0};
-    status result = s->bodies > 0 ? draft_make(&draft) : status_set(REFUSED, "%s: no bodies", s->name);
+    status result = s->bodies > 0 ? draft_make(&draft) : status_set(REFUSED, "%s: give body or bodies", s->name);
     if (result == OK) result = fill_made(p, &draft, optional_arrays);
     if (result != OK) particles_free(p);
     draft_free(&draft);

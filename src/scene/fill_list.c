@@ -45,8 +45,9 @@ static status refuse_material(const struct scene *s, const struct particle_list 
     if (given < 0)
         return status_set(REFUSED, "%s: the scene has no material %s; it has %s", place, l->name[-1 - (int)given],
                           names);
-    return status_set(REFUSED, "%s: the scene has no material %s%d (numbered from %d in its order); it has %s", place,
-                      l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
+    return status_set(REFUSED,
+                      "%s: the scene has no material %s%d (numbered from %d in the order of the scene); it has %s",
+                      place, l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
 }
 
 /* Returns true if body k of the scene exists and takes its particles from the list in `file`. */
@@ -98,15 +99,15 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     char place[PLACE_LENGTH];
     const real volume = lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
     if (!l->volume && !(volume > 0))
-        return particle_draft_refuse_body(
-            d, body, "its list has no column volume, and there is no particles.spacing that says it");
+        return particle_draft_refuse_body(d, body,
+                                          "its list gives no volumes; add a column volume, or set particles.spacing");
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
         if (!shares_file(s, owner, path))
-            return status_set(REFUSED,
-                              "%s: this file is not that of body %d (numbered from 0 in the order of the "
-                              "scene)",
-                              entry_place(place, l, path, i, false), owner);
+            return status_set(
+                REFUSED,
+                "%s: the body with the number %d (counted from 0 in the order of the scene) does not use this file",
+                entry_place(place, l, path, i, false), owner);
         if (owner == body) TRY(take_entry(d, body, l, i, volume));
     }
     return OK;

@@ -173,35 +173,32 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
         c->s->body[c->body].list.volumes ? pow(v->filled, -1.0 / (real)c->s->dim) : NAN; /* 1 for a list without gaps */
     if (!isfinite(v->apart)) return OK; /* all at one position: refused by check_distances (fill.c) */
     if (v->lone > LONE_MOST)
-        return refuse_list(
-            c,
-            "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: particles of the list are "
-            "%.4g m apart; a list in m is expected%s, or its unit as in particles: {file: .., unit: mm}, or a "
-            "particles.spacing of about %.2g m",
-            c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
-            unit_guess(v->apart / spacing, by_volume), v->apart);
+        return refuse_list(c,
+                           "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: particles of "
+                           "the list are %.4g m apart; give the list in m%s, or name its unit as in particles: {file: "
+                           ".., unit: mm}, or set particles.spacing to about %.2g m",
+                           c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
+                           unit_guess(v->apart / spacing, by_volume), v->apart);
     if (v->apart < CLOSE_LEAST * spacing)
-        return refuse_list(
-            c,
-            "neighbours of the list are %.4g m apart, and the spacing is %.4g m; a particles.spacing of about "
-            "%.2g m is expected%s, or a list in m",
-            v->apart, spacing, v->apart, unit_guess(spacing / v->apart, NAN));
+        return refuse_list(c,
+                           "neighbours of the list are %.4g m apart, but the spacing is %.4g m; set particles.spacing "
+                           "to about %.2g m%s, or give the list in m",
+                           v->apart, spacing, v->apart, unit_guess(spacing / v->apart, NAN));
     if (!(v->filled < VOLUME_MOST && v->filled > 1 / VOLUME_MOST))
-        return refuse_list(
-            c,
-            "volumes of its particles are %.3g times the space up to their neighbours, which are %.4g m apart%s; "
-            "volumes in m^3 are expected%s",
-            v->filled, v->apart,
-            c->s->dim == 1   ? ", times the section"
-            : c->s->dim == 2 ? ", times the thickness"
-                             : "",
-            volume_guess(v->filled));
+        return refuse_list(c,
+                           "volumes of its particles are %.3g times the space up to their neighbours, which are %.4g m "
+                           "apart%s; give volumes in m^3%s",
+                           v->filled, v->apart,
+                           c->s->dim == 1   ? ", times the section"
+                           : c->s->dim == 2 ? ", times the thickness"
+                                            : "",
+                           volume_guess(v->filled));
     if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && machine_memory_size() > 0 &&
         bytes > (real)machine_memory_size())
         return refuse_list(c,
-                           "each of its particles has %.3g neighbours within %.4g spacings of %.4g m, whose bonds need "
-                           "some %.2g GB of memory, and %.2g GB are available (%s); particles of the list are %.4g m "
-                           "apart: a particles.spacing of this size is expected",
+                           "each of its particles has %.3g neighbours within %.4g spacings of %.4g m; their bonds need "
+                           "about %.2g GB of memory, but %.2g GB are available (%s). Particles of the list are %.4g m "
+                           "apart: set particles.spacing to this distance",
                            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)machine_memory_size() * 1e-9,
                            machine_memory_limit_name(), v->apart);
     return OK;

@@ -54,8 +54,9 @@ static status table_check(const struct table *t, const char *path, const char *n
 {
     struct stat about;
     if (stat(path, &about) != 0 || t->rows / ROWS_PER_BYTE_MOST > about.st_size)
-        return status_set(REFUSED, "%s: %s claims %lld entries, more than a file of its size holds", path, name,
-                          (long long)t->rows);
+        return status_set(REFUSED,
+                          "%s: %s claims %lld entries, more than a file of its size can contain; it is damaged", path,
+                          name, (long long)t->rows);
     return particle_list_check_memory(path, t->rows);
 }
 
@@ -65,14 +66,14 @@ static status table_check(const struct table *t, const char *path, const char *n
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
     if (hdf_is_link(file, name))
-        return status_set(REFUSED, "%s: %s is a link; a dataset of this file is expected", path, name);
+        return status_set(REFUSED, "%s: %s is a link; give a dataset of this file", path, name);
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
     if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset", path, name);
     bool good = table_shape(set, t);
     status checked = good ? table_check(t, path, name) : OK;
     if (good && !hdf_dataset_is_in_its_file(set))
-        checked = status_set(
-            REFUSED, "%s: the numbers of %s are stored in another file; numbers in this file are expected", path, name);
+        checked =
+            status_set(REFUSED, "%s: the numbers of %s are stored in another file; store them in this one", path, name);
     if (checked != OK) {
         H5Dclose(set);
         return checked;
@@ -147,7 +148,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
     particle_list_note_missing_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
     return status_set(
-        REFUSED, "%s: mass and density are both given, and each determines the other; leave one of them out", path);
+        REFUSED, "%s: mass and density are both given, but each determines the other; leave one of them out", path);
 }
 
 /* Reads the list l from the HDF5 file `path`. If the library crashes on a damaged file, the crash message names the
@@ -202,9 +203,11 @@ static status list_read(struct particle_list *l, const char *path, const struct 
     if (form) l->form = *form;
     struct stat about;
     const int format = list_format(path);
-    if (format == NO_LIST) return status_set(REFUSED, "%s: a particle list is a .csv, .h5 or .exo file", path);
+    if (format == NO_LIST)
+        return status_set(REFUSED, "%s: is not a particle list; give a file that ends in .csv, .h5 or .exo", path);
     if (l->form.columns && format != LIST_CSV)
-        return status_set(REFUSED, "%s: names its columns itself; columns are for files of text", path);
+        return status_set(
+            REFUSED, "%s: this kind of file names its columns itself; remove columns, which are for .csv files", path);
     if (stat(path, &about) != 0) return status_set(REFUSED, "%s: there is no such file", path);
     if (!S_ISREG(about.st_mode)) return status_set(REFUSED, "%s: not a plain file", path);
     status s = format == LIST_CSV    ? particle_list_read_csv(l, path, head)

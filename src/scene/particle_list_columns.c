@@ -54,7 +54,7 @@ void particle_list_note_missing_columns(struct particle_list_head *head, const b
     if (head->note[0]) particle_list_note_append(head, " ", "not read");
     if (head->unnamed) particle_list_note_append(head, "; ", "read as x y z block_id volume");
     if (head->block) particle_list_note_append(head, "; ", "block_id is the material, counted from 1");
-    if (!file_has_column[COLUMN_VOLUME]) particle_list_note_append(head, "; ", "no volumes: each that of the spacing");
+    if (!file_has_column[COLUMN_VOLUME]) particle_list_note_append(head, "; ", "no volumes: taken from the spacing");
 }
 
 void particle_list_free(struct particle_list *l)
@@ -96,7 +96,7 @@ status particle_list_check_memory(const char *path, int64_t particle_count)
 {
     const real bytes = (real)particle_count * PARTICLE_NUMBERS * sizeof(real);
     if (machine_memory_size() <= 0 || bytes <= (real)machine_memory_size()) return OK;
-    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB of memory, and %.2g GB are available (%s)",
+    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB of memory, but %.2g GB are available (%s)",
                       path, (real)particle_count, 1e-9 * bytes, 1e-9 * (real)machine_memory_size(),
                       machine_memory_limit_name());
 }

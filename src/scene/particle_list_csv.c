@@ -61,7 +61,7 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
     real one;
     *column = unit_find_factor_to_si(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
     if (*unit && unit_find_factor_to_si(&one, unit, list_quantity[*column].unit, what, sizeof what)) return OK;
-    return csv_report_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
+    return csv_report_fault(&c->in, name, "weight may be a mass or a volume; give its unit, such as weight [kg]");
 }
 
 /* Appends a column to c->column. name: its name with unit, such as `x [mm]`, which is modified; has[COLUMNS]: true for
@@ -74,11 +74,11 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
     int k = column_named(name, l->dim);
     if (c->fields == FIELDS_MAX) return csv_report_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
     if (strpbrk(name, "\"'"))
-        return csv_report_fault(&c->in, name,
-                                "unknown column '%.40s'; names without quotes, or in double ones, are expected", name);
+        return csv_report_fault(&c->in, name, "unknown column '%.40s'; write names without quotes or in double quotes",
+                                name);
     if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
     if (k == COLUMN_NONE)
-        particle_list_note_append(&l->head, ", ", *name ? name : "a column without a name");
+        particle_list_note_append(&l->head, ", ", *name ? name : "a column has no name");
     else if (has[k])
         return csv_report_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
     else if (!unit_find_factor_to_si(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
@@ -119,15 +119,15 @@ static status header_read(struct csv *c, struct particle_list *l)
     for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
     for (int k = 0; k < l->dim; k++)
         if (!has[k] && l->form.columns)
-            return status_set(REFUSED, "%s: columns: [%s] lack %s; name every column of the file, as in [%s]",
+            return status_set(REFUSED, "%s: columns: [%s] lack %s; name every column of the file, such as [%s]",
                               c->in.path, l->form.columns, list_quantity[k].name, names);
         else if (!has[k])
-            return csv_report_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
+            return csv_report_fault(&c->in, c->in.text, "column %s is missing; name it in the first line, such as %s",
                                     list_quantity[k].name, names);
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
         return csv_report_fault(
             &c->in, c->in.text,
-            "mass and density are both given, and each determines the other; leave one of them out");
+            "mass and density are both given, but each determines the other; leave one of them out");
     particle_list_note_missing_columns(&l->head, has);
     return OK;
 }
@@ -259,7 +259,9 @@ static status csv_header(struct csv *c, struct particle_list *l)
     bool more, comment = true;
     while (comment) {
         TRY(csv_read_line(&c->in, &more, &comment));
-        if (!more) return status_set(REFUSED, "%s: empty; the first line names the columns: x,y,z,volume", c->in.path);
+        if (!more)
+            return status_set(REFUSED, "%s: empty; begin with a line that names the columns, such as x,y,z,volume",
+                              c->in.path);
         if (!comment || *names) continue;
         header_bare(c->in.text);
         if (comment_names(c->in.text, l->dim)) strcpy(names, c->in.text), line = c->in.line;
@@ -271,7 +273,7 @@ static status csv_header(struct csv *c, struct particle_list *l)
     }
     if (line_of_numbers(c->in.text))
         return csv_report_fault(&c->in, c->in.text,
-                                "numbers, and no line before them names the columns, as x,y,volume");
+                                "numbers, but no line before them names the columns; add one, such as x,y,volume");
     header_bare(c->in.text);
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
@@ -284,7 +286,7 @@ static status csv_header_given(struct csv *c, struct particle_list *l)
     char entry[CSV_LINE_LENGTH];
     bool more;
     TRY(csv_read_data_line(&c->in, &more));
-    if (!more) return status_set(REFUSED, "%s: empty; one line for each particle is expected", c->in.path);
+    if (!more) return status_set(REFUSED, "%s: empty; give one line for each particle", c->in.path);
     strcpy(entry, c->in.text);
     snprintf(c->in.text, sizeof c->in.text, "%s", l->form.columns);
     TRY(header_read(c, l));
@@ -345,7 +347,7 @@ static status csv_value(struct csv *c, struct particle_list *l, int k, const cha
     if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
     if (end == field || *end != '\0' || strpbrk(field, "xX"))
         return csv_report_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
-                                strchr(field, ',') ? "; numbers have a point, not a comma" : "");
+                                strchr(field, ',') ? "; write numbers with a point, not a comma" : "");
     value = value * c->factor[k] - c->first[k];
     const char *fault = particle_list_reason_value_is_invalid(column, value);
     if (fault != NULL)
@@ -363,13 +365,13 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     for (int k = 0; k < c->fields; k++) {
         const char *field = csv_cut_field(&c->in, &rest);
         if (field == NULL)
-            return csv_report_fault(&c->in, c->in.text, "%d values; the %s %d columns", k,
+            return csv_report_fault(&c->in, c->in.text, "%d values, but the %s %d columns", k,
                                     l->form.columns ? "scene names" : "header names", c->fields);
         if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
     }
     if (rest != NULL)
         return csv_report_fault(&c->in, rest,
-                                "more values than the %d columns of the %s; numbers have a point, not a comma",
+                                "more values than the %d columns of the %s; write numbers with a point, not a comma",
                                 c->fields, l->form.columns ? "scene" : "header");
     l->line[l->n++] = c->in.line;
     return OK;
@@ -381,8 +383,8 @@ static status unnamed_check(const struct csv *c, const struct particle_list *l)
 {
     if (!l->head.unnamed || !c->whole || l->n == 0) return OK;
     return status_set(REFUSED,
-                      "%s:%lld:1: the fourth and the fifth column are whole numbers, and each may be the block or the "
-                      "volume; say which: {file: .., columns: [x, y, z, block, volume]} or [x, y, z, volume, block]",
+                      "%s:%lld:1: columns 4 and 5 are both whole numbers, so either may be the block or the volume; "
+                      "say which: {file: .., columns: [x, y, z, block, volume]} or [x, y, z, volume, block]",
                       c->in.path, (long long)l->line[0]);
 }
 
@@ -402,7 +404,7 @@ static status csv_entries(struct csv *c, struct particle_list *l, bool head)
 status particle_list_read_csv(struct particle_list *l, const char *path, bool only_header)
 {
     struct csv c = {0};
-    TRY(csv_open(&c.in, path, "a particle list has one particle a line"));
+    TRY(csv_open(&c.in, path, "a particle list has one particle per line"));
     status s = csv_entries(&c, l, only_header);
     csv_close(&c.in);
     return s;

@@ -55,15 +55,17 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
             return status_prepend_location(
                 s->body[b].place,
                 status_set(REFUSED,
-                           "body %s: the box around its file is %.4g m long and has %.1e lattice positions, 1e8 is the "
-                           "largest number; check its unit, and look for faces far from the others",
+                           "body %s: the box around its file is %.4g m long and has %.1e lattice positions, more than "
+                           "the limit of 1e8; check its unit, and look for faces far from the others",
                            s->body[b].name, longest_side(from, to, s->dim), count));
         total += count, longest = real_max(longest, longest_side(from, to, s->dim));
     }
     if (total <= 2e9) return OK;
     const struct yaml_node *spacing = scene_check_below(root, "particles", "spacing");
-    return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most (a body is %.4g m long)",
-                 node_text(r, spacing), total, longest);
+    return fault(
+        r, spacing,
+        "%s makes about %.1e particles, more than the limit of 2e9 (a body is %.4g m long); use a larger spacing",
+        node_text(r, spacing), total, longest);
 }
 
 /* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of particles,
@@ -75,11 +77,13 @@ status check_friction_is_supported(struct reader *r, const struct yaml_node *roo
     if (!(s->contact_friction > 0)) return OK;
     if (s->contact_form == CONTACT_PAIR)
         return fault(r, friction,
-                     "pairs of particles mesh like gears, which is rougher than friction; contact.law: "
-                     "surface is expected");
+                     "friction has no meaning with contact.law: pair, whose particles interlock like gears; set "
+                     "contact.law: surface");
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].kind == BOUNDARY_MIRROR)
-            return fault(r, friction, "there is no friction beside mirrors; 0, or a body without mirrors is expected");
+            return fault(r, friction,
+                         "friction cannot be combined with planes of symmetry (boundaries `mirror`); set 0, or remove "
+                         "the mirrors of this body");
     return OK;
 }
 
@@ -90,9 +94,9 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
     const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     for (int b = 0; b < s->boundaries && n; b++, n = n->next)
         if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_is_dynamic(s))
-            return fault(
-                r, yaml_node_find(n, "absorbing"),
-                "a static equilibrium has no waves, and nothing holds the body there; solver: explicit is expected");
+            return fault(r, yaml_node_find(n, "absorbing"),
+                         "a static equilibrium has no waves to absorb, and an absorbing face does not hold the body; "
+                         "set solver: explicit");
     return OK;
 }
 
@@ -105,11 +109,11 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
                            *levels = scene_check_below(root, "mpm", "levels");
     if (!(s->damping > 0)) return OK;
     if (!scene_is_dynamic(s))
-        return fault(r, damping, "a static equilibrium has no velocities; solver: explicit is expected");
+        return fault(r, damping, "a static equilibrium has no velocities to damp; set solver: explicit");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
         return fault(r, levels,
-                     "%s levels of coarse cells have different time steps, and damping requires one time step for the "
-                     "whole body; mpm.levels: 0 is expected",
+                     "%s levels of coarse cells have different time steps, but damping requires one time step for the "
+                     "whole body; set mpm.levels: 0",
                      node_text(r, levels));
     return OK;
 }
@@ -125,24 +129,22 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
         const struct boundary *load = &s->boundary[b];
         const bool formula = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0;
         if (load->kind == BOUNDARY_PRESSURE && s->irregularity > PRESSURE_SHAKEN)
-            return fault(
-                r, yaml_node_find(n, "pressure"),
-                "a pressure requires the positions of faces, which are not defined if particles.irregularity exceeds "
-                "%g spacings; a traction in its place, or a smaller particles.irregularity, is expected",
-                PRESSURE_SHAKEN);
+            return fault(r, yaml_node_find(n, "pressure"),
+                         "a pressure requires the positions of faces, which are undefined if particles.irregularity "
+                         "exceeds %g spacings; use a traction, or reduce particles.irregularity",
+                         PRESSURE_SHAKEN);
         if (!scene_is_single_equilibrium(s)) continue;
         if (load->follow)
-            return fault(r, yaml_node_find(n, "follow"),
-                         "a static equilibrium is found under loads on the reference state; "
-                         "solver: explicit with damping is expected");
+            return fault(
+                r, yaml_node_find(n, "follow"),
+                "a static equilibrium applies loads to the undeformed body; set solver: explicit with damping");
         if (load->rotates)
             return fault(r, yaml_node_find(n, "rotation"),
-                         "static solvers drive along straight lines; solver: explicit is "
-                         "expected");
+                         "static solvers drive along straight lines only; set solver: explicit");
         if (formula && boundary_check_displacement_known(load) != OK)
             return fault(r, yaml_node_find(n, "velocity"),
-                         "static solvers need the displacement, which does not follow from a velocity that is a "
-                         "formula of t; displacement is expected in its place");
+                         "static solvers need the displacement, but a velocity that is a formula of t does not give "
+                         "it; use displacement");
     }
     return OK;
 }
@@ -154,8 +156,8 @@ static status check_steps(struct reader *r, const struct yaml_node *root)
     const struct scene *s = r->scene;
     const struct yaml_node *step = scene_check_below(root, "time", "step");
     if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
-    return fault(r, step, "%s would take %.1e time steps; 1e12 is the largest number", node_text(r, step),
-                 s->duration / s->time_step);
+    return fault(r, step, "%s makes %.1e time steps, more than the limit of 1e12; use a larger step",
+                 node_text(r, step), s->duration / s->time_step);
 }
 
 /* Returns REFUSED if mpm.origin is more than FILL_FARTHEST spacings from 0, where particles may not be either. root:
@@ -167,7 +169,7 @@ static status check_origin(struct reader *r, const struct yaml_node *root)
         if (!(fabs(s->grid_origin[a]) <= FILL_FARTHEST * s->spacing))
             return fault(r, scene_check_below(root, "mpm", "origin"),
                          "%.3g m is more than 1e7 spacings from the origin, where double precision no longer resolves "
-                         "strains; a position near the origin is expected",
+                         "strains; use a position near the origin",
                          s->grid_origin[a]);
     return OK;
 }
@@ -178,8 +180,8 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
     if (!transfer || r->scene->shape != SHAPE_LINEAR || r->scene->transfer != TRANSFER_APIC) return OK;
     return fault(r, transfer,
-                 "apic with shape linear was measured unstable (strains from velocities that are not "
-                 "mapped again); flip, or shape gimp, is expected");
+                 "apic is unstable with shape linear (its strains come from velocities that are not mapped again); use "
+                 "flip, or shape gimp");
 }
 
 /* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
@@ -207,15 +209,14 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
-                     "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
+                     "lammps is the rule of LAMMPS' peri/pmb; set contact.law: pair and model: bond");
     if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
-        return fault(r, between, "a static equilibrium has no contact; solver: explicit is expected");
+        return fault(r, between, "a static solver has no contact; set solver: explicit");
     if (s->contact_between != CONTACT_NONE && scene_has_load_steps_with_softening_bonds(s))
-        return fault(r, between,
-                     "load steps of bonds that soften have no contact; none, or solver: explicit, is expected");
+        return fault(r, between, "load steps have no contact if bonds soften; set none, or solver: explicit");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
         return fault(r, friction,
-                     "there is no contact (contact.between: none), so there is no friction; leave it out, or use "
+                     "nothing has contact (contact.between: none), so friction has no effect; leave it out, or set "
                      "contact.between: all");
     return OK;
 }
@@ -313,15 +314,15 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         return "couplings pm to pgg need the grid of the current frame";
     if (s->cell != 2) return "the reference frame needs mpm.cell: 2";
-    if (s->irregularity > 0) return "it needs a regular lattice";
-    if (s->body[body].list.mass) return "particles with masses of their own need the current frame";
+    if (s->irregularity > 0) return "it needs particles on a regular lattice";
+    if (s->body[body].list.mass) return "particles with a mass from a list need the current frame";
     if (!body_yields(s, body)) return NULL;
     if (s->method != METHOD_MPM)
-        return scene_has_load_steps(s) ? "its material yields, which load steps do with method: mpm or pd"
-                                       : "materials that yield need method: mpm there";
-    if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic there";
+        return scene_has_load_steps(s) ? "its material yields; load steps can do this with method: mpm or pd only"
+                                       : "materials that yield need method: mpm in this frame";
+    if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic in this frame";
     if (scene_is_dynamic(s) && s->levels != LEVELS_AUTO && s->levels > 0)
-        return "materials that yield need mpm.levels: 0 there, as they have one time step";
+        return "materials that yield need mpm.levels: 0 (one time step) in this frame";
     return NULL;
 }
 
@@ -329,10 +330,10 @@ const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, 
 {
     const char *why = scene_why_reference_frame_unsupported(s, body);
     if (why) return why;
-    if (s->bodies > 1) return "bodies meet on the grid of the current frame only";
-    if (s->body[body].file) return "particles from a list need not be a lattice";
+    if (s->bodies > 1) return "bodies have contact only on the grid of the current frame";
+    if (s->body[body].file) return "it needs particles on a regular lattice, which particles from a list may not have";
     if (!scene_has_load_steps(s) && body_yields(s, body))
-        return "materials that yield may strain beyond the reference frame";
+        return "materials that yield may strain more than the reference frame allows";
     return NULL;
 }
 
@@ -395,8 +396,8 @@ static status check_times(struct reader *r, const struct yaml_node *root)
                            *times = scene_check_below(root, "output", "times");
     if (every && (frames || times)) return fault_report_exclusive_keys(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
-        return fault(r, every, "an interval of %s makes more than %d frames; at least %.3g s is expected",
-                     node_text(r, every), FRAMES_MOST, s->duration / FRAMES_MOST);
+        return fault(r, every, "an interval of %s makes more than %d frames; use at least %.3g s", node_text(r, every),
+                     FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
     if (frames) return fault_report_exclusive_keys(r, frames, times);
@@ -409,7 +410,7 @@ static status check_times(struct reader *r, const struct yaml_node *root)
 static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *n = yaml_node_find(root, "accuracy");
-    return n ? fault(r, n, "has no meaning without method: auto; leave it out") : OK;
+    return n ? fault(r, n, "has no effect without method: auto; leave it out") : OK;
 }
 
 /* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models in
@@ -421,23 +422,22 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *model = yaml_node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
-        return fault(r, surface, "moments needs a regular lattice in 2D or 3D; %s is expected",
+        return fault(r, surface, "moments needs a regular lattice in 2D or 3D; use %s",
                      s->model == MODEL_BOND ? "volume or none" : "none");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
         return fault(r, surface,
-                     "with model %s the surface correction moments is possible only with method: pd and "
-                     "pd.normalisation: bulk; pd.surface: none is expected",
+                     "with model %s the surface correction moments needs method: pd and pd.normalisation: bulk; set "
+                     "pd.surface: none",
                      node_text(r, model));
     if (s->dim == 1 && s->calibration != CALIBRATION_LATTICE && s->influence == INFLUENCE_INVERSE_SQUARE)
         return fault(r, scene_check_below(root, "pd", "influence"),
-                     "inverse square has no continuum integral in one dimension; pd.calibration: lattice is expected");
+                     "inverse square has no continuum integral in one dimension; set pd.calibration: lattice");
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1)
-        return fault(r, model, "model %s is not defined in one dimension (space: line); model: bond is expected",
+        return fault(r, model, "model %s is not defined in one dimension (space: line); set model: bond",
                      node_text(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
-        return fault(r, surface,
-                     "%s is for model bond; with model %s the key pd.normalisation corrects bonds near surfaces",
+        return fault(r, surface, "%s is for model bond; with model %s, correct bonds near surfaces by pd.normalisation",
                      node_text(r, surface), node_text(r, model));
     return OK;
 }
@@ -454,18 +454,17 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
     if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver, "%s is for elastic materials, and material %s yields; solver: explicit is expected",
+            return fault(r, solver, "%s is for elastic materials, but material %s yields; set solver: explicit",
                          node_text(r, solver), s->material[m].name);
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
-        return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
+        return fault(r, solver, "cg works with method pd only; with material points use relaxation");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
         return fault(r, solver,
-                     "relaxation with transfer flip was measured to creep (light nodes at the border never "
-                     "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
+                     "with mpm.transfer: flip a relaxation never settles (light nodes at the border keep moving); set "
+                     "mpm.transfer: apic and an mpm.shape other than linear");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
-            return fault(r, solver,
-                         "solver: %s computes no time steps, in which probe %s measures; explicit is expected",
+            return fault(r, solver, "solver: %s has no time steps, which probe %s needs; set solver: explicit",
                          node_text(r, solver), s->probe[k].name);
     return OK;
 }

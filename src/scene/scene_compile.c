@@ -48,7 +48,8 @@ bool quantity_is_dimensionless(const struct quantity *q) { return same_unit(q, &
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
-        return compile_write_fault_and_return_false(c, "has more than %d numbers and operations", EXPRESSION_STEPS);
+        return compile_write_fault_and_return_false(c, "has more than %d numbers and operations; shorten it",
+                                                    EXPRESSION_STEPS);
     c->step[c->steps++] = (struct expression_step){op, value};
     return true;
 }
@@ -56,7 +57,8 @@ static bool add_step(struct compile *c, enum expression_op op, real value)
 bool compile_append_push_of_operand(struct compile *c, enum expression_op operation, const struct quantity *q)
 {
     if (c->operands == EXPRESSION_STACK)
-        return compile_write_fault_and_return_false(c, "holds more than %d values open", EXPRESSION_STACK);
+        return compile_write_fault_and_return_false(
+            c, "has more than %d unfinished operations; use fewer nested brackets", EXPRESSION_STACK);
     c->operand[c->operands++] = (struct operand){*q, operation == EXPRESSION_NUMBER};
     return add_step(c, operation, q->value);
 }
@@ -82,7 +84,7 @@ bool compile_append_operation(struct compile *c, enum expression_op operation, c
     a->constant = constant;
     if (!constant) return add_step(c, operation, 0);
     c->steps -= two ? 2 : 1;
-    if (!isfinite(a->q.value)) return compile_write_fault_and_return_false(c, "has a part that is no finite number");
+    if (!isfinite(a->q.value)) return compile_write_fault_and_return_false(c, "has a part that is not a finite number");
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
@@ -98,17 +100,16 @@ bool compile_match_units_of_top_operands(struct compile *c, const char *operatio
     if (is_nothing(compile_operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
     if (is_nothing(compile_operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
     if (same_unit(a, b)) return true;
-    return compile_write_fault_and_return_false(
-        c, "combines %s and %s by %s (character %d); both are expected to have the same unit",
-        quantity_unit_name(a).text, quantity_unit_name(b).text, operation_name,
-        compile_character_number(c, operator_in_text));
+    return compile_write_fault_and_return_false(c, "combines %s and %s by %s (character %d); give both the same unit",
+                                                quantity_unit_name(a).text, quantity_unit_name(b).text, operation_name,
+                                                compile_character_number(c, operator_in_text));
 }
 
 static bool unit_in_bounds(struct compile *c, const struct quantity *q)
 {
     for (int k = 0; k < 3; k++)
         if (q->twice[k] > POWER_MOST || q->twice[k] < -POWER_MOST)
-            return compile_write_fault_and_return_false(c, "has a power of a unit beyond %d", POWER_MOST / 2);
+            return compile_write_fault_and_return_false(c, "has a unit with a power above %d", POWER_MOST / 2);
     return true;
 }
 
@@ -146,11 +147,11 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     for (int k = 0; k < 3; k++) {
         const real twice = unit->twice[k] * power;
         if (twice != floor(twice) || fabs(twice) > POWER_MOST)
-            return compile_write_fault_and_return_false(
-                c,
-                "raises %s (character %d) to a power whose unit cannot be represented; whole and half "
-                "powers of m, kg and s can be",
-                quantity_unit_name(&compile_operand_from_top(c, 1)->q).text, place);
+            return compile_write_fault_and_return_false(c,
+                                                        "raises %s (character %d) to a power whose unit cannot be "
+                                                        "represented; use whole and half powers of m, kg and s",
+                                                        quantity_unit_name(&compile_operand_from_top(c, 1)->q).text,
+                                                        place);
         unit->twice[k] = (int)twice;
     }
     return true;
@@ -169,8 +170,8 @@ bool compile_append_power(struct compile *c, const char *operator_in_text)
                                                     quantity_unit_name(&b->q).text, place);
     if (!quantity_is_dimensionless(&unit) && !b->constant)
         return compile_write_fault_and_return_false(
-            c, "raises %s to a power that varies (character %d); a constant number is expected as the power",
-            quantity_unit_name(&unit).text, place);
+            c, "raises %s to a power that varies (character %d); use a constant power", quantity_unit_name(&unit).text,
+            place);
     if (!quantity_is_dimensionless(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
     if (two) c->operands--, c->steps--; /* without the exponent 2 */
     return compile_append_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);

@@ -33,7 +33,7 @@ status fault_report_missing_key(struct reader *r, const struct yaml_node *map, c
     const int group = leaf > k->path ? (int)(leaf - k->path) - 1 : 0;       /* length of the path before the last dot */
     const bool helps = k->type != KEY_CHOICE && strcmp(example, "..") != 0; /* the words of a choice are listed */
     return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; %s is expected%s%s", leaf,
-                             group > 0 ? " in " : "", group, k->path, form_text(r, k), helps ? ", as " : "",
+                             group > 0 ? " in " : "", group, k->path, form_text(r, k), helps ? ", such as " : "",
                              helps ? example : "");
 }
 

@@ -99,7 +99,7 @@ static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
         return compile_write_fault_and_return_false(c, "ends where %s is expected%s", expected,
-                                                    c->depth > 0 ? " (in a list a formula with a comma needs quotes)"
+                                                    c->depth > 0 ? " (in a list, put a formula with a comma in quotes)"
                                                                  : "");
     size_t length = name_length(c->at);
     if (length == 0) length = 1;
@@ -138,7 +138,7 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
     if (two) unit = compile_operand_from_top(c, 1)->q;
     if (f->rule == PLAIN && !quantity_is_dimensionless(&unit))
         return compile_write_fault_and_return_false(
-            c, "applies %s to %s (character %d); a plain number is expected, as (t/5us)", f->name,
+            c, "applies %s to %s (character %d); a plain number is expected, such as (t/5us)", f->name,
             quantity_unit_name(&unit).text, compile_character_number(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
@@ -185,9 +185,9 @@ static bool compile_coordinate(struct compile *c, char name)
     struct quantity q = {.twice = {2, 0, 0}};
     if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
     if (!(c->of & (name == 't' ? EXPRESS_TIME : EXPRESS_SPACE)))
-        return compile_write_fault_and_return_false(c, "contains %c, which has no meaning in this key", name);
+        return compile_write_fault_and_return_false(c, "contains %c, which this key does not have", name);
     if (name != 't' && name - 'x' >= c->r->dim)
-        return compile_write_fault_and_return_false(c, "contains %c; space %s does not have it", name,
+        return compile_write_fault_and_return_false(c, "contains %c, which space %s does not have", name,
                                                     space_names[c->r->scene->space]);
     return compile_append_push_of_operand(
         c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
@@ -207,7 +207,7 @@ static bool compile_name(struct compile *c)
     const size_t length = name_length(at);
     char name[NAME_MOST + 1];
     if (length > NAME_MOST)
-        return compile_write_fault_and_return_false(c, "has a name of more than %d letters", NAME_MOST);
+        return compile_write_fault_and_return_false(c, "has a name of more than %d letters; shorten it", NAME_MOST);
     snprintf(name, sizeof name, "%.*s", (int)length, at);
     c->at += length;
     skip(c);
@@ -215,7 +215,7 @@ static bool compile_name(struct compile *c)
     if (*c->at == '(' && f) return compile_call(c, f, at);
     if (*c->at == '(')
         return compile_write_fault_and_return_false(
-            c, "has an unknown function %s (character %d); `cleave help expression` lists them", name,
+            c, "has an unknown function %s (character %d); see `cleave help expression`", name,
             compile_character_number(c, at));
     if (f) return missing(c, "( and what it is of");
     if (length == 1 && strchr("xyzt", *name)) return compile_coordinate(c, *name);
@@ -240,9 +240,7 @@ static bool compile_number(struct compile *c, bool power)
     const int letters = (int)name_length(rest);
     if (letters == 0) return compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q);
     return compile_write_fault_and_return_false(
-        c,
-        "has an unknown unit %.*s (character %d); between a number and a name an operation is "
-        "expected",
+        c, "has an unknown unit %.*s (character %d); write an operation, such as *, between a number and a name",
         letters < 30 ? letters : 30, rest, compile_character_number(c, rest));
 }
 
@@ -349,7 +347,8 @@ status read_expression(struct reader *r, const struct key *k, const struct yaml_
     struct compile c = {.r = r, .of = allowed_variables, .text = n->text, .what = what, .room = sizeof what};
     const struct unit_row *unit = &unit_rows[k->unit];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is no expression; %s is expected, as %s", node_text(r, n), unit->name, unit->example);
+        return fault(r, n, "%s is not an expression; %s is expected, such as %s", node_text(r, n), unit->name,
+                     unit->example);
     if (number_constant(n, k, expression)) return OK;
     if (!compile_text(&c)) return fault(r, n, "%s %s", node_text(r, n), what);
     const struct operand *result = &c.operand[0];

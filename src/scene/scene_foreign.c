@@ -52,16 +52,15 @@ static const struct foreign {
     {"precrack|pre_crack|pre_cracks|precracks|crack_list|notch|notches|initial_crack|slit|slits|flaw", "cracks", NULL},
     {"tie|tied|cohesive|cohesive_zone|czm|interface|adhesion|adhesive|glue|bonded", "interfaces", NULL},
     {"compression_strength|f_c|fc|crushing_strength|crushing", "material.compressive_strength material.yield_stress",
-     "=with `compressive_strength` beside `tensile_strength`, a strength surface starts the softening of bonds; Cleave "
-     "does not do crushing; `yield_stress` limits stress in both"},
+     "=with `compressive_strength` and `tensile_strength`, bonds begin to soften at a strength surface; Cleave has no "
+     "crushing; `yield_stress` limits stress in tension and compression"},
     {"fatigue|cycles|paris|paris_law|n_cycles|s_n_curve", "steps",
-     "=Cleave does not do fatigue; load steps (`solver: static`, `steps`) follow a crack under one growing load"},
+     "=Cleave has no fatigue; load steps (`solver: static`, `steps`) follow a crack under one growing load"},
     {"phase_field|length_scale|l0|regularisation|regularization|xfem", "particles.horizon",
-     "=Cleave does not do phase fields or XFEM: cracks are broken bonds, and the length is the horizon, "
+     "=Cleave has no phase fields or XFEM: cracks are broken bonds, and the length scale is the horizon, "
      "particles.horizon"},
     {"erosion|element_deletion|deletion|kill", "material.critical_stretch",
-     "=Cleave does not do deletion of particles: bonds break (energy_release_rate, toughness or critical_stretch), "
-     "mass stays"},
+     "=Cleave does not delete particles: bonds break (energy_release_rate, toughness or critical_stretch), mass stays"},
     /* yielding */
     {"yield|yielding|yield_strength|yield_point|sigma_y|sigy|plastic|plasticity|von_mises|mises|ductile|j2",
      "material.yield_stress material.yield_tangent material.yield_hardening",
@@ -75,7 +74,7 @@ static const struct foreign {
     {"friction_angle|cohesion|dilation_angle|dilatancy|drucker_prager|mohr_coulomb|cap|pressure_dependence|concrete|"
      "soil|sand",
      "material.yield_stress contact.friction",
-     "=Cleave does not do yielding that depends on pressure (Mohr-Coulomb, Drucker-Prager); nearest: yield_stress (von "
+     "=Cleave has no yielding that depends on pressure (Mohr-Coulomb, Drucker-Prager); nearest: yield_stress (von "
      "Mises), and contact.friction between faces"},
     {"kinematic_hardening|backstress|back_stress|chaboche|prager|armstrong_frederick|bauschinger", "material.kinematic",
      "=`kinematic` has one back stress, with modulus and recall"},
@@ -88,38 +87,36 @@ static const struct foreign {
      "`specific_heat`"},
     {"thermal|expansion|thermal_expansion|cte|alpha_t|conductivity|thermal_conductivity|diffusion|cooling",
      "initial.displacement_gradient",
-     "=Cleave does not do thermal expansion or flow of heat; a uniform strain at the start comes nearest: "
+     "=Cleave has no thermal expansion or flow of heat; nearest: a uniform strain at the start, "
      "initial.displacement_gradient"},
     {"orthotropic|orthotropy|anisotropic|anisotropy|transversely_isotropic|fibre|fiber|fibres|fibers|fibre_angle|"
      "fiber_angle|laminate|laminae|composite|E1|E2|E3|E11|E22|E33|nu12|nu13|nu23|G12|G13|G23",
      "parts material.young",
-     "=Cleave does not do anisotropic materials; regions of isotropic ones come nearest: materials, with parts"},
+     "=Cleave has no anisotropic materials; nearest: regions of isotropic ones, by materials with parts"},
     {"hyperelastic|neo_hooke|neo_hookean|mooney_rivlin|ogden|C10|D1|rubber|foam", "material.young mpm.strain",
-     "=Cleave does not do hyperelastic laws; Hooke's law with large rotations comes nearest: young, poisson"},
+     "=Cleave has no hyperelastic laws; nearest: Hooke's law with large rotations, by young and poisson"},
     {"viscoelastic|viscoelasticity|prony|creep|relaxation_time|maxwell|kelvin_voigt|stiffness_damping|beta",
      "damping material.viscosity",
-     "=Cleave does not do viscoelasticity or creep; damping by mass comes nearest: the key damping"},
+     "=Cleave has no viscoelasticity or creep; nearest: damping by mass, the key damping"},
     {"eos|equation_of_state|mie_gruneisen|gruneisen|hugoniot|jwl|explosive|detonation",
      "boundary.pressure material.viscosity",
-     "=Cleave does not do equations of state or explosives; a pressure that is a function of time comes nearest: "
+     "=Cleave has no equations of state or explosives; nearest: a pressure that is a function of time, "
      "boundary.pressure"},
     {"fluid|water|pore_pressure|permeability|porosity|biot|hydraulic|fluid_pressure",
      "boundary.pressure boundary.follow",
-     "=Cleave does not do fluids or pores; a pressure on faces comes nearest: boundary.pressure"},
+     "=Cleave has no fluids or pores; nearest: a pressure on faces, boundary.pressure"},
     {"periodic|periodicity|pbc|periodic_boundary", "boundary.mirror",
-     "=Cleave does not do periodic boundaries; planes of symmetry come nearest: boundary: {mirror: ...}"},
+     "=Cleave has no periodic boundaries; nearest: planes of symmetry, boundary: {mirror: ...}"},
     {"electric|magnetic|piezoelectric|corrosion|hydrogen|moisture|chemistry", "",
-     "=Cleave does not do this physics: it solves the motion and fracture of solids alone"},
+     "=Cleave does not compute this: it solves the motion and fracture of solids only"},
     {"shell|shells|beam|beams|truss|plate|membrane", "space thickness",
-     "=Cleave does not do shells or beams; space: plane stress, or solid with 4 or more particles across comes "
-     "nearest"},
+     "=Cleave has no shells or beams; nearest: space: plane stress, or solid with 4 or more particles across"},
     {"axisymmetric|axisymmetry|axial_symmetry", "space boundary.mirror",
-     "=Cleave does not do axial symmetry; a quarter of the solid between two mirrors comes nearest: space: solid"},
+     "=Cleave has no axial symmetry; nearest: space: solid with a quarter of the solid between two mirrors"},
     {"modal|eigenvalue|eigenfrequency|frequency|buckling|eigen", "probes.point",
-     "=Cleave does not do modes; free vibration recorded by a probe `point` comes nearest"},
+     "=Cleave does not compute modes; nearest: free vibration recorded by a probe `point`"},
     {"implicit|newmark|hht|newton|newton_raphson|arc_length|riks", "solver steps",
-     "=Cleave does not do implicit dynamics; solver: static with `steps` follows equilibria, `steps.control` their "
-     "path"},
+     "=Cleave has no implicit dynamics; solver: static with `steps` follows equilibria, `steps.control` their path"},
     {"title|job|jobname|job_name|heading|header", "name", NULL},
     {"adaptive|coupled|coupling", "method", "as method: adaptive"},
     {"step|stage|load_case|analysis_step", "duration time.step steps",
@@ -160,7 +157,7 @@ static const struct foreign {
     {"gimp|ugimp|cpdi|shape_function|shape_functions", "mpm.shape", NULL},
     {"pic|flip|apic|xpic|pic_fraction", "mpm.transfer", "as flip or apic"},
     {"mass_scaling", "time.step solver",
-     "=Cleave does not do mass scaling; solver: static or relaxation finds equilibria without time"},
+     "=Cleave has no mass scaling; solver: static or relaxation finds equilibria without time"},
     {"geometry|domain|part|instance|specimen|sample", "body bodies", "or `bodies`"},
     {"material_model|constitutive|constitutive_model|law|bond_type|pair_style|formulation|lps|pmb", "model", NULL},
     {"sphere", "solid.ball solid.disc", NULL},
@@ -208,8 +205,7 @@ static const struct foreign {
      NULL},
     {"crack_speed|tip_speed|crack_tip|crack_path|crack_length", "probes.tip crack.speed_window", NULL},
     {"units|unit_system|unit", "",
-     "=Cleave does not do unit systems: numbers are SI unless a unit stands behind them, as 0.5 mm (`cleave help "
-     "units`)"},
+     "=Cleave has no unit systems: numbers are SI unless a unit follows them, such as 0.5 mm (`cleave help units`)"},
 };
 
 /* Words that people try within a group of keys, where the word alone has another meaning or is the name of another key.
@@ -262,7 +258,7 @@ static const struct {
     {"material.johnson_cook", "c|rate_coefficient", "here it is `C`"},
     {"material.johnson_cook", "M|thermal_exponent|softening_exponent", "here it is `m`"},
     {"material.johnson_cook", "D1|D2|D3|D4|D5|failure|damage|failure_strain",
-     "Cleave does not do Johnson and Cook's failure law (D1 to D5): bonds break by energy_release_rate, toughness or "
+     "Cleave does not have Johnson and Cook's failure law (D1 to D5): bonds break by energy_release_rate, toughness or "
      "critical_stretch of the material"},
     {"material.johnson_cook", "c_p|cp|specific_heat|taylor_quinney|beta|chi",
      "specific_heat and taylor_quinney are keys of the material, beside johnson_cook"},
@@ -288,9 +284,9 @@ static const struct {
     const char *path, *words, *text;
 } foreign_values[] = {
     {"model", "correspondence|nosb|nosbpd|nosb_pd|non_ordinary|state_based|neo_hookean|elastic|linear_elastic",
-     "Cleave does not do correspondence or other laws of bonds; mospd comes nearest"},
+     "Cleave has no correspondence or other laws of bonds; nearest: mospd"},
     {"solver", "implicit|newmark|hht|newton|newton_raphson|arc_length|quasi_static|quasistatic",
-     "Cleave does not do implicit dynamics; static, with load steps, follows equilibria"},
+     "Cleave has no implicit dynamics; static, with load steps, follows equilibria"},
     {"contact.stiffness", "*", "it is a factor of the stiffness of the bonds, not a stiffness in N/m or N/m^3"},
     {"crack", "*", "pre-cracks are the key `cracks`: cracks: [{from: [0, 0], to: [5 mm, 0]}]"},
     {"time", "*", "the simulated time is the key `duration`, and the time step is time: {step: 1 ns}"},

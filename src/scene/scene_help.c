@@ -152,7 +152,7 @@ static status help_unknown(const char *path)
     if (words_are_similar(nearest->path, path) || words_are_similar(key_last_part(nearest), path))
         return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
     return status_set(REFUSED,
-                      "%.64s: neither a key nor a page; `cleave help scene` lists the keys, and the pages are units, "
+                      "%.64s: neither a key nor a page; `cleave help scene` lists the keys; pages are units, "
                       "expression, run, theory and trust; the manual is inputs/README.md",
                       path);
 }
@@ -237,7 +237,7 @@ status scene_print_help_on_keys(FILE *out, const char *key)
     int found = 0;
     if (key) path_of_table(key, path, sizeof path);
     const char *now = key_current_name_of_former_key(path);
-    if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
+    if (now) fprintf(out, "%s has been renamed to %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += key_is_at_or_below_path(&keys[k], path);
     if (found == 0) return help_word_of_keys(out, path) > 0 ? OK : help_unknown(path);
     if (!key)

@@ -22,8 +22,9 @@ static status grey_range_read(struct reader *r, const struct yaml_node *n, const
     else if (sscanf(text, "%d - %d%n", &low, &high, &end) != 2 || text[end] != '\0')
         low = -1;
     if (low < 0 || high < low || high > GREY_MAX)
-        return fault(r, n, "%s is no grey value; 255 or 100-255, up to %d, is expected", text_for_message(r, text),
-                     GREY_MAX);
+        return fault(
+            r, n, "%s is not a grey value; give a number such as 255, or a range such as 100-255 (largest value: %d)",
+            text_for_message(r, text), GREY_MAX);
     if (p->ranges == GREY_RANGES_MAX) return fault(r, n, "more than %d ranges of grey values", GREY_RANGES_MAX);
     p->range[p->ranges++] = (struct grey_range){low, high};
     return OK;
@@ -34,9 +35,11 @@ status read_grey_values(struct reader *r, const struct yaml_node *values_node, s
     p->ranges = 0;
     if (values_node->kind == NODE_SCALAR) return grey_range_read(r, values_node, values_node->text, p);
     if (values_node->kind != NODE_LIST || values_node->n == 0)
-        return fault(r, values_node, "is no grey value; 255, 100-255 or a list of these is expected");
+        return fault(r, values_node,
+                     "is not a grey value; give a number such as 255, a range such as 100-255, or a list of these");
     for (const struct yaml_node *item = values_node->first; item; item = item->next) {
-        if (item->kind != NODE_SCALAR) return fault(r, item, "is no grey value; 255 or 100-255 is expected");
+        if (item->kind != NODE_SCALAR)
+            return fault(r, item, "is not a grey value; give a number such as 255, or a range such as 100-255");
         TRY(grey_range_read(r, item, item->text, p));
     }
     return OK;
@@ -69,9 +72,9 @@ status read_grey_materials(struct reader *r, const struct yaml_node *materials_n
 {
     if (!r->bounded || r->cutting)
         return fault(r, materials_node,
-                     "belongs to an image that is the shape of a body; here values, such as 100-255, is expected");
+                     "is only for an image that is the shape of a body; here give values, such as 100-255");
     TRY(expect_node_kind(r, materials_node, NODE_MAP,
-                         "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
+                         "a mapping of grey values to materials, such as {0: void, 1-255: rock}"));
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
     p->ranges = 0;
@@ -81,14 +84,13 @@ status read_grey_materials(struct reader *r, const struct yaml_node *materials_n
         if (s != OK) break;
         const struct grey_range range = p->range[before];
         for (int grey = range.low; grey <= range.high && s == OK; grey++) {
-            if (in[grey])
-                s = fault(r, c, "grey value %d is in two of the ranges; each value in one range only is expected",
-                          grey);
+            if (in[grey]) s = fault(r, c, "grey value %d is in two of the ranges; keep it in one", grey);
             in[grey] = true;
         }
         if (is_void(c)) p->ranges = before;
     }
-    if (s == OK && p->ranges == 0) s = fault(r, materials_node, "all is void; a material is expected");
+    if (s == OK && p->ranges == 0)
+        s = fault(r, materials_node, "all grey values are void; give at least one of them a material");
     if (s == OK) s = check_covered(r, materials_node, voxels, in);
     memory_free(in);
     r->grey_materials++;
@@ -162,5 +164,5 @@ status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *s
     }
     if (found == wanted) return OK;
     return fault(r, shape_node,
-                 "materials of an image within other solids; the image itself in the list of the shape is expected");
+                 "has materials, but is inside another solid; put the image itself into the list of the shape");
 }

@@ -111,26 +111,27 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     char *text, *path;
     size_t length;
     if (n->kind != NODE_SCALAR || is_empty(n))
-        return fault(r, n, "%s is no file name; a scene is expected", node_text(r, n));
-    if (!r->files) return fault(r, n, "%s is not read here; a scene without includes is expected", node_text(r, n));
+        return fault(r, n, "%s is not a file name; give a scene file", node_text(r, n));
+    if (!r->files)
+        return fault(r, n, "%s: scenes with include cannot be read here; give a scene without it", node_text(r, n));
     path = path_from(r, n);
     if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
-        return fault(r, n, "%s cannot be read; a scene in the folder of this one is expected", node_text(r, n));
+        return fault(r, n, "%s cannot be read; give a scene file in the folder of this one", node_text(r, n));
     if (is_open(chain, &file))
-        return fault(r, n, "%s includes itself, or this scene; a scene outside this circle is expected",
-                     node_text(r, n));
+        return fault(r, n, "%s includes itself, or this scene; remove one of these includes", node_text(r, n));
     if (length_of(chain) == CHAIN_MOST)
-        return fault(r, n, "%s would be the end of a chain of more than %d scenes, each included by the one before",
+        return fault(r, n, "%s ends a chain of more than %d scenes, each included by the one before; shorten it",
                      node_text(r, n), CHAIN_MOST);
-    if (r->includes == INCLUDED_MOST) return fault(r, n, "more than %d scenes are included", INCLUDED_MOST);
+    if (r->includes == INCLUDED_MOST)
+        return fault(r, n, "more than %d scenes are included; merge some of them", INCLUDED_MOST);
     const int origin = ORIGIN_INCLUDED - r->includes;
     r->included[r->includes++] = path;
     TRY(file_read_bytes(path, &text, &length));
     const status read = tree_parse_yaml(r, text, length, origin, root);
     memory_free(text);
     TRY(read);
-    if (!*root) return fault_at_location(r, origin, 1, 1, "empty; a scene begins with keys such as space and duration");
-    TRY(expect_node_kind(r, *root, NODE_MAP, "a mapping of keys to values, as a scene is"));
+    if (!*root) return fault_at_location(r, origin, 1, 1, "empty; begin with keys such as space and duration");
+    TRY(expect_node_kind(r, *root, NODE_MAP, "a scene (a mapping of keys to values)"));
     TRY(tree_rename_old_keys(r, *root));
     struct yaml_node *name = yaml_node_find(*root, "name");
     if (name) yaml_node_remove(*root, name);
@@ -171,6 +172,6 @@ status tree_merge_included_files(struct reader *r, struct yaml_node *root)
     for (int k = 0; k < r->overrides; k++)
         if (strcmp(r->override[k].key, "include") == 0)
             return fault_at_location(r, k, 0, 0,
-                                     "include: stands in a file; a scene that includes this one can change it");
+                                     "include: can be given in a file only; write a scene that includes this one");
     return OK;
 }

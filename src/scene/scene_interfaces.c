@@ -15,7 +15,7 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
     const struct yaml_node *names = yaml_node_find(n, "bodies");
     if (!names) return fault_report_missing_key(r, n, key_find("interfaces", "bodies"));
     if (names->kind != NODE_LIST || names->n != 2)
-        return fault(r, names, "names of two bodies are expected, as [plate, layer]");
+        return fault(r, names, "names of two bodies are expected, such as [plate, layer]");
     const struct yaml_node *name = names->first;
     for (int k = 0; k < 2; k++, name = name->next) {
         face->body[k] = -1;
@@ -25,15 +25,15 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
             if (name->kind == NODE_SCALAR && strcmp(s->body[s->bodies + b].name, name->text) == 0)
                 return fault(
                     r, name,
-                    "%s is rigid, and bonds join bodies with particles only; name two of these, or rely on contact",
+                    "%s is rigid, but bonds join only bodies with particles; name two such bodies, or rely on contact",
                     name->text);
-        if (face->body[k] < 0) return fault(r, name, "no body of this name has particles");
+        if (face->body[k] < 0) return fault(r, name, "is not the name of a body with particles; check its spelling");
     }
-    if (face->body[0] == face->body[1]) return fault(r, names, "a body and itself; two bodies are expected");
+    if (face->body[0] == face->body[1]) return fault(r, names, "names one body twice; give two bodies");
     for (const struct scene_interface *other = s->interface; other < face; other++)
         if ((other->body[0] == face->body[0] && other->body[1] == face->body[1]) ||
             (other->body[0] == face->body[1] && other->body[1] == face->body[0]))
-            return fault(r, names, "these two have an interface already; one of each two is expected");
+            return fault(r, names, "these two bodies have an interface already; keep one");
     return OK;
 }
 
@@ -43,7 +43,10 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
 static status material_apart(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;
-    if (s->materials >= 255) return fault(r, n, "bodies of one material get one each, and 255 are the most");
+    if (s->materials >= 255)
+        return fault(r, n,
+                     "each joined body needs a material of its own, and the limit of 255 materials is reached; use "
+                     "fewer interfaces");
     GROW("materials", s->material, s->materials + 1);
     struct material *own = &s->material[s->materials];
     *own = s->material[b->material];
@@ -66,13 +69,14 @@ static status interface_strength(struct reader *r, const struct yaml_node *n, st
     struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
     if (one->parts > 0 || other->parts > 0)
         return fault(r, yaml_node_find(n, "energy_release_rate"),
-                     "body %s has parts of different materials; an interface joins bodies of one material each",
+                     "body %s has parts of different materials; an interface with its own energy needs bodies of one "
+                     "material each",
                      one->parts > 0 ? one->name : other->name);
     if (material_has_softening_bonds(&s->material[one->material]) ||
         material_has_softening_bonds(&s->material[other->material]))
         return fault(r, yaml_node_find(n, "energy_release_rate"),
-                     "joins bodies of which one has a tensile_strength; an interface of its own energy is brittle, and "
-                     "goes with brittle bodies so far");
+                     "one of the bodies has a tensile_strength; an interface with its own energy joins brittle bodies "
+                     "only; remove the tensile_strength, or this key");
     if (one->material == other->material) TRY(material_apart(r, n, other));
     const struct material *a = &s->material[one->material], *b = &s->material[other->material];
     struct material between = a->young < b->young ? *a : *b, first = *a, second = *b;
@@ -110,10 +114,11 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
         TRY(read_keys_of_group(r, n, n, "interfaces", face));
         TRY(interface_bodies(r, n, face));
         if (!face->joined && yaml_node_find(n, "energy_release_rate"))
-            return fault(r, yaml_node_find(n, "energy_release_rate"), "only of bodies that are joined");
+            return fault(r, yaml_node_find(n, "energy_release_rate"),
+                         "has no effect on bodies that are not joined; leave it out, or set joined: true");
         if (s->method == METHOD_MPM && yaml_node_find(n, "energy_release_rate"))
             return fault(r, yaml_node_find(n, "energy_release_rate"),
-                         "the grid does not break; method: pd is expected");
+                         "the grid of method: mpm does not break; set method: pd");
         if (!face->joined) continue;
         TRY(interface_strength(r, n, face));
         join_bodies(s, face->body[0], face->body[1]);
@@ -131,8 +136,8 @@ status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_nod
         for (int b = 0; b < s->bodies && body >= 0; b++)
             if (b != body && s->body[b].joined == s->body[body].joined)
                 return fault(r, yaml_node_find(n, "body"),
-                             "is joined to body %s by an interface, so that both are one body here; a region in place "
-                             "of this key is expected",
+                             "is joined to body %s by an interface, so that both count as one body; use a region in "
+                             "place of this key",
                              s->body[b].name);
     }
     return OK;

@@ -16,22 +16,22 @@ static status check_curve(struct reader *r, const struct yaml_node *n, const str
     real before = INFINITY;
     for (int k = 0; k < c->points; k++, point = point->next) {
         if (k == 0 && c->strain[0] != 0)
-            return fault(r, point, "begins at a plastic strain of %g; the first point is the yield stress, at 0",
+            return fault(r, point,
+                         "begins at a plastic strain of %g; let the first point be the yield stress, at strain 0",
                          c->strain[0]);
         if (k == 0) continue;
         if (!(c->strain[k] > c->strain[k - 1]))
-            return fault(r, point,
-                         "the plastic strain %g is not larger than the previous one, %g; strains in ascending order "
-                         "are expected",
-                         c->strain[k], c->strain[k - 1]);
+            return fault(
+                r, point,
+                "the plastic strain %g is not larger than the previous one, %g; give strains in ascending order",
+                c->strain[k], c->strain[k - 1]);
         const real slope = (c->stress[k] - c->stress[k - 1]) / (c->strain[k] - c->strain[k - 1]);
         if (slope < 0)
-            return fault(r, point, "the stress falls to %g Pa; a yield stress that does not fall is expected",
-                         c->stress[k]);
+            return fault(r, point, "the stress falls to %g Pa; give a yield stress that does not fall", c->stress[k]);
         if (slope > before * (1 + SLOPE_ROUNDING))
             return fault(r, point,
-                         "the slope of the curve increases at this point, to %g Pa from %g Pa; a hardening curve whose "
-                         "slope does not increase is expected",
+                         "the slope of the curve increases at this point, to %g Pa from %g Pa; give a curve whose "
+                         "slope does not increase",
                          slope, before);
         before = slope;
     }
@@ -52,7 +52,7 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
     if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; 2 to %d are expected", n->n, FLOW_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next, c->points++) {
         if (point->kind != NODE_LIST || point->n != 2)
-            return fault(r, point, "%s is no point of a curve; [plastic strain, stress] is expected",
+            return fault(r, point, "%s is not a point of a curve; [plastic strain, stress] is expected",
                          node_text(r, point));
         TRY(read_number(r, &strain, point->first, &c->strain[c->points]));
         TRY(read_number(r, &stress, point->first->next, &c->stress[c->points]));
@@ -104,7 +104,7 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
     TRY(read_keys_of_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
-    return fault(r, yaml_node_find(n, "T_melt"), "%g K is not above T_room, %g K; the melting temperature is expected",
+    return fault(r, yaml_node_find(n, "T_melt"), "%g K is not above T_room, %g K; give the melting temperature",
                  law->johnson_cook.T_melt, law->johnson_cook.T_room);
 }
 
@@ -115,10 +115,11 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
 {
     const struct yaml_node *heat = yaml_node_find(material, "specific_heat"),
                            *share = yaml_node_find(material, "taylor_quinney");
-    if (!heat && share) return fault(r, share, "has no meaning without specific_heat");
+    if (!heat && share) return fault(r, share, "has no effect without specific_heat; give both");
     if (!heat) return OK;
     if (!law->given || law->flow != FLOW_JOHNSON_COOK)
-        return fault(r, heat, "has no meaning without johnson_cook, whose yield stress depends on temperature");
+        return fault(r, heat,
+                     "has no effect without johnson_cook, whose yield stress depends on temperature; leave it out");
     if (!share) law->taylor_quinney = 0.9;
     return OK;
 }
@@ -134,7 +135,7 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
     const bool linear = m->law.flow == FLOW_LINEAR && !yaml_node_find(material, "hardening");
     if (own && isfinite(m->yield_stress)) return fault_report_exclusive_keys(r, yield, law_node);
     if (!own && !isfinite(m->yield_stress))
-        return fault(r, law_node, "needs the yield stress at no plastic strain; yield_stress is expected beside it");
+        return fault(r, law_node, "needs the yield stress without plastic strain; add yield_stress");
     if (!linear && m->yield_tangent > 0) return fault_report_exclusive_keys(r, tangent, law_node);
     return OK;
 }

@@ -16,16 +16,16 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
     f->direction[0] = 1;
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "uniform") == 0)) return OK;
     if (n->kind != NODE_MAP)
-        return fault(r, n, "%s is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected",
+        return fault(r, n, "%s is not a profile; give uniform or a mapping such as {sine: {wavelength: 1 m}}",
                      node_text(r, n));
     TRY(check_keys_known(r, n, "boundary.profile"));
-    if (n->n != 1) return fault(r, n, "has %d keys; one is expected, as {sine: {wavelength: 1 m}}", n->n);
+    if (n->n != 1) return fault(r, n, "has %d keys; give one, such as {sine: {wavelength: 1 m}}", n->n);
     f->kind = PROFILE_SINE;
     TRY(read_keys_of_group(r, n->first, n->first, "boundary.profile.sine", f));
     real length2 = dot(f->direction, f->direction, r->dim);
     if (length2 > 0 && isfinite(length2)) return OK;
     return fault(r, yaml_node_find(n->first, "direction"),
-                 "its length is 0 or not finite; the direction in which the force varies is expected");
+                 "its length is 0 or not finite; give the direction in which the force varies");
 }
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
@@ -36,7 +36,8 @@ static status read_axis(struct reader *r, const struct yaml_node *n, const char 
 {
     *axis = word_index_in_list("x|y|z", text);
     if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
-        return fault(r, n, "%s is no axis of space %s; %s is expected", node_text(r, n), space_names[r->scene->space],
+        return fault(r, n, "%s is not an axis of space %s; %s is expected", node_text(r, n),
+                     space_names[r->scene->space],
                      r->dim == 1   ? "x"
                      : r->dim == 2 ? "x or y"
                                    : "x, y or z");
@@ -53,11 +54,10 @@ static status read_fixed(struct reader *r, const struct yaml_node *n, struct bou
         return OK;
     }
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", node_text(r, n));
+        return fault(r, n, "%s is not a list of axes; give all, or a list such as [x, y]", node_text(r, n));
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(read_axis(r, c, c->text, &axis));
-        if (b->components >> axis & 1)
-            return fault(r, c, "%s is given twice; each axis is expected once", node_text(r, c));
+        if (b->components >> axis & 1) return fault(r, c, "%s is given twice; name each axis once", node_text(r, c));
         b->components |= (uint8_t)(1 << axis);
     }
     return OK;
@@ -129,11 +129,12 @@ static status read_velocity(struct reader *r, const struct yaml_node *n, struct 
     } else if (n->kind == NODE_SCALAR && r->dim == 1) {
         TRY(read_component(r, n, b, 0));
     } else {
-        return fault(r, n, "%s has not the number of components of space %s; a list of %d is expected, for example %s",
+        return fault(r, n,
+                     "%s does not have the number of components of space %s; a list of %d is expected, for example %s",
                      node_text(r, n), space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
     }
     return b->components ? OK
-                         : fault(r, n, "every component is free; at least one %s is expected",
+                         : fault(r, n, "every component is free; give at least one %s",
                                  b->displaces ? "displacement" : "velocity");
 }
 
@@ -143,20 +144,20 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
     const struct key *k = key_find(group_path, "axis");
     const struct yaml_node *list = yaml_node_find(rotation_node, "axis");
     int d = 0;
-    if (r->dim == 1) return fault(r, rotation_node, "space line does not turn; a plane space or solid is expected");
+    if (r->dim == 1) return fault(r, rotation_node, "a body in space line cannot turn; use a plane space or solid");
     unit_vector[2] = 1;
     if (!list && r->dim == 2) return OK;
     if (!list) return fault_report_missing_key(r, rotation_node, k);
-    if (r->dim == 2) return fault(r, list, "is z in a plane space; leave it out");
+    if (r->dim == 2) return fault(r, list, "is always z in a plane space; leave it out");
     if (list->kind != NODE_LIST || list->n != DIM_MAX)
-        return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", node_text(r, list));
+        return fault(r, list, "%s is not an axis; three numbers such as [0, 0, 1] are expected", node_text(r, list));
     for (const struct yaml_node *c = list->first; c; c = c->next) {
         struct key plain = *k;
         plain.unit = UNIT_NONE;
         TRY(read_number(r, &plain, c, &unit_vector[d++]));
     }
     const real length2 = dot(unit_vector, unit_vector, DIM_MAX);
-    return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; as [0, 0, 1]");
+    return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; give an axis such as [0, 0, 1]");
 }
 
 /* Reads the prescribed rotation of boundary b from the mapping n: rate, centre and axis. Returns REFUSED for invalid
@@ -179,7 +180,7 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
     int axis;
     for (size_t k = 0; k < COUNT_OF(senseless); k++) {
         const struct yaml_node *other = yaml_node_find(map, senseless[k]);
-        if (other) return fault(r, other, "has no meaning with mirror, which always acts on every body; leave it out");
+        if (other) return fault(r, other, "cannot be given with mirror, which always acts on every body; leave it out");
     }
     TRY(read_keys_of_group(r, n, n, "boundary.mirror", b));
     const struct yaml_node *at = yaml_node_find(n, "axis");
@@ -191,7 +192,7 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
 static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
     const struct yaml_node *time = yaml_node_find(map, "time");
-    if (time) return fault(r, time, "has no meaning with absorbing, which acts at all times; leave it out");
+    if (time) return fault(r, time, "cannot be given with absorbing, which acts at all times; leave it out");
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
     return fault(r, n, "%s is given, but absorbing can only be true; write absorbing: true, or leave the boundary out",
                  node_text(r, n));
@@ -224,7 +225,7 @@ static status read_layer(struct reader *r, const struct yaml_node *map, struct b
     const struct yaml_node *depth = yaml_node_find(map, "depth");
     const struct scene *s = r->scene;
     if (!yaml_node_find(map, "face"))
-        return depth ? fault(r, depth, "has no meaning without face; x+ for instance is expected") : OK;
+        return depth ? fault(r, depth, "has no effect without face; add one, such as face: x+") : OK;
     b->depth = (s->method == METHOD_MPM ? 1 : s->horizon) * s->spacing;
     if (depth) TRY(read_number(r, key_find("boundary", "depth"), depth, &b->depth));
     return read_face(r, map, b);
@@ -245,7 +246,7 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
                          (*kind)->key);
         *kind = n;
     }
-    return *kind ? OK : fault(r, map, "does nothing; %s is expected", words_for_message(r, words));
+    return *kind ? OK : fault(r, map, "does nothing; give one of %s", words_for_message(r, words));
 }
 
 /* Returns true if the text of node n, a number or a formula, contains a unit and is not 0. value: the number that was
@@ -273,8 +274,8 @@ static status check_time_unit(struct reader *r, const struct yaml_node *kind, co
         unit = carries_unit(r, c, b->value[k++]) || unit;
     if (!b->time_unit || (most <= 1 && !unit)) return OK;
     return fault(r, kind,
-                 "%s would be multiplied by a column of the file that has a unit, too; a direction such as [0, -1], or "
-                 "a column without unit, is expected",
+                 "%s is multiplied by a column of the file that also has a unit; give a direction such as [0, -1], or "
+                 "a column without unit",
                  node_text(r, kind));
 }
 
@@ -293,17 +294,17 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
         TRY(read_layer(r, n, b));
     else
         depth = yaml_node_find(n, "depth");
-    if (depth) return fault(r, depth, "has no meaning without fixed, velocity, displacement or rotation; leave it out");
+    if (depth) return fault(r, depth, "has no effect without fixed, velocity, displacement or rotation; leave it out");
     if (boundary_applies_force(b) || b->kind == BOUNDARY_MIRROR) face = yaml_node_find(n, "face");
     if (face && b->kind == BOUNDARY_PRESSURE)
         return fault(r, face,
-                     "pressure acts on every free face of the particles in `region`: give a region in place of face, "
-                     "or a traction on the face");
-    if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no meaning with %s; leave it out", kind->key);
+                     "a pressure acts on every free face of the particles in `region`: give region instead of face, or "
+                     "a traction instead of a pressure");
+    if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no effect with %s; leave it out", kind->key);
     if (b->follow && b->kind != BOUNDARY_PRESSURE)
-        return fault(r, yaml_node_find(n, "follow"), "has no meaning without pressure; leave it out");
+        return fault(r, yaml_node_find(n, "follow"), "has no effect without pressure; leave it out");
     if (profile && b->kind != BOUNDARY_BODY_FORCE)
-        return fault(r, profile, "has no meaning without body_force; leave it out");
+        return fault(r, profile, "has no effect without body_force; leave it out");
     TRY(read_profile(r, profile, &b->profile));
     if (b->kind == BOUNDARY_MIRROR) return read_mirror(r, n, kind, b);
     if (b->kind == BOUNDARY_ABSORBING) {
@@ -339,10 +340,10 @@ static status gravity_add(struct reader *r, const struct yaml_node *n)
     struct scene *s = r->scene;
     struct boundary *b = &s->boundary[s->boundaries];
     if (s->boundaries == BOUNDARIES_MAX)
-        return fault(r, n, "is one boundary condition more than the %d that are possible", BOUNDARIES_MAX);
+        return fault(r, n, "is one boundary condition more than the limit of %d", BOUNDARIES_MAX);
     for (int k = 0; k < s->boundaries; k++)
         if (strcmp(s->boundary[k].name, "gravity") == 0)
-            return fault(r, n, "a boundary has this name; another one is expected there");
+            return fault(r, n, "a boundary is named gravity, which this key needs; rename the boundary");
     *b = (struct boundary){.name = "gravity", .kind = BOUNDARY_BODY_FORCE, .body = -1, .by_mass = true};
     memcpy(b->value, s->gravity, sizeof b->value);
     fault_write_location_of_node(r, n, b->place, sizeof b->place);
@@ -366,7 +367,8 @@ status read_boundaries(struct reader *r, const struct yaml_node *root)
         TRY(read_boundary(r, n, b));
         for (int j = 0; j < k; j++)
             if (strcmp(s->boundary[j].name, b->name) == 0)
-                return fault(r, n, "%s is the name of another boundary; every one has its own", b->name);
+                return fault(r, n, "%s is already the name of another boundary; give each boundary its own name",
+                             b->name);
     }
     return falls ? gravity_add(r, yaml_node_find(root, "gravity")) : OK;
 }

@@ -17,7 +17,7 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
     for (size_t k = 0; k < COUNT_OF(ways); k++) {
         const struct yaml_node *way = yaml_node_find(n, ways[k]);
         if (way && given)
-            return fault(r, way, "is given together with %s, and each determines the other; leave one of them out",
+            return fault(r, way, "is given together with %s, but each determines the other; leave one of them out",
                          given->key);
         if (way) given = way;
     }
@@ -53,16 +53,16 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
     real H;
     if (tangent && hardening)
         return fault(r, hardening,
-                     "is given together with yield_tangent, and each determines the other; leave one of them out");
+                     "is given together with yield_tangent, but each determines the other; leave one of them out");
     if (hardening) {
         TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
         m->yield_tangent = m->young * H / (m->young + H);
     }
     if (m->yield_tangent < m->young) return OK;
-    return fault(r, tangent ? tangent : hardening,
-                 "%s is not below Young's modulus; the slope of the stress-strain curve after yield, 0 to below young, "
-                 "is expected",
-                 node_text(r, tangent ? tangent : hardening));
+    return fault(
+        r, tangent ? tangent : hardening,
+        "%s is not below Young's modulus; give the slope of the stress-strain curve after yield, from 0 to below young",
+        node_text(r, tangent ? tangent : hardening));
 }
 
 /* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
@@ -80,17 +80,18 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     if (!yaml_node_find(n, own[s->form]))
         return fault_report_missing_key(r, n, key_find("material.scatter", own[s->form]));
     if (other)
-        return fault(r, other, "is the parameter of the other distribution of strength; this one has %s", own[s->form]);
+        return fault(r, other, "belongs to another distribution of strength; the chosen one has the parameter %s",
+                     own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
-        return fault(r, n, "its bonds never break; energy_release_rate, critical_stretch or toughness is expected");
+        return fault(r, n, "its bonds never break; give energy_release_rate, critical_stretch or toughness");
     if (material_yields(m) && r->scene->method == METHOD_MPM)
         return fault(r, n,
-                     "material points of method mpm do not break, and the yield stress does not scatter; method: pd is "
-                     "expected, or no scatter");
+                     "material points of method mpm do not break, and a yield stress does not scatter; set method: pd, "
+                     "or remove scatter");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
         return fault(r, n,
-                     "where it yields, stress does not say how far a bond is from its limit; method: pd is "
-                     "expected, or no yield_stress");
+                     "where it yields, the stress does not show how far a bond is from breaking; set method: pd, or "
+                     "remove yield_stress");
     return OK;
 }
 
@@ -104,12 +105,12 @@ static status read_viscosity(struct reader *r, const struct yaml_node *n, struct
     TRY(read_keys_of_group(r, n, n, "material.viscosity", m));
     if (s->levels == LEVELS_AUTO) s->levels = 0;
     s->active_set = false;
-    const char *why = s->space == SPACE_PLANE_STRESS ? "goes with space plane strain, solid or line, where the rate of "
-                                                       "volume is known"
-                      : s->model != MODEL_BOND && s->method != METHOD_MPM ? "goes with model bond"
-                      : !scene_is_dynamic(s)                              ? "goes with solver explicit"
-                      : s->levels > 0 ? "goes with mpm.levels: 0, as it has one time step"
-                                      : NULL;
+    const char *why = s->space == SPACE_PLANE_STRESS ? "cannot be used in space plane stress, where the rate of volume "
+                                                       "is unknown; use plane strain, solid or line"
+                      : s->model != MODEL_BOND && s->method != METHOD_MPM ? "needs model: bond"
+                      : !scene_is_dynamic(s)                              ? "needs solver: explicit"
+                      : s->levels > 0                                     ? "needs mpm.levels: 0 (one time step)"
+                                                                          : NULL;
     return why ? fault(r, n, "%s", why) : OK;
 }
 
@@ -135,7 +136,9 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     material_compute_derived_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return read_softening_onset(r, n, m);
-    return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
+    return fault(r, n,
+                 "its critical stretch is too small to be represented (it rounds to 0); give a larger "
+                 "energy_release_rate and check its unit");
 }
 
 status read_materials(struct reader *r, const struct yaml_node *root)
@@ -153,7 +156,8 @@ status read_materials(struct reader *r, const struct yaml_node *root)
         if (many && !yaml_node_find(n, "name")) return fault_report_missing_key(r, n, key_find("material", "name"));
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
-                return fault(r, yaml_node_find(n, "name"), "%s is the name of another material", s->material[k].name);
+                return fault(r, yaml_node_find(n, "name"),
+                             "%s is already the name of another material; give each its own", s->material[k].name);
         TRY(check_single_softening_law(r, n, k));
     }
     return OK;

@@ -24,9 +24,8 @@ static bool evaluate(struct reader *r, struct variable *v, char *message, size_t
     if (v->state == KNOWN) return true;
     if (v->state == OPEN || r->variables_open == CHAIN_MOST) {
         snprintf(message, capacity,
-                 v->state == OPEN
-                     ? "depends on itself"
-                     : "depends on other variables through a chain of more than %d; a shorter chain is expected",
+                 v->state == OPEN ? "depends on itself; change one of the variables in this circle"
+                                  : "depends on other variables through a chain of more than %d; shorten it",
                  CHAIN_MOST);
         return false;
     }
@@ -80,11 +79,10 @@ static status check_variable_name(struct reader *r, const struct yaml_node *n)
     size_t length = 0;
     while (is_letter(n->key[length])) length++;
     if (length == 0 || length > NAME_LONGEST || n->key[length] || isdigit((unsigned char)*n->key))
-        return fault(r, n,
-                     "cannot be the name of a variable; up to %d letters, digits and _ are expected, a letter first",
+        return fault(r, n, "cannot be the name of a variable; use up to %d letters, digits and _, a letter first",
                      NAME_LONGEST);
     const char *meaning = reserved_word_meaning(n->key);
-    return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
+    return meaning ? fault(r, n, "is %s in expressions; choose another name, such as %.20s1", meaning, n->key) : OK;
 }
 
 /* Returns true if `text` contains `name` as a whole word, not only as a part of a longer word. */
@@ -119,9 +117,8 @@ static status check_overrides(struct reader *r, const struct yaml_node *root)
             if (other->n->origin < 0 &&
                 (!nearest || edit_distance(other->n->key, v->n->key) < edit_distance(nearest->n->key, v->n->key)))
                 nearest = other;
-        return fault(r, v->n, "no value of the scene contains this variable%s%s",
-                     nearest ? "; the nearest is " : "; `cleave help variables` says what they are for",
-                     nearest ? nearest->n->key : "");
+        return fault(r, v->n, "no value of the scene uses this variable%s%s",
+                     nearest ? "; the nearest is " : "; see `cleave help variables`", nearest ? nearest->n->key : "");
     }
     return OK;
 }
@@ -134,7 +131,8 @@ status read_variables(struct reader *r, const struct yaml_node *root)
     r->variables = 0;
     if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
     TRY(expect_node_kind(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
-    if (map->n > k->range.most) return fault(r, map, "has %d variables; up to %g are expected", map->n, k->range.most);
+    if (map->n > k->range.most)
+        return fault(r, map, "has %d variables; at most %g are possible", map->n, k->range.most);
     r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
@@ -162,7 +160,7 @@ bool number_evaluate_text(struct reader *r, real *value, const char *text, enum 
     if (number_read(value, text, kind_of_unit, allow_infinity, message, capacity)) return true;
     const bool known = quantity_evaluate_text(r, text, &q, other, sizeof other);
     if (known && kind_of_unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
-        snprintf(message, capacity, "has no unit; %s is expected, as %s", unit_rows[kind_of_unit].name,
+        snprintf(message, capacity, "has no unit; %s is expected, such as %s", unit_rows[kind_of_unit].name,
                  unit_rows[kind_of_unit].example);
         return false;
     }
@@ -182,9 +180,9 @@ void advise_length_in_spacings(struct reader *r, const struct key *k, const char
     if (k->unit != UNIT_NONE || !k->help || !strstr(k->help, "in spacings")) return;
     if (!number_evaluate_text(r, &length, text, UNIT_LENGTH, false, other, sizeof other)) return;
     if (!(r->scene->spacing > 0)) {
-        snprintf(message, capacity, "is a length; this key takes a number of spacings");
+        snprintf(message, capacity, "is a length; give a number of spacings");
         return;
     }
-    snprintf(message, capacity, "is a length; this key takes a number of spacings, here %s: %.4g%s", key_last_part(k),
+    snprintf(message, capacity, "is a length; give a number of spacings, here %s: %.4g%s", key_last_part(k),
              length / r->scene->spacing, strcmp(key_last_part(k), "horizon") ? "" : " (3.015 is usual)");
 }

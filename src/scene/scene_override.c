@@ -70,9 +70,9 @@ static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
-        return fault(r, blamed(list, origin), "is no list in this scene; [%d] has no meaning", index);
+        return fault(r, blamed(list, origin), "is not a list in this scene, so [%d] cannot be used", index);
     if (index >= list->n)
-        return fault(r, blamed(list, origin), "has %d items, and [%d] is beyond the last one (the first is [0])",
+        return fault(r, blamed(list, origin), "has %d items, so [%d] is beyond the last one (the first is [0])",
                      list->n, index);
     struct yaml_node *n = list->first;
     while (index-- > 0) n = n->next;
@@ -116,7 +116,7 @@ static status item_called(struct reader *r, struct yaml_node *list, const char *
     }
     return fault(r, blamed(list, origin), "has %d item%s, and %s is %s; refer to an item by its number (from 0)%s",
                  list->n, list->n == 1 ? "" : "s", text_for_message(r, called),
-                 number ? "beyond the last" : "the name of none", names_text(r, list));
+                 number ? "beyond the last" : "not the name of one", names_text(r, list));
 }
 
 static bool is_key(const struct yaml_node *n, const char *key, size_t length)
@@ -165,7 +165,7 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
                      map->key ? text_for_message(r, map->key) : "the item", node_text(r, map));
     if (strspn(at.key, "0123456789") == length) {
         at.key = map->key;
-        return fault(r, &at, "is no list in this scene; %.*s has no meaning", (int)length, key);
+        return fault(r, &at, "is not a list in this scene, so %.*s cannot be used", (int)length, key);
     }
     *out = yaml_node_find(map, at.key);
     if (!*out) *out = new_entry(r, map, key, length, origin);
@@ -211,17 +211,18 @@ static status override_one(struct reader *r, struct yaml_node *root, int origin)
     TRY(tree_parse_yaml(r, o->value, strlen(o->value), origin, &value));
     while (*path) {
         if (!step_of_path(&path, &key, &length, &index))
-            return fault_at_location(r, origin, 0, 0,
-                                     "%s: not a path of keys; material.young or boundary.0.velocity is one",
-                                     text_for_message(r, o->key));
+            return fault_at_location(
+                r, origin, 0, 0, "%s: is not a path of keys; give one such as material.young or boundary.0.velocity",
+                text_for_message(r, o->key));
         if (*path == '\0' && is_new_item(n, key, length, index, value)) return yaml_node_append(n, value), OK;
         TRY(index >= 0 ? item_of(r, n, index, origin, &n) : scene_override_entry_of(r, n, key, length, origin, &n));
     }
-    if (n == root) return fault_at_location(r, origin, 0, 0, "no key; material.young=70e9 is an override");
+    if (n == root) return fault_at_location(r, origin, 0, 0, "has no key; write for example material.young=70e9");
     if (value)
         replace(n, value);
     else if (n->origin == origin)
-        return fault(r, n, "is not in the scene; an empty value takes a key away");
+        return fault(r, n,
+                     "is not in the scene, so it cannot be removed (an empty value removes a key); check its spelling");
     else
         yaml_node_remove(n->parent, n);
     return OK;

@@ -18,14 +18,14 @@ static status read_list_columns(struct reader *r, const struct yaml_node *n, str
 {
     size_t length = 1;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is no list of columns; [x, y, z, volume, block] is expected", node_text(r, n));
+        return fault(r, n, "%s is not a list of columns; give one such as [x, y, z, volume, block]", node_text(r, n));
     for (const struct yaml_node *name = n->first; name; name = name->next) {
         if (name->kind != NODE_SCALAR || strpbrk(name->text, ",;\"'\n"))
-            return fault(r, name, "%s is no name of a column; [x, y, z, volume, block] is expected",
+            return fault(r, name, "%s is not the name of a column; give names such as [x, y, z, volume, block]",
                          node_text(r, name));
         length += strlen(name->text) + 1;
     }
-    if (length > COLUMNS_TEXT) return fault(r, n, "more than %d letters", COLUMNS_TEXT);
+    if (length > COLUMNS_TEXT) return fault(r, n, "is longer than %d letters; shorten it", COLUMNS_TEXT);
     b->columns = NEW("list.columns", length, char);
     for (const struct yaml_node *name = n->first; name; name = name->next) {
         strcat(b->columns, name->text);
@@ -46,7 +46,7 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     if (mapping) TRY(read_keys_of_group(r, n, n, "bodies.particles", b));
     if (!file) return fault_report_missing_key(r, n, key_find("bodies.particles", "file"));
     if (file->kind != NODE_SCALAR || !path_has_particle_list_extension(file->text))
-        return fault(r, file, "%s is no particle list; a file name that ends in .csv, .h5 or .exo is expected",
+        return fault(r, file, "%s is not a particle list; give the name of a file that ends in .csv, .h5 or .exo",
                      node_text(r, file));
     if (mapping) TRY(read_length_unit_of_file(r, n, false, &b->form.scale));
     if (columns) TRY(read_list_columns(r, columns, b));
@@ -62,18 +62,19 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
     static const char *const others[] = {"material", "particles", "frame", "parts"};
     for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
         if (yaml_node_find(n, own[k]))
-            return fault(r, yaml_node_find(n, own[k]), "only rigid bodies have it; add rigid: true");
+            return fault(r, yaml_node_find(n, own[k]), "is for rigid bodies only; add rigid: true, or remove it");
     if (yaml_node_find(n, "ramp") && (yaml_node_find(n, "mass") || !yaml_node_find(n, "velocity")))
-        return fault(r, yaml_node_find(n, "ramp"), "of a velocity that it keeps: one without mass, with a velocity");
+        return fault(r, yaml_node_find(n, "ramp"),
+                     "is for a rigid body with a prescribed velocity; give velocity and no mass");
     if (yaml_node_find(n, "force") && !yaml_node_find(n, "mass"))
-        return fault(r, yaml_node_find(n, "force"), "moves only what has a mass; without, a body keeps its velocity");
+        return fault(r, yaml_node_find(n, "force"),
+                     "has no effect on a body without a mass, which keeps its velocity; give a mass");
     for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
         if (yaml_node_find(n, others[k]))
             return fault(r, yaml_node_find(n, others[k]),
-                         "a rigid body has none; a shape is expected, and a mass if "
-                         "it flies");
+                         "cannot be given for a rigid body; give its shape, and a mass if it moves freely");
     if (b->rigid && region_contains_infinite_box_solid(&b->shape, r->scene->dim))
-        return fault(r, yaml_node_find(n, "shape"), "a box without end; a half-space is expected");
+        return fault(r, yaml_node_find(n, "shape"), "has a box without end; use a half-space");
     return OK;
 }
 
@@ -99,7 +100,7 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     if (!yaml_node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
         if (strcmp(r->scene->body[j].name, b->name) == 0)
-            return fault(r, n, "%s is the name of another body; every body has its own", b->name);
+            return fault(r, n, "%s is already the name of another body; give each body its own", b->name);
     return OK;
 }
 
@@ -125,7 +126,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     if (!one && !many) return fault_report_missing_key(r, root, key_find("", "body"));
     if (one && many) return fault_report_exclusive_keys(r, one, many);
     const struct yaml_node *parts = yaml_node_find(root, "parts");
-    if (many && parts) return fault(r, parts, "of which body is it; bodies have parts of their own");
+    if (many && parts) return fault(r, parts, "belongs to the key body; with bodies, give each body its own parts");
     if (many) TRY(expect_list_of_valid_length(r, key_find("", "bodies"), many));
     const int n_bodies = many ? many->n : 1;
     s->body = NEW("bodies", n_bodies, struct scene_body);
@@ -140,7 +141,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
         TRY(read_body_parts_by_grey_value(r, one, s->body));
         if (s->materials > 1 && !parts && s->body->parts == 0)
             return fault(r, one,
-                         "the scene has %d materials, and the key body cannot name one; use parts, or bodies with a "
+                         "the scene has %d materials, but the key body cannot name one; use parts, or bodies with a "
                          "material each",
                          s->materials);
         return read_body_parts(r, parts, key_find("", "parts"), s->body);
@@ -153,7 +154,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     }
     s->bodies = 0;
     sort_bodies(s, n_bodies);
-    if (s->bodies == 0) return fault(r, many, "only rigid bodies; one with a material is expected");
+    if (s->bodies == 0) return fault(r, many, "all bodies are rigid; add one with a material");
     if (s->rigids == 0) return OK;
     return s->method == METHOD_MPM || scene_is_single_equilibrium(s) ? refuse_unsupported_rigid_bodies(r, many) : OK;
 }
@@ -169,12 +170,13 @@ static status read_polarisation(struct reader *r, const struct yaml_node *n, str
     if (!n)
         memcpy(moved, w->direction, sizeof w->direction);
     else if (!(length > 0))
-        return fault(r, n, "has no length; direction, or a vector across it, is expected");
+        return fault(r, n, "has no length; give direction, or a vector across it");
     for (int d = 0; n && d < dim; d++) moved[d] /= length;
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;
     if (!w->transverse && fabs(along) < 1 - 1e-6)
-        return fault(r, n, "is neither along direction nor across it; particles of a plane wave move along or across");
+        return fault(r, n,
+                     "is neither along direction nor across it; particles of a plane wave move along or across it");
     for (int d = 0; d < dim; d++)
         moved[d] = w->transverse ? moved[d] - along * w->direction[d] : along * w->direction[d];
     length = sqrt(dot(moved, moved, dim));
@@ -188,8 +190,7 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
     if (!n) return OK;
     TRY(read_keys_of_group(r, n, n, "initial.pulse", initial));
     length = sqrt(dot(direction, direction, r->dim));
-    if (!(length > 0))
-        return fault(r, yaml_node_find(n, "direction"), "has no length; a direction such as 1 is expected");
+    if (!(length > 0)) return fault(r, yaml_node_find(n, "direction"), "has no length; give a direction such as 1");
     for (int d = 0; d < r->dim; d++) direction[d] /= length;
     initial->sets_pulse = true;
     return read_polarisation(r, yaml_node_find(n, "polarisation"), &initial->pulse);
@@ -240,12 +241,10 @@ static status read_initial(struct reader *r, const struct yaml_node *n, struct s
     TRY(read_initial_rotation(r, n, initial));
     if (initial->sets_strain && r->scene->solver == SOLVER_RELAXATION && r->scene->method != METHOD_PD)
         return fault(r, yaml_node_find(n, "displacement_gradient"),
-                     "the equilibrium of material points by solver: relaxation depends on their initial strain; "
-                     "solver: static, or no initial strain, is expected");
+                     "with solver: relaxation the equilibrium of material points depends on their initial strain; set "
+                     "solver: static, or remove the initial strain");
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
-    return fault(r, n,
-                 "sets nothing; velocity, velocity_gradient, rotation, displacement_gradient or pulse is "
-                 "expected");
+    return fault(r, n, "sets nothing; give velocity, velocity_gradient, rotation, displacement_gradient or pulse");
 }
 
 status read_initial_states(struct reader *r, const struct yaml_node *root)
@@ -272,20 +271,24 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
     TRY(read_keys_of_group(r, n, n, "growth", g));
     length = sqrt(dot(g->direction, g->direction, r->dim));
     if (!(length > 0))
-        return fault(r, yaml_node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
+        return fault(r, yaml_node_find(n, "direction"), "has no length; give a direction such as [1, 0]");
     for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
     if (!g->probe[0] && yaml_node_find(n, "toughness"))
-        return fault(r, yaml_node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
+        return fault(r, yaml_node_find(n, "toughness"),
+                     "has no effect without probe, the name of a sif probe; give both");
     if (!g->probe[0] && !isnan(g->smoothing))
-        return fault(r, yaml_node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
+        return fault(r, yaml_node_find(n, "smoothing"),
+                     "has no effect without probe, the name of a sif probe; give both");
     if (growth_speed_is_controlled(g) && !(g->toughness > 0))
         return fault(r, yaml_node_find(n, "speed"),
-                     "a speed that follows needs probe and toughness, the K_eq that it keeps");
+                     "follow needs probe and toughness, the value at which K_eq is kept; give both");
     if (!growth_speed_is_controlled(g) && !isnan(g->fastest))
-        return fault(r, yaml_node_find(n, "fastest"), "has no meaning beside a given speed; speed: follow is expected");
+        return fault(r, yaml_node_find(n, "fastest"),
+                     "has no effect with a given speed; set speed: follow, or remove it");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
-    return g->probe[0] ? fault(r, yaml_node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
+    return g->probe[0] ? fault(r, yaml_node_find(n, "probe"), "there is no sif probe %s; add it to probes", g->probe)
+                       : OK;
 }
 
 /* Returns REFUSED if a probe names a growth rule that the scene lacks. root: tree of the scene. */
@@ -296,12 +299,12 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
     for (int k = 0; k < s->probes; k++, n = n->next) {
         bool found = false;
         if (s->probe[k].kind != PROBE_GROWTH) continue;
-        if (s->growths == 0) return fault(r, n, "no crack has a prescribed growth; the key growth is expected");
+        if (s->growths == 0) return fault(r, n, "no crack has a prescribed growth to measure; add the key growth");
         for (int g = 0; g < s->growths; g++)
             found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
         if (!found)
             return fault(r, yaml_node_find(n->first, "of"),
-                         "the scene has no crack growth named %s; the first in its key growth is %s", s->probe[k].of,
+                         "the scene has no crack growth named %s; the first one is named %s", s->probe[k].of,
                          s->growth[0].name);
     }
     return OK;
@@ -315,8 +318,8 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *list = yaml_node_find(root, "growth");
     if (!list) return check_growth_probes(r, root);
     TRY(expect_list_of_valid_length(r, key_find("", "growth"), list));
-    if (s->dim != 2) return fault(r, list, "plane spaces only in this version");
-    if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; pd or adaptive is expected");
+    if (s->dim != 2) return fault(r, list, "crack growth is possible in plane spaces only");
+    if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; set method: pd or adaptive");
     s->growths = list->n;
     s->growth = NEW("growth", list->n, struct growth_rule);
     const struct yaml_node *n = list->first;
@@ -335,14 +338,13 @@ static status read_frame_region(struct reader *r, const struct yaml_node *n, int
     TRY(read_keys_of_group(r, n, n, "output.regions", one));
     if (strcmp(one->name, "frames") == 0)
         return fault(r, yaml_node_find(n, "name"),
-                     "frames is the name of the body's own files; another one is expected");
+                     "frames is the name of the files of the whole body; choose another one");
     for (int k = 0; k < number; k++)
         if (strcmp(s->series[k].name, one->name) == 0)
-            return fault(r, yaml_node_find(n, "name"), "%s is the name of another region; give it a name of its own",
+            return fault(r, yaml_node_find(n, "name"), "%s is already the name of another region; choose another one",
                          one->name);
     if (s->duration / one->every > FRAMES_MOST)
-        return fault(r, yaml_node_find(n, "every"),
-                     "an interval of %s makes more than %d frames; at least %.3g s is expected",
+        return fault(r, yaml_node_find(n, "every"), "an interval of %s makes more than %d frames; use at least %.3g s",
                      node_text(r, yaml_node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
     return OK;
 }

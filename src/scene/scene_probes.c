@@ -21,9 +21,10 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
         word.key = n->text, word.next = NULL;
         TRY(check_keys_known(r, &list, "probes"));
     } else {
-        TRY(expect_node_kind(r, n, NODE_MAP, "a probe such as tip or point: {at: [..]}"));
+        TRY(expect_node_kind(r, n, NODE_MAP, "a probe, such as tip (of the crack) or point: {at: [..]}"));
         TRY(check_keys_known(r, n, "probes"));
-        if (n->n != 1) return fault(r, n, "has %d keys; a probe has one, its kind, as point: {at: [..]}", n->n);
+        if (n->n != 1)
+            return fault(r, n, "has %d keys; give one, the kind of the probe, such as point: {at: [..]}", n->n);
         if (n->first->kind != NODE_SCALAR || *n->first->text) *map = n->first;
     }
     const char *name = n->kind == NODE_SCALAR ? n->text : n->first->key;
@@ -40,14 +41,14 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
     int nearest = 0;
     if (p->kind != PROBE_REACTION) return OK;
     if (s->boundaries == 0)
-        return fault(r, n,
-                     "there is no boundary condition whose force could be measured; a list `boundary` is expected");
+        return fault(r, n, "the scene has no boundary condition whose force can be measured; add a list `boundary`");
     for (int k = 0; k < s->boundaries; k++) {
         if (strcmp(s->boundary[k].name, p->boundary) == 0) return OK;
         if (edit_distance(s->boundary[k].name, p->boundary) < edit_distance(s->boundary[nearest].name, p->boundary))
             nearest = k;
     }
-    return fault(r, n, "there is no boundary %s; the nearest of %d is %s (a boundary gets its name by the key `name`)",
+    return fault(r, n,
+                 "there is no boundary %s; the nearest of %d is %s (the key `name` of a boundary gives it its name)",
                  p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
@@ -60,11 +61,11 @@ static status check_exact(struct reader *r, const struct yaml_node *n, const str
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
     if (p->kind != PROBE_EXACT) return OK;
     if (r->scene->space != SPACE_LINE)
-        return fault(r, map ? map : n, "closed forms are for a bar; space: line is expected");
+        return fault(r, map ? map : n, "an analytical solution is for a bar in one dimension; set space: line");
     for (size_t k = 0; k < COUNT_OF(numbers); k++) {
         const struct yaml_node *given = yaml_node_find(map, numbers[k]);
         if (given && p->form != EXACT_MANUFACTURED)
-            return fault(r, given, "has no meaning without form: manufactured; leave it out");
+            return fault(r, given, "has no effect without form: manufactured; leave it out");
         if (!given && p->form == EXACT_MANUFACTURED)
             return fault_report_missing_key(r, map, key_find("probes.exact", numbers[k]));
     }
@@ -75,7 +76,7 @@ static status check_rigid(struct reader *r, const struct yaml_node *n, const str
                           const struct probe_request *p)
 {
     if (p->kind != PROBE_RIGID || r->dim == 2) return OK;
-    return fault(r, map ? map : n, "plane spaces only in this version");
+    return fault(r, map ? map : n, "rigid is a probe for plane spaces only; remove it");
 }
 
 /* Checks a probe p of stress-intensity factors; returns OK for other probes. Sets its outer radius to its last contour
@@ -86,7 +87,7 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
 {
     enum { CONTOURS_MAX = 16 };
     if (p->kind != PROBE_SIF) return OK;
-    if (r->dim != 2) return fault(r, map ? map : n, "plane spaces only in this version");
+    if (r->dim != 2) return fault(r, map ? map : n, "sif is a probe for plane spaces only; remove it");
     const struct number_list *c = &p->contours;
     const struct yaml_node *contours = yaml_node_find(map, "contours");
     if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; 1 to %d are expected", c->n, CONTOURS_MAX);
@@ -95,11 +96,11 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
     if (p->inner >= outer)
         return fault(
             r, yaml_node_find(map, "inner"),
-            "the inner radius %s is not smaller than the outer radius, %.6g m; about half the outer radius is usual",
+            "the inner radius %s is not smaller than the outer radius, %.6g m; use about half the outer radius",
             node_text(r, yaml_node_find(map, "inner")), outer);
     const real shares[2] = {p->direction[0], p->direction[1]};
     if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
-    return fault(r, yaml_node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
+    return fault(r, yaml_node_find(map, "direction"), "has no length; give the direction ahead of the tip");
 }
 
 /* Reads the probe of node n, in any of its forms, into *p. A number that is not given and has no default becomes
@@ -123,7 +124,7 @@ static status read_probe(struct reader *r, const struct yaml_node *n, struct pro
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_keys_of_group(r, map ? map : n, map, group, p));
     if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)
-        return fault(r, map, "has no length; from and to are its two ends");
+        return fault(r, map, "has no length; give two different ends, from and to");
     TRY(check_exact(r, n, map, p));
     TRY(check_sif(r, n, map, p));
     TRY(check_rigid(r, n, map, p));
@@ -143,7 +144,7 @@ status read_probes(struct reader *r, const struct yaml_node *root)
         TRY(read_probe(r, n, &s->probe[k]));
         for (int j = 0; j < k; j++)
             if (strcmp(s->probe[j].name, s->probe[k].name) == 0)
-                return fault(r, n, "%s is the name of another probe; give it a name of its own", s->probe[k].name);
+                return fault(r, n, "%s is already the name of another probe; give each its own", s->probe[k].name);
     }
     return OK;
 }

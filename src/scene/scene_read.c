@@ -43,14 +43,14 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     if (method && wish) return pilot_requirements_read(r, root, text, length, wish);
     if (method)
         return fault(r, method,
-                     "auto is resolved by the pilot runs of `cleave run`; write a method and "
-                     "particles.spacing, or take the scene.yaml that such a run leaves");
+                     "auto is for `cleave run` only, which chooses by pilot runs; give a method and particles.spacing, "
+                     "or use the scene.yaml that such a run writes");
     scene_store_key_locations(r, root);
     TRY(scene_read_keys_of_tree(r, root));
     s->text = scene_to_yaml(s);
     return s->text
                ? OK
-               : status_set(FAILED, "%s: out of memory, the scene with all its defaults cannot be written", r->name);
+               : status_set(FAILED, "%s: out of memory; the scene with all its defaults cannot be written", r->name);
 }
 
 /* Reads a scene from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores only the
@@ -61,7 +61,7 @@ static status read_scene(struct reader *r, const char *text, size_t length, stru
     struct scene *s = r->scene;
     *s = (struct scene){0};
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!c) return status_set(FAILED, "%s: no memory to read it", r->name);
+    if (!c) return status_set(FAILED, "%s: out of memory while reading it", r->name);
     locale_t old = uselocale(c); /* the decimal sign is then a point in every locale */
     s->path = NEW("scene path", strlen(r->name) + 1, char);
     strcpy(s->path, r->name);

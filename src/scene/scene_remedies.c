@@ -153,12 +153,13 @@ status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node 
     const unsigned has = scene_has(r) | HAS_RATIO;
     const char *change = changes_that_allow(r, has), *bonds = ratio_of_bonds(r->scene);
     if (change)
-        return fault(r, poisson_node,
-                     "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s has any",
-                     node_text(r, poisson_node), bonds, space_names[r->scene->space], change);
+        return fault(
+            r, poisson_node,
+            "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use %s for any ratio",
+            node_text(r, poisson_node), bonds, space_names[r->scene->space], change);
     return fault(r, poisson_node,
-                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use that ratio, "
-                 "since no method has any other one together with %s",
+                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use that ratio: no "
+                 "method allows another one together with %s",
                  node_text(r, poisson_node), bonds, space_names[r->scene->space],
                  names_of(r, has & ~(unsigned)HAS_RATIO));
 }
@@ -167,8 +168,8 @@ status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *y
 {
     const unsigned has = scene_has(r);
     const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);
-    if (change) return fault(r, yield_node, "model %s does not yield; %s does", model, change);
-    return fault(r, yield_node, "model %s does not yield, and no method has all of %s; leave out one of them", model,
+    if (change) return fault(r, yield_node, "model %s cannot yield; use %s", model, change);
+    return fault(r, yield_node, "model %s cannot yield, and no method has all of %s; leave one of them out", model,
                  names_of(r, has));
 }
 
@@ -180,23 +181,23 @@ status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law
     const int bonds = row_of_method(s, s->method, linear & ~(unsigned)HAS_RATIO);
     const bool ratio = has & HAS_RATIO;
     if (bonds < 0)
-        return fault(r, law_node, "is for material points; %s is expected",
+        return fault(r, law_node, "is for material points; use %s",
                      points ? points : "`method: mpm` without rigid bodies and tensile_strength");
-    return fault(r, law_node,
-                 "is for material points; %s%syield_stress with linear hardening by yield_hardening, which bonds%s "
-                 "have%s%s",
-                 points ? points : "", points ? " is expected, or " : "",
-                 s->model == MODEL_BOND ? "" : " (`model: bond`)", ratio ? " at a Poisson's ratio of " : "",
-                 ratio ? ratio_of_bonds(s) : "");
+    return fault(
+        r, law_node,
+        "is for material points; use %s%syield_stress with linear hardening by yield_hardening, which bonds%s have%s%s",
+        points ? points : "", points ? ", or " : "", s->model == MODEL_BOND ? "" : " (`model: bond`)",
+        ratio ? " at a Poisson's ratio of " : "", ratio ? ratio_of_bonds(s) : "");
 }
 
 status refuse_unsupported_softening(struct reader *r, const struct yaml_node *strength_node)
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
-    if (change) return fault(r, strength_node, "is of bonds that soften; %s is expected", change);
+    if (change) return fault(r, strength_node, "needs bonds that can soften; use %s", change);
     return fault(r, strength_node,
-                 "is of bonds that soften and do not have %s; without this key, and softening, bonds are brittle",
+                 "needs bonds that can soften, which cannot be combined with %s; remove this key and softening (bonds "
+                 "are then brittle)",
                  names_of(r, has & ~(unsigned)HAS_SOFTENING));
 }
 
@@ -206,16 +207,16 @@ status refuse_unsupported_rigid_bodies(struct reader *r, const struct yaml_node 
     const char *change = changes_that_allow(r, has);
     if (r->scene->method != METHOD_MPM)
         return fault(r, bodies_node,
-                     "rigid bodies move in steps of time; `solver: explicit` is expected, or, for a smooth wall at "
-                     "rest, a boundary `mirror` in their place");
+                     "rigid bodies move in time steps only; set `solver: explicit`; a smooth wall at rest can be a "
+                     "boundary `mirror` instead");
     if (change)
         return fault(r, bodies_node,
-                     "rigid bodies meet peridynamic particles only; %s is expected, or, for a smooth wall at rest, a "
-                     "boundary `mirror` in their place",
+                     "rigid bodies have contact with peridynamic particles only: use %s; a smooth wall at rest can be "
+                     "a boundary `mirror` instead",
                      change);
     return fault(r, bodies_node,
-                 "rigid bodies meet peridynamic particles only, which do not have %s; a boundary `mirror` in place of "
-                 "a smooth wall at rest, or a body of a stiff elastic material, is expected",
+                 "rigid bodies have contact with peridynamic particles only, which do not allow %s; use a boundary "
+                 "`mirror` for a smooth wall at rest, or a body of a stiff elastic material",
                  names_of(r, has & ~(unsigned)HAS_RIGID));
 }
 
@@ -224,10 +225,11 @@ status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yam
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
     if (change)
-        return fault(r, interfaces_node, "bodies are joined by bonds, or by their grid; %s is expected", change);
+        return fault(r, interfaces_node, "bodies are joined by bonds (method pd) or by their grid (method mpm); use %s",
+                     change);
     return fault(r, interfaces_node,
-                 "bodies are joined by bonds, or by their grid, and no method has all of %s; leave out one of "
-                 "them",
+                 "bodies are joined by bonds (method pd) or by their grid (method mpm), and no method has all of %s; "
+                 "leave one of them out",
                  names_of(r, has));
 }
 

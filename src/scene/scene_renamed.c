@@ -16,7 +16,7 @@ static const struct {
 };
 
 /* Keys of earlier versions that no longer exist, with their replacement. */
-#define TABLE_REMOVED "is no longer a key, as `method: auto` chooses by pilot runs alone; remove it"
+#define TABLE_REMOVED "is no longer a key; remove it (`method: auto` always chooses by pilot runs)"
 static const struct {
     const char *path, *what;
 } removed[] = {
@@ -30,7 +30,7 @@ static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);
     char pair[80];
-    snprintf(pair, sizeof pair, "%s is now called %s", renamed[k].old, renamed[k].now);
+    snprintf(pair, sizeof pair, "%s has been renamed to %s", renamed[k].old, renamed[k].now);
     if (strstr(s->renamed, pair)) return;
     snprintf(s->renamed + used, sizeof s->renamed - used, "%s%s", used ? ", " : "", pair);
 }

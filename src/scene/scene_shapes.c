@@ -51,9 +51,9 @@ static status pattern_add(struct reader *r, const struct yaml_node *n, struct sh
     snprintf(pattern, sizeof pattern, "%.*s%s", folder, r->name, n->text);
     if (glob(pattern, 0, NULL, &found) != 0 && glob(n->text, 0, NULL, &found) != 0) {
         globfree(&found);
-        return fault(r, n, "no file is called so; slices such as slice_*.png are expected");
+        return fault(r, n, "no file matches this name; give the image slices, such as slice_*.png");
     }
-    if (found.gl_pathc > SLICES_MOST) s = fault(r, n, "more than %d files", SLICES_MOST);
+    if (found.gl_pathc > SLICES_MOST) s = fault(r, n, "more than %d files match; join them into fewer", SLICES_MOST);
     array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, compare_paths);
     for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
         struct yaml_node one = *n;
@@ -168,11 +168,11 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
     char text[48], what[256];
     if (unit && scale) return fault_report_exclusive_keys(r, unit, scale);
     if (!unit && !scale && is_required)
-        return fault(r, file_node, "unit is missing: its numbers have none; unit: mm, or scale: 25.4 mm, is expected");
+        return fault(r, file_node, "unit is missing, and the file does not state one; add unit: mm, or scale: 25.4 mm");
     if (!unit) return OK;
     snprintf(text, sizeof text, "1 %.40s", unit->text);
     if (unit->kind == NODE_SCALAR && number_read(scale_value, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
-    return fault(r, unit, "%s is no unit of length; mm, m, um, .. is expected, or scale: 25.4 mm", node_text(r, unit));
+    return fault(r, unit, "%s is not a unit of length; give mm, m, um, .. or scale: 25.4 mm", node_text(r, unit));
 }
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
@@ -195,14 +195,12 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
                      g->sets ? names : "none");
     s->hull = set ? &set->hull : &g->whole;
     if (within && !s->hull->open)
-        return fault(r, within, "has no meaning for what fills a volume; only sets of nodes or faces have it");
+        return fault(r, within, "is only for sets of nodes or faces, but this solid fills a volume; leave it out");
     if (!s->hull->open) return OK;
     TRY(read_spacing(r, n, &s->radius));
     if (within) s->radius = words->within;
     if (s->radius > 0) return OK;
-    return fault(r, n,
-                 "set %s is one of nodes or faces; within, the distance up to which particles belong to it, is "
-                 "expected",
+    return fault(r, n, "set %s contains nodes or faces; give within, the distance up to which particles belong to it",
                  words->set);
 }
 
@@ -215,7 +213,7 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     TRY(read_keys_of_group(r, n, n, group, &words));
     if (!file) return fault_report_missing_key(r, n, key_find(group, "file"));
     TRY(read_length_unit_of_file(r, n, true, &words.scale));
-    if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
+    if (r->dim == 1) return fault(r, n, "cannot be used in space line; use box");
     f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = kind, .dim = r->dim, .scale = words.scale};
     status result = paths_read(r, file, f);
@@ -248,8 +246,9 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
     struct shape_words words = {.pixel = NAN, .slice = NAN};
     TRY(read_keys_of_group(r, n, n, "solid.image", &words));
     if (!file) return fault_report_missing_key(r, n, key_find("solid.image", "file"));
-    if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
-    if (slice && r->dim == 2) return fault(r, slice, "has no meaning in the plane, where there is one image");
+    if (r->dim == 1) return fault(r, n, "cannot be used in space line; use box");
+    if (slice && r->dim == 2)
+        return fault(r, slice, "cannot be used in the plane, where there is one image; leave it out");
     struct shape_file *f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = SHAPE_IMAGE, .dim = r->dim, .scale = NAN};
     for (int d = 0; d < r->dim; d++)
@@ -292,6 +291,6 @@ status read_image_solid(struct reader *r, const struct yaml_node *solid_node, st
     solid->kind = SOLID_VOXELS;
     solid->voxels = grey_part_of(f, &wanted);
     if (solid->voxels->voxels > 0) return OK;
-    return fault(r, values ? values : solid_node, "no voxel of it has such a grey value; %s",
-                 "values that it has are expected");
+    return fault(r, values ? values : solid_node, "no voxel of the image has such a grey value; %s",
+                 "give values that occur in it");
 }

@@ -62,12 +62,12 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
         return fault(r, n,
-                     "bonds break at a stretch of %.4g, which is a stress of %.4g Pa; less, or a larger "
-                     "critical_stretch, is expected",
+                     "bonds break at a stretch of %.4g, which is a stress of %.4g Pa; give a lower strength, or a "
+                     "larger critical_stretch",
                      m->critical_stretch, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space));
     return fault(r, n,
                  "bonds of this horizon, %.4g m, break at %.4g Pa by the energy release rate, before this strength is "
-                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected%s",
+                 "reached; use a horizon below %.4g m, that is particles.spacing below %.4g m%s",
                  s->horizon * s->spacing, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space), most,
                  most / s->horizon, strength_unit_hint(s, most));
 }
@@ -85,16 +85,17 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
     for (const struct yaml_node *point = n->first; point; point = point->next) {
         const int k = rate->points++;
         if (point->kind != NODE_LIST || point->n != 2)
-            return fault(r, point, "%s is no point; [strain rate, factor] is expected", node_text(r, point));
+            return fault(r, point, "%s is not a point of the table; [strain rate, factor] is expected",
+                         node_text(r, point));
         TRY(read_number(r, &rates, point->first, &rate->rate[k]));
         TRY(read_number(r, &factors, point->first->next, &rate->factor[k]));
         if (k > 0 && !(rate->rate[k] > rate->rate[k - 1]))
             return fault(r, point,
-                         "the rate %g 1/s is not above the previous one, %g 1/s; ascending rates are expected",
+                         "the rate %g 1/s is not above the previous one, %g 1/s; give rates in ascending order",
                          rate->rate[k], rate->rate[k - 1]);
         if (k > 0 && rate->factor[k] < rate->factor[k - 1])
-            return fault(r, point, "the factor falls from %g to %g; a strength that does not fall is expected",
-                         rate->factor[k - 1], rate->factor[k]);
+            return fault(r, point, "the factor falls from %g to %g; give factors that do not fall", rate->factor[k - 1],
+                         rate->factor[k]);
     }
     return OK;
 }
@@ -111,9 +112,10 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
     if (!table) return fault_report_missing_key(r, rate, key_find("material.rate", "table"));
     if (s->solver != SOLVER_EXPLICIT)
         return fault(r, rate,
-                     "load steps have no strain rate; tensile_strength alone, or solver: explicit, is expected");
+                     "load steps have no strain rate, so a strength that depends on it cannot be used; remove rate, or "
+                     "set solver: explicit");
     if (material_has_strength_surface(m))
-        return fault(r, rate, "a strength surface does not depend on the rate; one of both is expected");
+        return fault(r, rate, "a strength surface cannot depend on the rate; remove one of the two");
     TRY(read_rate_table(r, table, &m->rate));
     const real strongest = m->tensile_strength * m->rate.factor[m->rate.points - 1];
     TRY(check_strength_below_tenth_of_modulus(r, table, m, strongest));
@@ -123,7 +125,7 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
     if (least >= RATE_LEAST_RATIO || limit_spacing_of_spacing_search(r, most / s->horizon)) return OK;
     return fault(r, table,
                  "bonds of this horizon, %.4g m, break by the energy release rate before %.4g Pa, the strength at the "
-                 "last rate; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
+                 "last rate; use a horizon below %.4g m, that is particles.spacing below %.4g m",
                  s->horizon * s->spacing, strongest, most, most / s->horizon);
 }
 
@@ -134,10 +136,12 @@ static status check_no_surface(struct reader *r, const struct yaml_node *n)
     static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength",
                                         "strength_radius"};
     const struct yaml_node *rate = yaml_node_find(n, "rate");
-    if (rate) return fault(r, rate, "is how tensile_strength grows with the strain rate; that key is expected with it");
+    if (rate)
+        return fault(r, rate,
+                     "has no effect without tensile_strength, which it raises with the strain rate; give both");
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         const struct yaml_node *key = yaml_node_find(n, names[k]);
-        if (key) return fault(r, key, "is of a strength surface; tensile_strength is expected with it");
+        if (key) return fault(r, key, "belongs to a strength surface, which needs tensile_strength too; give both");
     }
     return OK;
 }
@@ -149,26 +153,25 @@ status read_softening_onset(struct reader *r, const struct yaml_node *material_n
                            *law = yaml_node_find(material_node, "softening"),
                            *scatter = yaml_node_find(material_node, "scatter");
     material->onset_stretch = material->critical_stretch;
-    if (law && !strength) return fault(r, law, "says how bonds lose their tensile_strength, which is expected with it");
+    if (law && !strength)
+        return fault(r, law, "has no effect without tensile_strength, whose decrease it describes; give both");
     if (!strength) return check_no_surface(r, material_node);
     if (!material_yields(material) && s->method == METHOD_MPM) return refuse_unsupported_softening(r, strength);
-    const char *why = material_yields(material)
-                          ? "is of bonds that do not yield; one of yield_stress and tensile_strength is "
-                            "expected"
-                      : scene_is_single_equilibrium(s)
-                          ? s->method == METHOD_PD
-                                ? "is of bonds that break, and none does in a single equilibrium; solver: explicit or "
-                                  "static is expected"
-                                : "is of bonds that break, and none does in a single equilibrium; solver: explicit is "
-                                  "expected"
-                      : !isfinite(material->critical_stretch)
-                          ? "tells the stress but not the energy at which bonds end; energy_release_rate, toughness or "
-                            "critical_stretch is expected, too"
-                          : NULL;
+    const char *why =
+        material_yields(material)
+            ? "cannot be combined with yield_stress: bonds either soften or yield; remove one of the two"
+        : scene_is_single_equilibrium(s)
+            ? s->method == METHOD_PD
+                  ? "has no effect in a single equilibrium, in which no bond breaks; set solver: explicit or static"
+                  : "has no effect in a single equilibrium, in which no bond breaks; set solver: explicit"
+        : !isfinite(material->critical_stretch)
+            ? "needs the energy that a bond dissipates; add energy_release_rate, toughness or critical_stretch"
+            : NULL;
     if (why) return fault(r, strength, "%s", why);
     if (scatter && material->scatter.of != SCATTER_STRENGTH && material->scatter.of != SCATTER_STRETCH)
         return fault(r, yaml_node_find(scatter, "of"),
-                     "with tensile_strength, `of: strength` (at one energy) or critical_stretch (with it) is expected");
+                     "cannot be combined with tensile_strength; set strength (the energy does not scatter) or "
+                     "critical_stretch (it does)");
     TRY(check_strength_below_tenth_of_modulus(r, strength, material, material->tensile_strength));
     set_stretches(s, material);
     TRY(read_strength_surface(r, material_node, material));
@@ -182,7 +185,7 @@ status check_single_softening_law(struct reader *r, const struct yaml_node *mate
     for (int j = 0; j < material_index; j++)
         if (material_has_softening_bonds(&m[j]) && material_has_softening_bonds(&m[material_index]) &&
             m[j].softening != m[material_index].softening)
-            return fault(r, material_node, "softens by another law than material %s; one law for all is expected",
+            return fault(r, material_node, "softens by another law than material %s; give all materials the same law",
                          m[j].name);
     return OK;
 }
@@ -202,17 +205,18 @@ status check_softening_is_supported(struct reader *r, const struct yaml_node *ro
                           *yields = scene_first_material(s, material_yields);
     if (soft && yields)
         return fault(r, yaml_node_find(root, "materials"),
-                     "bonds of material %s soften and those of %s yield, which one scene does not do; tensile_strength "
-                     "or yield_stress, not both, is expected",
+                     "bonds of material %s soften and those of %s yield, which one scene cannot combine; give "
+                     "materials a tensile_strength or a yield_stress, not both",
                      soft->name, yields->name);
     if (!soft || s->model == MODEL_BOND) return OK;
     if (growth)
-        return fault(r, growth, "cuts bonds that soften with model: bond, which is expected, or no tensile_strength");
+        return fault(r, growth,
+                     "cannot cut bonds that soften with this model; set model: bond, or remove tensile_strength");
     for (int m = 0; m < s->materials; m++)
         if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, model,
-                         "material %s breaks without softening, which model %s does not mix; a tensile_strength of all "
-                         "materials that break, or of none, is expected",
+                         "material %s breaks without softening while another softens; with model %s all materials that "
+                         "break must be of one kind: give each a tensile_strength, or none",
                          s->material[m].name, node_text(r, model));
     return OK;
 }

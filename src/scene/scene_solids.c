@@ -35,7 +35,8 @@ static status check_box(struct reader *r, const struct yaml_node *n, const struc
 {
     for (int d = 0; d < r->dim; d++)
         if (!(s->from[d] < s->to[d]))
-            return fault(r, n, "from is not smaller than to along %c; from is the corner with the smaller coordinates",
+            return fault(r, n,
+                         "from is not smaller than to along %c; let from be the corner with the smaller coordinates",
                          'x' + d);
     return OK;
 }
@@ -46,13 +47,14 @@ static status check_round(struct reader *r, const struct yaml_node *n, const str
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
     if (has_ends && memcmp(s->from, s->to, sizeof s->from) == 0)
-        return fault(r, n, "its axis has no length; from and to are its two ends");
+        return fault(r, n, "its axis has no length; give two different ends, from and to");
     if ((s->kind == SOLID_TUBE || s->kind == SOLID_RING) && !(s->inner < s->radius))
-        return fault(r, yaml_node_find(n, "inner"), "is not below radius; the radius of its hole is expected");
+        return fault(r, yaml_node_find(n, "inner"), "is not below radius; give the radius of the hole");
     if (s->kind == SOLID_CONE && !(s->inner + s->radius > 0))
-        return fault(r, n, "both radii are 0; one may be, for a cone that ends in a point");
+        return fault(r, n, "both radii are 0; give at least one (the other may be 0, for a cone that ends in a point)");
     if (s->kind == SOLID_TORUS && !(s->inner < s->radius))
-        return fault(r, yaml_node_find(n, "section"), "is not below radius; a torus has a hole");
+        return fault(r, yaml_node_find(n, "section"),
+                     "is not below radius, so the torus has no hole; give a smaller radius of the section");
     return OK;
 }
 
@@ -60,9 +62,9 @@ static status check_solid(struct reader *r, const struct yaml_node *n, const str
 {
     if (s->kind == SOLID_BOX) return check_box(r, n, s);
     if (s->kind == SOLID_HALF_SPACE && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "the normal has no length; it points out of the half-space");
+        return fault(r, n, "the normal has no length; give one that points out of the half-space");
     if (s->kind == SOLID_TORUS && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "its axis has no length; it leads through the hole");
+        return fault(r, n, "its axis has no length; give the direction through the hole");
     return check_round(r, n, s);
 }
 
@@ -87,17 +89,14 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     case POLYGON_SHORT:
         return fault(r, list, "corner %d and the next one are at the same position; remove one of them", at);
     case POLYGON_FLAT:
-        return fault(r, list, "have no area; the corners of a polygon are expected");
+        return fault(r, list, "have no area; give the corners of a polygon");
     case POLYGON_CROSSED:
-        return fault(r, list,
-                     "the edge that begins at corner %d touches or crosses another edge; a polygon without crossings "
-                     "is expected",
-                     at);
+        return fault(
+            r, list,
+            "the edge that begins at corner %d touches or crosses another edge; give a polygon without crossings", at);
     case POLYGON_TIGHT:
         return fault(r, yaml_node_find(n, "round"),
-                     "is too large for the edge from corner %d to the next; a smaller radius "
-                     "is expected",
-                     at);
+                     "is too large for the edge from corner %d to the next; use a smaller radius", at);
     default:
         return OK;
     }
@@ -111,7 +110,7 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
     const struct yaml_node *shape = yaml_node_find(n, "shape");
     TRY(read_keys_of_group(r, n, n, "solid.extrude", s));
     if (!shape) return fault_report_missing_key(r, n, key_find("solid.extrude", "shape"));
-    if (!(s->begin < s->end)) return fault(r, n, "from is not below to; from is the lower end");
+    if (!(s->begin < s->end)) return fault(r, n, "from is not below to; let from be the lower end");
     r->dim = 2;
     const status read = read_region(r, shape, &s->region);
     r->dim = r->scene->dim;
@@ -126,13 +125,13 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
     snprintf(group, sizeof group, "solid.%s", word->name);
     s->kind = word->kind;
     if (word->dim && word->dim != r->dim)
-        return fault(r, n, "not in %s; %s is expected", space_name_for_message(r),
+        return fault(r, n, "cannot be used in %s; use %s", space_name_for_message(r),
                      r->dim == 1                   ? "box"
                      : r->dim == 2                 ? "disc, polygon, ellipse, ring or box"
-                     : word->kind == SOLID_POLYGON ? "extrude, with a polygon as its shape,"
+                     : word->kind == SOLID_POLYGON ? "extrude with a polygon as its shape"
                                                    : "ball, cylinder, tube, cone, extrude or box");
     if (r->bounded && !r->cutting && (s->kind == SOLID_ALL || s->kind == SOLID_HALF_SPACE))
-        return fault(r, n, "a body cannot be infinite; box, ball and cylinder are finite");
+        return fault(r, n, "a body cannot be infinite; use a finite solid, such as box, ball or cylinder");
     if (s->kind == SOLID_VOXELS) return read_image_solid(r, n, s);
     if (s->kind == SOLID_HULL) return (strcmp(word->name, "stl") == 0 ? read_stl_solid : read_mesh_solid)(r, n, s);
     if (s->kind == SOLID_POLYGON) return read_corners(r, n, s);
@@ -153,11 +152,10 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
 {
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
     const char *word = r->dim == r->scene->dim ? "region" : "section";
-    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of %ss is expected", node_text(r, n), word);
+    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is not a name; give one of the %ss", node_text(r, n), word);
     if (!map)
         return fault(
-            r, n,
-            "%s is not the word of a solid, and the scene has no %s of this name; %ss: {%s: {box: ..}} is expected",
+            r, n, "%s is not a kind of solid, and the scene has no %s of this name; define it by %ss: {%s: {box: ..}}",
             node_text(r, n), word, word, node_text(r, n));
     for (const struct yaml_node *c = map->first; c; c = c->next) {
         *called = c;
@@ -174,7 +172,8 @@ static status read_called(struct reader *r, const struct yaml_node *n, struct re
     struct naming here = {.outer = r->naming};
     TRY(region_called(r, n, &here.region));
     for (const struct naming *k = r->naming; k; k = k->outer)
-        if (k->region == here.region) return fault(r, n, "region %s is part of itself", node_text(r, n));
+        if (k->region == here.region)
+            return fault(r, n, "region %s is part of itself; remove this reference", node_text(r, n));
     r->naming = &here;
     const status read = read_solids(r, here.region, region, false);
     r->naming = here.outer;
@@ -218,8 +217,8 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
 {
     *map = yaml_node_find(root, key);
     if (!*map) return OK;
-    TRY(expect_node_kind(r, *map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
-    return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
+    TRY(expect_node_kind(r, *map, NODE_MAP, "a mapping of names to solids, such as {grip: {box: ..}}"));
+    return (*map)->n > 0 ? OK : fault(r, *map, "has no region; give a name and its solids");
 }
 
 /* Reads all named sections in r->sections and discards them; extrusions read those that they use again. In this way
@@ -228,7 +227,7 @@ static status read_sections(struct reader *r)
 {
     const struct yaml_node *map = r->sections;
     int count = 0;
-    if (r->dim != 3) return fault(r, map, "not in %s; regions are expected there", space_name_for_message(r));
+    if (r->dim != 3) return fault(r, map, "cannot be used in %s; use regions there", space_name_for_message(r));
     struct named_region *named = NEW("regions", map->n, struct named_region);
     r->dim = 2;
     const status read = read_names(r, map, named, &count);
@@ -286,9 +285,11 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     for (const struct yaml_node *c = n->first; c; c = c->next)
         if (!node_is_motion_key_of_solid(c)) child = c, solids++;
     if (solids != 1)
-        return fault(r, n, "has %d solids; it is one of box, disc, ball, cylinder, polygon, .. (`cleave help solid`)",
+        return fault(r, n,
+                     "has %d solids where exactly one is expected: box, disc, ball, cylinder, polygon or another "
+                     "(list: `cleave help solid`)",
                      solids);
-    if (r->solids++ > SOLIDS_MOST) return fault(r, n, "one of more than %d solids; fewer are expected", SOLIDS_MOST);
+    if (r->solids++ > SOLIDS_MOST) return fault(r, n, "has more than %d solids; use fewer", SOLIDS_MOST);
     for (size_t k = 0; k < COUNT_OF(solid_words) && !word; k++)
         if (strcmp(solid_words[k].name, child->key) == 0) word = &solid_words[k];
     if (word)
@@ -296,12 +297,12 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     else if (strcmp(child->key, "region") == 0)
         TRY(read_named(r, child, s));
     else if (signed_before)
-        return fault(r, child, "is inside add, subtract or intersect; a solid such as box is expected there");
+        return fault(r, child, "is inside add, subtract or intersect; give a solid such as box there");
     else
         TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));
     if (solid_query_cost_relative_to_ball(s) <= EFFORT_MOST) return OK;
-    return fault(r, n, "makes more than %g solids with its copies; fewer are expected", EFFORT_MOST);
+    return fault(r, n, "makes more than %g solids with its copies; use fewer", EFFORT_MOST);
 }
 
 /* Reads the list of solids of node n into `region`. intersect: true if solids without an operation of their own are
@@ -319,7 +320,7 @@ static status read_solids(struct reader *r, const struct yaml_node *n, struct re
         TRY(read_solid(r, item, &region->solid[k], false));
     }
     if (region->solid[0].subtract)
-        return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
+        return fault(r, n, "has nothing to subtract from; first add a solid (in a region perhaps all: true)");
     region_build_search_trees(region, r->dim);
     return OK;
 }
@@ -358,15 +359,14 @@ static status check_polygon(struct reader *r, const struct yaml_node *n, const s
         for (int d = 0; d < DIM_MAX; d++) normal[d] += part[d];
     }
     real twice_area = sqrt(dot(normal, normal, DIM_MAX)), size = sqrt(twice_area);
-    if (!(twice_area > 0)) return fault(r, n, "has no area; a plane convex polygon is expected");
+    if (!(twice_area > 0)) return fault(r, n, "has no area; give the corners of a plane convex polygon");
     for (int k = 0; k < c->n; k++) {
         for (int j = 0; j < c->n; j++) {
             real away[DIM_MAX];
             for (int d = 0; d < DIM_MAX; d++) away[d] = c->corner[j][d] - c->corner[0][d];
             cross_at(c->corner[k], c->corner[(k + 1) % c->n], c->corner[j], part);
             if (fabs(dot(away, normal, DIM_MAX)) > 1e-6 * size * twice_area)
-                return fault(r, n, "corner %d is not in the plane of the other corners; a plane polygon is expected",
-                             j);
+                return fault(r, n, "corner %d is not in the plane of the other corners; give a plane polygon", j);
             if (dot(part, normal, DIM_MAX) < -1e-6 * square(twice_area))
                 return fault(r, n, "is not convex at corner %d; give several convex polygons", k);
         }
@@ -396,7 +396,8 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
     TRY(check_keys_known(r, n, "cracks"));
     for (const struct yaml_node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
-            return fault(r, k, "not in space %s; a crack there has %s", space_names[r->scene->space], form[r->dim - 1]);
+            return fault(r, k, "cannot be used in space %s; give a crack by %s", space_names[r->scene->space],
+                         form[r->dim - 1]);
     const struct yaml_node *a = yaml_node_find(n, word), *b = yaml_node_find(n, "to");
     if (!a) return fault_report_missing_key(r, n, key_find("cracks", word));
     if (r->dim == 2 && !b) return fault_report_missing_key(r, n, key_find("cracks", "to"));
@@ -406,7 +407,7 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
     if (r->dim == 1) return OK;
     TRY(read_point(r, key_find("cracks", "to"), b, c->corner[1]));
     if (c->corner[0][0] != c->corner[1][0] || c->corner[0][1] != c->corner[1][1]) return OK;
-    return fault(r, n, "has no length; from and to are its two ends");
+    return fault(r, n, "has no length; give two different ends, from and to");
 }
 
 static status read_crack(struct reader *r, const struct yaml_node *n, struct crack *c)

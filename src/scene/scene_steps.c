@@ -15,22 +15,21 @@ static status check_steps_motion(struct reader *r, const struct yaml_node *root)
             return status_prepend_location(
                 s->body[s->bodies + k].place,
                 status_set(REFUSED,
-                           "rigid body %s has a mass and moves freely, but load steps have no inertia; a velocity in "
-                           "place of the mass, or solver: explicit, is expected",
+                           "rigid body %s has a mass and moves freely, but load steps have no inertia; give it a "
+                           "velocity instead of the mass, or set solver: explicit",
                            s->body[s->bodies + k].name));
     if (s->growths > 0)
-        return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed need solver: explicit");
+        return fault(r, cracks ? cracks : solver,
+                     "cracks with a prescribed speed need time steps; set solver: explicit");
     if (s->contact_friction > 0)
-        return fault(r, tree_find(root, "contact.friction"),
-                     "friction has no energy to be in equilibrium with; 0, or "
-                     "solver: explicit, is expected");
+        return fault(r, tree_find(root, "contact.friction"), "load steps have no friction; set 0, or solver: explicit");
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
             return fault(r, yaml_node_find(root, "initial"),
-                         "load steps have no velocities; solver: explicit is expected");
+                         "load steps have no velocities; remove them, or set solver: explicit");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE)
-            return fault(r, solver, "solver: static computes no waves, which probe %s measures; explicit is expected",
+            return fault(r, solver, "solver: static computes no waves, which probe %s measures; set solver: explicit",
                          s->probe[k].name);
     return OK;
 }
@@ -44,7 +43,7 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
     for (int b = 0; b < s->boundaries && n; b++, n = n->next) {
         if (s->boundary[b].follow)
             return fault(r, yaml_node_find(n, "follow"),
-                         "load steps have loads on the reference state only; false, or solver: explicit, is expected");
+                         "load steps apply loads to the undeformed body only; set false, or solver: explicit");
         TRY(status_prepend_location(s->boundary[b].place, boundary_check_displacement_known(&s->boundary[b])));
     }
     return OK;
@@ -61,19 +60,18 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
     if (!scene_has_load_steps_with_softening_bonds(s)) return OK;
-    if (s->method != METHOD_PD) return fault(r, solver, "bonds soften in load steps of method: pd, which is expected");
+    if (s->method != METHOD_PD) return fault(r, solver, "load steps with bonds that soften need method: pd; set it");
     if (s->rigids > 0)
-        return fault(r, solver,
-                     "bonds soften in load steps without rigid bodies; boundaries are expected in their place");
+        return fault(r, solver, "load steps with bonds that soften cannot have rigid bodies; use boundaries instead");
     if (s->steps.control == CONTROL_OPENING || s->steps.then == THEN_EXPLICIT || s->steps.path == PATH_HOOP)
         return fault(r, yaml_node_find(root, "steps"),
-                     "bonds that soften choose their path; control: energy or load, then: equilibrium, and path: bonds "
-                     "or auto are expected");
+                     "bonds that soften determine the crack path themselves; set control: energy or load, then: "
+                     "equilibrium, and path: bonds or auto");
     for (int m = 0; m < s->materials; m++)
         if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, solver,
-                         "material %s breaks without softening, which load steps do not mix; a tensile_strength of all "
-                         "materials that break, or of none, is expected",
+                         "material %s breaks without softening while another softens; with load steps all materials "
+                         "that break must be of one kind: give each a tensile_strength, or none",
                          s->material[m].name);
     return OK;
 }
@@ -90,10 +88,9 @@ static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
         loaded |= load->kind != BOUNDARY_MIRROR && (varies || dot(load->value, load->value, DIM_MAX) > 0);
     }
     if (loaded || scene_has_moving_rigid_body(s)) return OK;
-    return fault(
-        r, yaml_node_find(root, "solver"),
-        "nothing loads the body: a boundary with a displacement, velocity, traction, pressure or body force, or a "
-        "rigid body with a velocity, is expected");
+    return fault(r, yaml_node_find(root, "solver"),
+                 "nothing loads the body; add a boundary with a displacement, velocity, traction, pressure or body "
+                 "force, or a rigid body with a velocity");
 }
 
 status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
@@ -107,16 +104,16 @@ status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
     r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
         return fault(r, tree_find(root, "steps.then"),
-                     "explicit is possible only with steps.control: load; with control %s an unstable crack is "
-                     "followed by equilibria, and no explicit run is needed",
+                     "explicit is possible only with steps.control: load; with control %s load steps follow an "
+                     "unstable crack, so no explicit run is needed: set equilibrium",
                      opening ? "opening" : "energy");
     if (s->steps.path == PATH_HOOP && s->dim == 1)
         return fault(r, tree_find(root, "steps.path"),
-                     "hoop leads the tips of cracks; bonds, or auto, is expected on a line");
+                     "hoop needs crack tips, which a line does not have; set bonds or auto");
     if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return check_steps_loaded(r, root);
     return fault(r, steps,
-                 "control: opening needs steps.from and steps.to, two positions, and steps.opening, by how much their "
-                 "distance grows");
+                 "control: opening needs steps.from and steps.to, two positions, and steps.opening, the increase of "
+                 "their distance");
 }
 
 /* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because
@@ -129,5 +126,5 @@ status check_load_step_keys_unused(struct reader *r, const struct yaml_node *roo
     const bool usual = s->number == atoi(number->fallback) && s->control == CONTROL_LOAD && s->energy == 0 &&
                        s->opening == 0 && s->path == PATH_AUTO && s->breaks == atoi(breaks->fallback);
     if (!steps || scene_has_load_steps(r->scene) || usual) return OK;
-    return fault(r, steps, "load steps belong to solver: static, which is expected beside them");
+    return fault(r, steps, "load steps need solver: static; set it, or remove these keys");
 }

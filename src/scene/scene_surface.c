@@ -18,7 +18,7 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
                                              const struct material *material, real strength)
 {
     if (!(strength > 0.1 * material->young)) return OK;
-    return fault(r, strength_node, "%s is above a tenth of Young's modulus, %.4g Pa; a smaller strength is expected",
+    return fault(r, strength_node, "%s is above a tenth of Young's modulus, %.4g Pa; give a smaller strength",
                  node_text(r, strength_node), 0.1 * material->young);
 }
 
@@ -29,9 +29,9 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
 {
     if (value > low * m->tensile_strength && value <= high * m->tensile_strength) return OK;
     if (isinf(high))
-        return fault(r, n, "more than %.4g Pa, %s of tensile_strength, is expected", low * m->tensile_strength,
+        return fault(r, n, "must be more than %.4g Pa, %s of tensile_strength", low * m->tensile_strength,
                      low < 0.4 ? "a third" : "a half");
-    return fault(r, n, "more than %.4g and at most %.4g Pa, half of tensile_strength and all of it, is expected",
+    return fault(r, n, "must be more than %.4g Pa (half of tensile_strength) and at most %.4g Pa (all of it)",
                  low * m->tensile_strength, high * m->tensile_strength);
 }
 
@@ -44,7 +44,7 @@ static status surface_from(struct reader *r, const struct yaml_node *n, const ch
     if (key[0] == 'c') {
         TRY(check_strength_below_tenth_of_modulus(r, n, m, m->compressive_strength));
         if (m->compressive_strength < tension)
-            return fault(r, n, "is below tensile_strength; at least %.4g Pa is expected", tension);
+            return fault(r, n, "is below tensile_strength; give at least %.4g Pa", tension);
         material_set_strength_surface(m, space, strength_surface_from_compression(tension, m->compressive_strength));
     } else if (key[0] == 'h') {
         TRY(check_strength_below_tenth_of_modulus(r, n, m, m->hydrostatic_strength));
@@ -90,8 +90,8 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
         return OK;
     if (most >= s->horizon * s->spacing) return OK;
     return fault(r, n,
-                 "bonds of this horizon, %.4g m, soften by themselves at %.4g Pa, before the strength surface is "
-                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected%s",
+                 "bonds of this horizon, %.4g m, soften at %.4g Pa already, before the strength surface is reached; "
+                 "use a horizon below %.4g m, that is particles.spacing below %.4g m%s",
                  s->horizon * s->spacing, own, most, most / s->horizon, strength_unit_hint(s, most));
 }
 
@@ -107,15 +107,15 @@ status read_strength_surface(struct reader *r, const struct yaml_node *material_
         if (next) given = next, key = names[k];
     }
     if (!given && radius)
-        return fault(r, radius,
-                     "is of a strength surface; compressive_strength, hydrostatic_strength or biaxial_strength is "
-                     "expected with it");
+        return fault(
+            r, radius,
+            "belongs to a strength surface; add compressive_strength, hydrostatic_strength or biaxial_strength");
     if (!given) return OK;
     if (s->model != MODEL_BOND)
-        return fault(r, given, "a strength surface starts bonds of model: bond, which is expected");
-    if (s->space == SPACE_LINE)
         return fault(r, given,
-                     "is of a strength surface, which a line does not have; tensile_strength alone is expected");
+                     "a strength surface (a strength that depends on the stress state) needs model: bond; set it");
+    if (s->space == SPACE_LINE)
+        return fault(r, given, "belongs to a strength surface, which a line does not have; give tensile_strength only");
     TRY(surface_from(r, given, key, material));
     const real share = s->space == SPACE_PLANE_STRESS ? RADIUS_PLANE_STRESS : RADIUS_ELSE;
     const real reach = radius ? material->strength_radius : share * characteristic_length(s, material);

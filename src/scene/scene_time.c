@@ -23,12 +23,11 @@ static status read_table(struct reader *r, const struct yaml_node *n, struct tim
     f->value = NEW("time table", n->n, real);
     for (const struct yaml_node *row = n->first; row; row = row->next) {
         if (row->kind != NODE_LIST || row->n != 2)
-            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", node_text(r, row));
+            return fault(r, row, "%s is not a pair; give [time, factor], such as [5 us, 1]", node_text(r, row));
         TRY(read_number(r, &time, row->first, &f->t[f->n]));
         TRY(read_number(r, &factor, row->last, &f->value[f->n]));
         if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-            return fault(r, row->first,
-                         "time %s is not later than the previous one; times in ascending order are expected",
+            return fault(r, row->first, "time %s is not later than the previous one; give times in ascending order",
                          node_text(r, row->first));
         f->n++;
     }
@@ -73,8 +72,9 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     char *unit = csv_cut_unit_off_column_name(name), number[UNIT_LONGEST_NAME + 2];
     const bool time = strcasecmp(name, "time") == 0 || strcasecmp(name, "t") == 0;
     if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
-    if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_report_fault(&c->in, name, "its unit is too long");
-    if (time && c->time >= 0) return csv_report_fault(&c->in, name, "column %.40s is given twice", name);
+    if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_report_fault(&c->in, name, "its unit is too long; shorten it");
+    if (time && c->time >= 0)
+        return csv_report_fault(&c->in, name, "column %.40s is given twice; rename or remove one", name);
     if (!time && c->value >= 0) {
         c->second = name;
         return OK;
@@ -96,21 +96,20 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
     char *rest = c->in.text;
     c->time = c->value = -1;
     TRY(csv_read_data_line(&c->in, &more));
-    if (!more) return status_set(REFUSED, "%s: empty; a header such as time [us], value is expected", c->in.path);
+    if (!more) return status_set(REFUSED, "%s: empty; begin with a header such as time [us], value", c->in.path);
     csv_detect_separator(&c->in);
     for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
     c->all = k;
     if (c->time < 0)
         return csv_report_fault(&c->in, c->in.text,
-                                "no column is called time; a header such as time [us], value is expected");
+                                "no column is named time; begin with a header such as time [us], value");
     if (c->second)
-        return csv_report_fault(
-            &c->in, c->second, "column %.40s is a second column of values; give column: NAME to choose one", c->second);
+        return csv_report_fault(&c->in, c->second,
+                                "column %.40s is a second column of values; add column: NAME to choose one", c->second);
     if (c->value >= 0) return OK;
-    if (*wanted) return csv_report_fault(&c->in, c->in.text, "no column is called %.40s", wanted);
-    return csv_report_fault(
-        &c->in, c->in.text,
-        "only one column; time and value, with a comma, semicolon or tab between them, are expected");
+    if (*wanted) return csv_report_fault(&c->in, c->in.text, "no column is named %.40s; check its spelling", wanted);
+    return csv_report_fault(&c->in, c->in.text,
+                            "there is only one column; give time and value, separated by a comma, semicolon or tab");
 }
 
 static status time_number(const struct time_columns *c, const char *field, const char *unit_text, enum unit unit,
@@ -132,10 +131,9 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
     char *rest = line, *time = line;
     for (char *field; (field = csv_cut_field(&c->in, &rest)) != NULL; k++) {
         if (k == c->all)
-            return csv_report_fault(&c->in, field,
-                                    "more values than the %d columns of the header; numbers have a point, not "
-                                    "a comma",
-                                    c->all);
+            return csv_report_fault(
+                &c->in, field, "more values than the %d columns of the header; write numbers with a point, not a comma",
+                c->all);
         if (k != c->time && k != c->value) continue;
         found++;
         if (k == c->time) {
@@ -150,8 +148,8 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
                                 "this line has %d values, but the value of column %d is needed; add the missing values",
                                 k, 1 + (c->time > c->value ? c->time : c->value));
     if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-        return csv_report_fault(
-            &c->in, time, "time %s is not later than the previous one; times in ascending order are expected", time);
+        return csv_report_fault(&c->in, time,
+                                "time %s is not later than the previous one; give times in ascending order", time);
     return OK;
 }
 
@@ -161,13 +159,14 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
     for (bool more;; f->n++) {
         TRY(csv_read_data_line(&c->in, &more));
         if (!more) break;
-        if (f->n == TIMES_MAX) return csv_report_fault(&c->in, c->in.text, "more than %d times", TIMES_MAX);
+        if (f->n == TIMES_MAX)
+            return csv_report_fault(&c->in, c->in.text, "more than %d times; remove some", TIMES_MAX);
         GROW("time table", f->t, f->n + 1);
         GROW("time table", f->value, f->n + 1);
         TRY(time_entry(c, c->in.text, f));
     }
     return f->n > 0 ? OK
-                    : status_set(REFUSED, "%s: there is no line with a time and a value below the header", c->in.path);
+                    : status_set(REFUSED, "%s: no line below the header has a time and a value; add some", c->in.path);
 }
 
 /* Reads the factor of time of boundary b from the CSV file that `file: name` gives, with `column: name` for the values.
@@ -177,14 +176,14 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
     struct time_columns c = {.unit = unit_of_boundary(b)};
     const struct yaml_node *n = yaml_node_find(map, "file");
     const struct yaml_node *column = yaml_node_find(map, "column");
-    if (!n) return fault(r, column, "has no meaning without file; the name of a CSV file is expected");
+    if (!n) return fault(r, column, "has no effect without file; add file, the name of a CSV file");
     if (column && (column->kind != NODE_SCALAR || !*column->text || strlen(column->text) >= sizeof b->time_column))
-        return fault(r, column, "%s is no name of a column", node_text(r, column));
+        return fault(r, column, "%s is not the name of a column", node_text(r, column));
     if (column) snprintf(b->time_column, sizeof b->time_column, "%s", column->text);
     b->time.kind = TIME_TABLE;
     TRY(read_input_file_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
     if (!r->files) return OK;
-    TRY(csv_open(&c.in, b->time_file, "a function of time has a time and its value a line"));
+    TRY(csv_open(&c.in, b->time_file, "a function of time has one time and its value per line"));
     status s = time_entries(&c, &b->time, b->time_column);
     csv_close(&c.in);
     b->time_unit = *c.value_unit != '\0';
@@ -203,20 +202,20 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
     if (!function_node || (function_node->kind == NODE_SCALAR && strcmp(function_node->text, "constant") == 0))
         return OK;
     if (function_node->kind != NODE_MAP)
-        return fault(r, function_node, "%s is no function of time; %s is expected", node_text(r, function_node), forms);
+        return fault(r, function_node, "%s is not a function of time; %s is expected", node_text(r, function_node),
+                     forms);
     TRY(check_keys_known(r, function_node, "boundary.time"));
     if (yaml_node_find(function_node, "file") || yaml_node_find(function_node, "column")) {
         for (const struct yaml_node *other = function_node->first; other; other = other->next)
             if (word_index_in_list("file|column", other->key) < 0)
-                return fault(r, other, "is given together with file; only one of %s is expected", forms);
+                return fault(r, other, "is given together with file; keep one of %s", forms);
         return read_time_file(r, function_node, boundary);
     }
-    if (function_node->n != 1)
-        return fault(r, function_node, "has %d keys; one is expected: %s", function_node->n, forms);
+    if (function_node->n != 1) return fault(r, function_node, "has %d keys; give one: %s", function_node->n, forms);
     const struct yaml_node *form = function_node->first;
     int kind = word_index_in_list("step|pulse|ramp", form->key);
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
     TRY(read_keys_of_group(r, form, form, groups[kind], f));
-    return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
+    return f->from < f->until ? OK : fault(r, form, "from is not before until; let it begin at from and end at until");
 }

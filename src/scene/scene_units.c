@@ -261,7 +261,7 @@ static const char *trap(const char *c, size_t length)
     if (*rest == ',') return "the decimal sign is a point; write 1.5";
     if (*rest == ':') return "base 60 is not read; write a decimal number";
     if ((*rest == 'x' || *rest == 'X' || *rest == 'o' || *rest == 'b') && length <= 2 && *digits == '0')
-        return "hexadecimal, octal and binary are not read; write a decimal number";
+        return "hexadecimal, octal and binary numbers are not read; write a decimal number";
     if (digits[0] == '0' && isdigit((unsigned char)digits[1]))
         return "a leading 0 means octal elsewhere; write the decimal number without it";
     return NULL;
@@ -275,7 +275,7 @@ struct complaint {
 /* Writes the message `wrong`, the name of the expected unit and an example to c.what[c.room]. Returns false. */
 static bool complain(struct complaint c, const char *wrong, enum unit unit)
 {
-    snprintf(c.what, c.room, "%s; %s is expected, as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
+    snprintf(c.what, c.room, "%s; %s is expected, such as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
     return false;
 }
 
@@ -463,7 +463,7 @@ size_t quantity_read_at_start_of_text(struct quantity *q, const char *text, bool
     struct measure m = {{0, 0, 0}, 0};
     real factor = 1;
     bool is_time = false;
-    *fault_text = length == 0 ? "is no number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
+    *fault_text = length == 0 ? "not a number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
     if (length > 0 && text[length] == ',') *fault_text = NULL; /* the comma can separate operands of a function */
     if (*fault_text) return 0;
     const char *unit = text + length + strspn(text + length, " ");

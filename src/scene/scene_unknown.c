@@ -18,14 +18,14 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
     else if (nearest && words_are_similar(leaf, n->key))
         snprintf(text, capacity, "unknown key; the nearest is %s", leaf);
     else if (other && !strchr(other->path, '.'))
-        snprintf(text, capacity, "does not belong here; %s is a key of its own, at the left margin", n->key);
+        snprintf(text, capacity, "does not belong here; put the key %s at the left margin", n->key);
     else if (others == 1)
-        snprintf(text, capacity, "does not belong here; it is the key %s", other->path);
+        snprintf(text, capacity, "does not belong here; use the key %s", other->path);
     else if (others > 1)
         snprintf(text, capacity, "does not belong here; `cleave help %s` lists the %d keys of that name", n->key,
                  others);
     else
-        snprintf(text, capacity, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
+        snprintf(text, capacity, "unknown key; `cleave help%s%s` lists the known ones", *group ? " " : "", group);
 }
 
 status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path)

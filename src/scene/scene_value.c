@@ -30,7 +30,7 @@ static status check_range(struct reader *r, const struct key *k, const struct ya
                  bounded       ? (range->open ? " up to " : " to ")
                  : range->open ? ""
                                : " on",
-                 bounded ? number_write_shortest(most, range->most) : "", k->unit ? ", as " : "",
+                 bounded ? number_write_shortest(most, range->most) : "", k->unit ? ", such as " : "",
                  k->unit ? unit->example : "", advice ? "; " : "", advice ? advice : "");
 }
 
@@ -38,7 +38,7 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
 {
     char what[256];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a number; %s is expected, as %s", node_text(r, n), unit_rows[k->unit].name,
+        return fault(r, n, "%s is not a number; %s is expected, such as %s", node_text(r, n), unit_rows[k->unit].name,
                      unit_rows[k->unit].example);
     if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
         *value = k->word_value;
@@ -76,7 +76,7 @@ static status read_int(struct reader *r, const struct key *k, const struct yaml_
     }
     size_t digits = strspn(c, "0123456789");
     if (n->kind != NODE_SCALAR || digits == 0 || c[digits] != '\0' || (*c == '0' && digits > 1))
-        return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", node_text(r, n));
+        return fault(r, n, "%s is not a whole number; write digits only, such as 20", node_text(r, n));
     errno = 0;
     long long number = strtoll(n->text, NULL, 10);
     if (errno || number > INT32_MAX || number < INT32_MIN) number = *n->text == '-' ? INT32_MIN : INT32_MAX;
@@ -97,7 +97,7 @@ static status read_seed(struct reader *r, const struct yaml_node *n, uint64_t *v
     else
         errno = EINVAL;
     if (errno == 0) return OK;
-    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", node_text(r, n));
+    return fault(r, n, "%s is not a seed; a whole number from 0 to 18446744073709551615 is expected", node_text(r, n));
 }
 
 static status read_flag(struct reader *r, const struct yaml_node *n, bool *value)
@@ -160,9 +160,9 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
 static status read_any_text(struct reader *r, const struct yaml_node *n, char *name)
 {
     const size_t length = strlen(n->text);
-    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is no text", node_text(r, n));
+    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is not a text", node_text(r, n));
     if (length >= NAME_MAX_LENGTH)
-        return fault(r, n, "%s is too long; at most %d characters are expected", node_text(r, n), NAME_MAX_LENGTH - 1);
+        return fault(r, n, "%s is too long; at most %d characters are possible", node_text(r, n), NAME_MAX_LENGTH - 1);
     memset(name, 0, NAME_MAX_LENGTH);
     memcpy(name, n->text, length);
     return OK;
@@ -174,7 +174,7 @@ static status read_name(struct reader *r, const struct yaml_node *n, char *name)
     size_t length = strlen(n->text), fine = 0;
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
     if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-') return read_any_text(r, n, name);
-    return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", node_text(r, n));
+    return fault(r, n, "%s is not a name; use letters, digits, _ and -, but no - first", node_text(r, n));
 }
 
 /* ---- lists of numbers -------------------------------------------------------------------------------------------- */
@@ -195,8 +195,8 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     if (n->kind != NODE_LIST) {
         char example[200];
         key_write_example(k, r->dim, NULL, example, sizeof example);
-        return fault(r, n, "%s is not a list; %d components are expected in %s, as %s", node_text(r, n), r->dim, space,
-                     example);
+        return fault(r, n, "%s is not a list; %d components are expected in %s, such as %s", node_text(r, n), r->dim,
+                     space, example);
     }
     if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
     for (const struct yaml_node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
@@ -230,7 +230,7 @@ static status read_series(struct reader *r, const struct key *k, const struct ya
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(read_number(r, k, c, &series->value[series->n]));
         if (series->n > 0 && !(series->value[series->n] > series->value[series->n - 1]))
-            return fault(r, c, "%s is not larger than the previous value; values in ascending order are expected",
+            return fault(r, c, "%s is not larger than the previous value; give values in ascending order",
                          node_text(r, c));
         series->n++;
     }
@@ -273,10 +273,9 @@ static status scene_value_read_body(struct reader *r, const struct yaml_node *n,
     }
     for (int k = s->bodies; k < s->bodies + s->rigids; k++)
         if (strcmp(b[k].name, n->text) == 0)
-            return fault(r, n,
-                         "%s is rigid; a body with particles is expected (rigid ones have a velocity, a mass "
-                         "and a force of their own)",
-                         node_text(r, n));
+            return fault(
+                r, n, "%s is rigid; name a body with particles (rigid bodies have their own velocity, mass and force)",
+                node_text(r, n));
     return fault_reference(r, n, "body", b[nearest].name);
 }
 

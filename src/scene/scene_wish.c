@@ -19,7 +19,7 @@
 static status figure_read(struct reader *r, const struct yaml_node *of, char *figure, size_t capacity)
 {
     if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= capacity || strpbrk(of->text, " ,/"))
-        return fault(r, of, "%s is no figure of summary.json; its names are joined by points, as in crack.start_time",
+        return fault(r, of, "%s is not a figure of summary.json; join its names by points, such as crack.start_time",
                      node_text(r, of));
     snprintf(figure, capacity, "%s", of->text);
     return OK;
@@ -128,7 +128,7 @@ status pilot_requirements_read(struct reader *r, const struct yaml_node *root, c
     const struct yaml_node *model = tree_find(root, "model"), *solver = tree_find(root, "solver");
     const bool given = tree_find(root, "particles.spacing");
     if (tree_find(root, "steps"))
-        return fault(r, tree_find(root, "method"), "auto does not do load steps (steps); pd, or adaptive, is expected");
+        return fault(r, tree_find(root, "method"), "auto cannot use load steps (steps); set method: pd or adaptive");
     TRY(accuracy_read(r, root, requirements));
     TRY(provisional_scene(r, text, length, &requirements->provisional, given, &requirements->spacing_most));
     if (given) requirements->spacing = requirements->provisional.spacing;

@@ -39,6 +39,6 @@ struct word_proposal word_propose_similar(const char *word, const char *const *n
     for (int k = 1; k < n; k++)
         if (edit_distance(name[k], word) < edit_distance(name[nearest], word)) nearest = k;
     if (words_are_similar(name[nearest], word))
-        snprintf(proposal.text, sizeof proposal.text, "; do you mean %.80s?", name[nearest]);
+        snprintf(proposal.text, sizeof proposal.text, "; did you mean %.80s?", name[nearest]);
     return proposal;
 }

@@ -40,10 +40,10 @@ static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
 static status yaml_fault(struct parse *p)
 {
     const yaml_parser_t *yaml = &p->yaml;
-    if (yaml->error == YAML_MEMORY_ERROR) return status_set(FAILED, "%s: no memory to read it", p->r->name);
+    if (yaml->error == YAML_MEMORY_ERROR) return status_set(FAILED, "%s: out of memory while reading it", p->r->name);
     yaml_mark_t mark = yaml->error == YAML_READER_ERROR ? mark_of_offset(p, yaml->problem_offset) : yaml->problem_mark;
     return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1,
-                             "not YAML: %s; spaces (not tabs) indent, a key ends in `: `, brackets close",
+                             "not YAML: %s; indent by spaces (not tabs), end a key in `: `, close brackets",
                              yaml->problem ? yaml->problem : "it cannot be read");
 }
 
@@ -53,7 +53,7 @@ static status next_event(struct parse *p, yaml_event_t *event)
     if (++p->events <= EVENTS_MOST) return OK;
     yaml_mark_t mark = event->start_mark;
     yaml_event_delete(event);
-    return fault_at(p, mark, "more than 1000000 YAML events; long data belong into a particle list");
+    return fault_at(p, mark, "more than 1000000 YAML events; put long data into a particle list");
 }
 
 /* Returns a message if an event of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character, or
@@ -64,13 +64,13 @@ static const char *event_refusal(const yaml_event_t *e, int depth)
     if (e->type == YAML_ALIAS_EVENT) return "an alias (*) is not allowed in a scene; write the value out";
     if (e->type == YAML_SCALAR_EVENT) {
         anchor = e->data.scalar.anchor, tag = e->data.scalar.tag;
-        if (memchr(e->data.scalar.value, 0, e->data.scalar.length)) return "holds a NUL character; leave it out";
+        if (memchr(e->data.scalar.value, 0, e->data.scalar.length)) return "contains a NUL character; remove it";
     }
     if (e->type == YAML_SEQUENCE_START_EVENT) anchor = e->data.sequence_start.anchor, tag = e->data.sequence_start.tag;
     if (e->type == YAML_MAPPING_START_EVENT) anchor = e->data.mapping_start.anchor, tag = e->data.mapping_start.tag;
     if (anchor) return "an anchor (&) is not allowed in a scene; write the value out where it is used";
     if (tag) return "a tag (!) is not allowed in a scene; the key says what its value is";
-    if (depth > DEPTH_MOST) return "nested deeper than 16 levels; no key of a scene is";
+    if (depth > DEPTH_MOST) return "nested deeper than 16 levels, more than any key of a scene";
     return NULL;
 }
 
@@ -179,7 +179,7 @@ static status skip_event(struct parse *p, yaml_event_type_t *type)
     yaml_mark_t mark = event.start_mark;
     yaml_event_delete(&event);
     return *type == YAML_DOCUMENT_START_EVENT && p->events > 2
-               ? fault_at(p, mark, "a second document (---) begins; a file holds one scene")
+               ? fault_at(p, mark, "a second document (---) begins; put each scene into a file of its own")
                : OK;
 }
 
@@ -203,8 +203,10 @@ status tree_parse_yaml(struct reader *r, const char *text, size_t length, int or
 {
     struct parse p = {.r = r, .text = text, .length = length, .origin = origin_index};
     const char *nul = memchr(text, 0, length);
-    if (nul) return fault_at(&p, mark_of_offset(&p, (size_t)(nul - text)), "holds a NUL byte; a scene is UTF-8 text");
-    if (!yaml_parser_initialize(&p.yaml)) return status_set(FAILED, "%s: no memory to read it", r->name);
+    if (nul)
+        return fault_at(&p, mark_of_offset(&p, (size_t)(nul - text)),
+                        "contains a NUL byte; a scene is UTF-8 text: remove it");
+    if (!yaml_parser_initialize(&p.yaml)) return status_set(FAILED, "%s: out of memory while reading it", r->name);
     yaml_parser_set_input_string(&p.yaml, (const unsigned char *)text, length);
     status s = read_document(&p, root);
     yaml_parser_delete(&p.yaml);

@@ -53,7 +53,7 @@ const struct simd_set simd_sets[] = {
 #ifdef __x86_64__
     {"portable", "SSE2 (x86-64), 2 doubles a vector", runs_anywhere, &kernel_set_portable},
 #else
-    {"portable", "what the compiler takes this processor for", runs_anywhere, &kernel_set_portable},
+    {"portable", "what the compiler assumes this processor is", runs_anywhere, &kernel_set_portable},
 #endif
 #endif
 };
@@ -97,14 +97,14 @@ status simd_select_kernels(void)
         if (asked && !strcmp(asked, s->name)) wanted = s;
     }
     if (!widest)
-        return status_set(REFUSED, "this build has kernels for other processors alone: %s; `make` builds the others",
+        return status_set(REFUSED, "this build has kernels for other processors only: %s; `make` builds the others",
                           names(false, text, sizeof text));
     simd_use_kernels(wanted && wanted->runs() ? wanted : widest);
     if (!asked || in_use == wanted) return OK;
     if (!wanted)
         return status_set(REFUSED, "CLEAVE_SIMD=%s: no such set of kernels; there are: %s", asked,
                           names(false, text, sizeof text));
-    return status_set(REFUSED, "CLEAVE_SIMD=%s: this processor lacks %s; it runs: %s", asked, wanted->meaning,
+    return status_set(REFUSED, "CLEAVE_SIMD=%s: this processor lacks %s; it supports: %s", asked, wanted->meaning,
                       names(true, text, sizeof text));
 }
 

@@ -153,10 +153,10 @@ static status check(struct static_solver *s, const struct static_body *body, int
     if (s->stalls < STALLS_MOST) return OK;
     solver_cg_displace(s, body); /* the last accepted state replaces the trial motion */
     return status_set(FAILED,
-                      "conjugate gradients at step %lld: the residual stays at %.3g of the load, and %.3g is required; "
-                      "use a larger solver_tolerance (round-off limits it to 1e-8 for compact bodies, 1e-6 for slender "
-                      "ones), or check that the moments of the loads are balanced and every part has stiffness: a "
-                      "single row of particles has no bending stiffness",
+                      "conjugate gradients at step %lld: the out-of-balance force stays at %.3g of the load, but %.3g "
+                      "is required; use a larger solver_tolerance (round-off limits it to 1e-8 for compact bodies, "
+                      "1e-6 for slender ones), or check that the moments of the loads are balanced and every part has "
+                      "stiffness: a single row of particles has no bending stiffness",
                       (long long)step, s->best, body->tolerance);
 }
 
@@ -171,8 +171,8 @@ status cg_step(struct static_solver *s, const struct static_body *body, int64_t 
     reproducible_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED,
-                          "conjugate gradients at step %lld: a part of the body has no stiffness against a motion: "
-                          "check that every part is held, or bonded to a part that is held",
+                          "conjugate gradients at step %lld: a part of the body can move without resistance: check "
+                          "that every part is held, or bonded to a part that is held",
                           (long long)step);
     s->strain_ratio = sqrt(curvature / unit_energy(body)) / field_largest_component(&s->d, s->dim, s->n);
     const real left = sqrt(solver_cg_advance(s, s->rz / curvature));

@@ -151,11 +151,10 @@ static status force_balanced(const struct loads *loads, int d)
         }
     }
     if (fabs(sum) <= 1e-9 * size || component_constrained(loads, d)) return OK;
-    return status_set(
-        REFUSED,
-        "solver: nothing holds the body along %c against an applied force of %.4g N; balance the loads, or hold "
-        "that component somewhere",
-        "xyz"[d], sum);
+    return status_set(REFUSED,
+                      "solver: nothing holds the body along %c against an applied force of %.4g N; balance the loads, "
+                      "or hold that component somewhere",
+                      "xyz"[d], sum);
 }
 
 /* Returns OK if the loads can have an equilibrium, else REFUSED, with a message. Forces are tested along each axis;
@@ -168,11 +167,10 @@ static status loads_balanced(const struct static_body *body)
         return OK;
     const real turning = loads_add_inertia_relief(l, body->part);
     if (turning <= TURNING_MOST) return OK;
-    return status_set(
-        REFUSED,
-        "solver: no support keeps the body from turning, and the moment of the loads is %.3g of the largest that "
-        "they could have; balance the loads, or hold the body",
-        turning);
+    return status_set(REFUSED,
+                      "solver: no support keeps the body from turning, but the moment of the loads is %.3g of the "
+                      "largest possible one; balance the loads, or hold the body",
+                      turning);
 }
 
 status static_solver_make(struct static_solver *s, const struct static_body *body, real ramp_time)

@@ -85,8 +85,8 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
     if (count == 0) return;
     snprintf(text, sizeof text,
              "parts of body %.60s pass through each other: at t = %.3g s %lld particles are nearer than half a spacing "
-             "to another one that no bond holds off, the first at (%s) m: contact is %s; use contact.between: all; if "
-             "this is meant: accept: [contact]",
+             "to another one without a bond between them, the first at (%s) m: contact is %s; use contact.between: "
+             "all; if this is intended, add accept: [contact]",
              s->body[p->body[first]].name, t, (long long)count, particle_position_text(p, first, 4).text,
              s->contact_between == CONTACT_NONE ? "none" : "between bodies only");
     warnings_add_and_print(warning_list, text);
@@ -126,11 +126,10 @@ void large_motion_warn_of_turned_pressure(struct large_motion *m, const struct p
         if (b->kind != BOUNDARY_PRESSURE || b->follow || l->load[k].n < 2) continue;
         const real degrees = DEGREES * rotation_of_loaded_particles(&l->load[k], p);
         if (!(degrees > TURNED_MOST)) continue;
-        snprintf(
-            text, sizeof text,
-            "boundary %.60s: its surface has turned by %.0f degrees at t = %.3g s, but the pressure acts along the "
-            "normals of the undeformed body, so that it does work on the rotation; use follow: true",
-            b->name, degrees, t);
+        snprintf(text, sizeof text,
+                 "boundary %.60s: its surface has turned by %.0f degrees at t = %.3g s, but the pressure acts along "
+                 "the normals of the undeformed body, so it does work on the rotation; use follow: true",
+                 b->name, degrees, t);
         warnings_add_and_print(warning_list, text);
         m->turned = true;
     }

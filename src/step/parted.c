@@ -170,24 +170,23 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
     const struct weak_shape *w = c->parted > 0 ? NULL : shape_properties_if_weak_in_tension(s->shape);
-    char text[640], what[250], state[100] = "has come apart without fracture";
+    char text[640], what[250], state[100] = "has separated without fracture";
     if (w) snprintf(state, sizeof state, "pulled with mpm.shape: %s is too weak", w->word);
     if (w)
         snprintf(what, sizeof what,
-                 "%lld of %lld pairs of neighbouring points are apart by %.3g times their distance or more, where it "
-                 "bears %s %% too little",
+                 "%lld of %lld pairs of neighbouring points are at least %.3g times as far apart as at the start, "
+                 "where this shape carries %s %% too little",
                  (long long)c->pulled, (long long)n, w->pulled, w->too_little);
     else
         snprintf(what, sizeof what,
-                 "between %lld of %lld pairs of neighbouring points the cells of the grid are empty, so that nothing "
-                 "holds them together",
+                 "between %lld of %lld pairs of neighbouring points the cells of the grid are empty, so nothing holds "
+                 "them together",
                  (long long)c->parted, (long long)n);
-    snprintf(
-        text, sizeof text,
-        "metal %s at t = %.3g s: %s, %.2g times as far as at the start near x = %.4g m; use %smpm.frame: reference "
-        "up to plastic strains of 0.05%s; if this is meant: accept: [strain]",
-        state, t, what, c->stretch, c->x, s->shape == SHAPE_CPGIMP ? "" : "mpm.shape: cpgimp, or ",
-        c->parted > 0 ? ", and pull it by wider parts that do not flow" : "");
+    snprintf(text, sizeof text,
+             "metal %s at t = %.3g s: %s, %.2g times as far as at the start near x = %.4g m; use %smpm.frame: "
+             "reference up to plastic strains of 0.05%s; if this is intended, add accept: [strain]",
+             state, t, what, c->stretch, c->x, s->shape == SHAPE_CPGIMP ? "" : "mpm.shape: cpgimp, or ",
+             c->parted > 0 ? ", and pull it by wider parts that do not yield" : "");
     warnings_add_and_print(to, text);
 }
 

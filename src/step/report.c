@@ -311,7 +311,7 @@ status report_finished_step(struct run *e)
         const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
         if (stop || checkpoint_due(r, e->scene)) TRY(write_checkpoint(e));
         if (stop && !last)
-            return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
+            return status_set(INTERRUPTED, "%s at step %lld of %lld; continue with --resume",
                               late ? "time.wall is over" : "interrupted", (long long)e->clock.step,
                               (long long)e->clock.steps);
     }

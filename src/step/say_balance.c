@@ -29,10 +29,11 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
     char text[320];
     const real released = diagnostics_energy_released_beyond_stored(w);
     if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
-    snprintf(text, sizeof text,
-             "broken bonds released %.3g J more than they had stored (energy.fracture %.3g): with model %s, particles "
-             "under pressure gain energy as they lose bonds; compare with model: bond, and do not trust later results",
-             released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
+    snprintf(
+        text, sizeof text,
+        "broken bonds released %.3g J more than they had stored (energy.fracture %.3g): with model %s, particles under "
+        "pressure gain energy when they lose bonds; compare with model: bond, and do not trust later results",
+        released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
     warnings_add_and_print(to, text);
 }
 
@@ -42,12 +43,12 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
     const real released = diagnostics_energy_released_beyond_stored(w);
     const bool states = s->model == MODEL_OSPD || s->model == MODEL_MOSPD;
     if (!(released > RELEASED_NOTICED * w->energy_scale)) return false;
-    snprintf(text, sizeof text,
-             "the fracture energy has fallen below 0, to %.3g J at t = %.4g s, %.2g %% of the largest energy: broken "
-             "bonds have released more energy than they had stored, which moves the bodies%s; see energy.fracture at "
-             "the end",
-             -released, w->now.time, 100 * released / w->energy_scale,
-             states ? " (particles under pressure gain energy as they lose bonds); compare with model: bond" : "");
+    snprintf(
+        text, sizeof text,
+        "the fracture energy has fallen below 0, to %.3g J at t = %.4g s, %.2g %% of the largest energy: broken bonds "
+        "have released more energy than they had stored, so bodies move too fast%s; see energy.fracture at the end",
+        -released, w->now.time, 100 * released / w->energy_scale,
+        states ? " (particles under pressure gain energy when they lose bonds); compare with model: bond" : "");
     warnings_add_and_print(to, text);
     return true;
 }
@@ -67,9 +68,9 @@ static bool say_flight(const struct particles *p, const struct diagnostics *w, s
     if (p->n_free == 0 || fabs(error) > ENERGY_DOUBTFUL || fabs(error) < FLIGHT_LEAST) return false;
     if (!(amount > ENERGY_DOUBTFUL * w->internal_scale)) return false;
     snprintf(text, sizeof text,
-             "%.2g J, %.2g %% of the energy apart from that of flight, %s (energy.balance_error %.2g): stress of "
-             "material points that fly through cells of the grid errs; let bodies start where they meet, halve the "
-             "time step (time.safety), or use mpm.frame: reference",
+             "%.2g J, %.2g %% of the energy apart from that of flight, %s (energy.balance_error %.2g): the stress of "
+             "material points that fly through cells of the grid is wrong; let bodies start close to each other, halve "
+             "the time step (time.safety), or use mpm.frame: reference",
              amount, 100 * amount / w->internal_scale, error < 0 ? "is lost" : "has been gained without work of loads",
              error);
     warnings_add_and_print(to, text);
@@ -89,10 +90,10 @@ static void say_spin(const struct diagnostics *w, bool apic, real spacing, struc
     if (!w->turns || !(error > SPIN_DOUBTFUL)) return;
     if (w->spin_scale < SPIN_OF_ROUND_OFF * w->momentum_scale * spacing) return;
     snprintf(text, sizeof text,
-             "the angular momentum of the bodies has changed by %.*f %% without a moment of loads "
+             "the angular momentum of the bodies has changed by %.*f %%, although loads have no moment "
              "(angular_momentum_error)%s",
              error < 0.095, 100 * error,
-             apic ? ": mpm.transfer: apic conserves it to some percent, flip to 0.1 to 1 %" : "");
+             apic ? ": mpm.transfer: apic conserves it to a few percent, flip to 0.1 to 1 %" : "");
     warnings_add_and_print(to, text);
 }
 
@@ -111,7 +112,7 @@ static void say_damped(real share, struct warnings *to)
     if (!(share > DAMPED_DOUBTFUL)) return;
     snprintf(text, sizeof text,
              "%.0f %% of the energy was damped at interfaces between bonds and material points (energy.damped): "
-             "interface_damping removes vibrations with wavelengths of some spacings, in small bodies all vibrations; "
+             "interface_damping removes vibrations with wavelengths of a few spacings, in small bodies all vibrations; "
              "use interface_damping: 0 or method: pd to keep them",
              100 * share);
     warnings_add_and_print(to, text);
@@ -125,12 +126,11 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
     if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM ||
         scene_silences_warning(s, ACCEPT_SHOCK))
         return false;
-    snprintf(
-        text, capacity,
-        "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
-        "the wave breaks or yields a body. Behind it stress oscillates by 10 to 30 %%, so that bonds can break too "
-        "early: %s; if this is meant: accept: [shock]",
-        w->break_time, shock.speed, shock.share, shock.remedy);
+    snprintf(text, capacity,
+             "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
+             "the wave breaks or yields a body. Behind it stress oscillates by 10 to 30 %%, so bonds may break too "
+             "early: %s; if this is intended, add accept: [shock]",
+             w->break_time, shock.speed, shock.share, shock.remedy);
     return true;
 }
 
@@ -149,9 +149,9 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
     if (!fastest) return;
     snprintf(text, sizeof text,
              "the tip of a crack, from (%.4g, %.4g) to (%.4g, %.4g) m, moves at up to %.4g m/s within %.3g s "
-             "(crack.speed_window), faster than Rayleigh waves, %.4g m/s, which a crack that opens does not pass: what "
-             "moves is rather the edge of a zone that breaks at once, as beside a face under load; look at damage in "
-             "the frames; if this is meant: accept: [rayleigh]",
+             "(crack.speed_window), faster than Rayleigh waves, %.4g m/s, the limit for a crack that opens: it may be "
+             "the edge of a zone that breaks at once, for example beside a face under load; look at damage in the "
+             "frames; if this is intended, add accept: [rayleigh]",
              fastest->origin[0], fastest->origin[1], fastest->place[0], fastest->place[1], fastest->speed_max,
              t->window, limit);
     warnings_add_and_print(warning_list, text);
@@ -169,13 +169,13 @@ static void say_flow_error(const struct particles *p, const struct scene *s, rea
     if (error < 0 && s->transfer == TRANSFER_APIC)
         snprintf(text, sizeof text,
                  "%.2g %% of the energy is lost (energy.balance_error %.2g): APIC damps motion that its grid does not "
-                 "resolve, more with smaller steps; mpm.transfer: flip keeps it",
+                 "resolve, more with smaller steps; use mpm.transfer: flip to keep it",
                  100 * fabs(error), error);
     else
         snprintf(text, sizeof text,
                  "%.2g %% of the energy is %s (energy.balance_error %.2g): transfers between the grid and points that "
-                 "flow err with the time step; half of it (time.step: %.2g s, or time.safety) leaves some 0.6 times as "
-                 "much or less",
+                 "yield have errors that grow with the time step; half of it (time.step: %.2g s, or time.safety) gives "
+                 "about 0.6 times as much or less",
                  100 * fabs(error), error < 0 ? "lost" : "gained without work of loads", error, 0.5 * dt);
     warnings_add_and_print(to, text);
 }
@@ -189,7 +189,7 @@ static void say_work_error(real error, struct warnings *to)
     char text[320];
     snprintf(text, sizeof text,
              "%.2g %% of the energy %s (energy.balance_error %.2g): the work of loads in a load step is the mean force "
-             "times the displacement, which errs where much flows in one step; use more load steps (steps.number)",
+             "times the displacement, which is wrong where much yields in one step; use more load steps (steps.number)",
              100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error);
     warnings_add_and_print(to, text);
 }
@@ -218,11 +218,12 @@ void warn_of_unconserved_quantities(struct run *e)
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows the time at which it began: do not "
         "trust later results",
         100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error,
-        error < 0 && apic ? scene_why_reference_frame_is_no_remedy(e->scene)
-                                ? ": APIC damps motion that its grid does not resolve; mpm.transfer: flip keeps it"
-                                : ": APIC damps motion that its grid does not resolve; mpm.transfer: flip and "
-                                  "mpm.frame: reference keep it"
-                          : "");
+        error < 0 && apic
+            ? scene_why_reference_frame_is_no_remedy(e->scene)
+                  ? ": APIC damps motion that its grid does not resolve; use mpm.transfer: flip to keep it"
+                  : ": APIC damps motion that its grid does not resolve; use mpm.transfer: flip or mpm.frame: "
+                    "reference to keep it"
+            : "");
     warnings_add_and_print(&e->warnings, text);
 }
 

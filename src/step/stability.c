@@ -113,11 +113,10 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
     if (!loads_explain_motion(&e->part, e->frame, given)) return false;
     if (e->stability->start_speed >= speed) {
-        snprintf(
-            text, capacity,
-            "a smaller time step does not help: the scene starts with %.3g m/s, %.3g times the wave speed: check the "
-            "velocities of its bodies and of `initial`, and their units",
-            e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
+        snprintf(text, capacity,
+                 "a smaller time step does not help: the scene starts with %.3g m/s, %.3g times the wave speed: check "
+                 "the velocities of its bodies and of `initial`, and their units",
+                 e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
         return true;
     }
     if (start_strain(e->scene) >= LARGE_STRAIN) {
@@ -184,7 +183,7 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
     if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
         other[n++] = "mpm.transfer: apic";
     if (s->model != MODEL_BOND && s->method != METHOD_MPM) other[n++] = "model: bond";
-    if (holds_images(s)) other[n++] = "`fixed` in place of a mirror that holds";
+    if (holds_images(s)) other[n++] = "`fixed` in place of a mirror with tangential: held";
     if (n == 0) other[n++] = "method: adaptive";
     for (int k = 0, used = 0; k < n && used < (int)capacity; k++)
         used += snprintf(text + used, capacity - (size_t)used, "%s%s",
@@ -217,8 +216,8 @@ static bool squeeze_explanation(const struct bonds *b, const struct particles *p
     const real least = shortest_bond(b, p);
     if (!(least < SQUEEZED)) return false;
     snprintf(text, capacity,
-             "bonds are squeezed to %.2g of their length, beyond the validity of the bond laws: check that so much "
-             "compression is meant, or use a smaller time.safety (now %.2f of the critical %.3g s), which keeps "
+             "bonds are compressed to %.2g of their length, beyond the validity of the bond laws: check that so much "
+             "compression is intended, or use a smaller time.safety (now %.2f of the critical %.3g s), which keeps "
              "particles farther apart",
              least, clock->dt / clock->dt_critical, clock->dt_critical);
     return true;
@@ -247,19 +246,19 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
     if (rate == RISE_UNSURE) {
         const int used = say_step(e->scene, &e->clock, text, capacity);
         snprintf(text + used, capacity - (size_t)used,
-                 "; if the run is still unstable with it, a method of this scene gains energy: try %s", others);
+                 "; if the run stays unstable, a method of this scene gains energy: try %s", others);
         return;
     }
     if (e->diagnostics->now.balance_error < 0 && e->diagnostics->now.energy.fracture >= 0) {
         snprintf(text, capacity,
-                 "a smaller time step (now %.2f of the critical %.3g s) may not help, as the energy balance shows no "
-                 "gain: loads or supports may drive the motion: check them, or try %s",
+                 "a smaller time step (now %.2f of the critical %.3g s) may not help, because the energy balance shows "
+                 "no gain: loads or supports may cause the motion: check them, or try %s",
                  e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
         return;
     }
     snprintf(text, capacity,
              "the energy error took %s%.0f steps to grow tenfold; with an unstable time step it takes fewer than %d, "
-             "so that a smaller time step (now %.2f of the critical %.3g s) may not help; a method of this scene gains "
+             "so a smaller time step (now %.2f of the critical %.3g s) may not help; a method of this scene gains "
              "energy: try %s, and please report the scene",
              isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
              e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
@@ -385,9 +384,9 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, real x
     if (why)
         snprintf(remedy, sizeof remedy, "use method: pd or lower loads and speeds (mpm.frame: reference: %s)", why);
     snprintf(text, sizeof text,
-             "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, near x = %.4g m: beyond some 10 %% "
-             "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; %s; if this is meant: "
-             "accept: [strain]",
+             "points in mpm.frame: current are stretched by %.0f %% at t = %.3g s, near x = %.4g m: beyond about 10 %% "
+             "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; %s; if this is intended, "
+             "add accept: [strain]",
              100 * strain, t, x, remedy);
     warnings_add_and_print(to, text);
 }
@@ -424,11 +423,10 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
     char text[300];
     for (int64_t i = 0; i < p->n && p->mesh_stress[0]; i++) {
         if (!(p->plastic_strain[i] > FLOW_MOST) || !(p->flag[i] & FLAG_MESHED)) continue;
-        snprintf(
-            text, sizeof text,
-            "points in mpm.frame reference have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: its strains "
-            "add up, so that shear beyond 0.04 brings tension that is not there; use mpm.frame: current",
-            p->plastic_strain[i], t, p->X[0][i]);
+        snprintf(text, sizeof text,
+                 "points in mpm.frame: reference have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: this "
+                 "frame adds strains up, so shear beyond 0.04 causes a false tension; use mpm.frame: current",
+                 p->plastic_strain[i], t, p->X[0][i]);
         warnings_add_and_print(to, text);
         return true;
     }
@@ -449,9 +447,9 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
         if (!(p->plastic_strain[i] > TURNED_MOST) || p->flag[i] & FLAG_MESHED) continue;
         if (!(s->material[p->material[i]].law.kinematic.modulus > 0)) continue;
         snprintf(text, sizeof text,
-                 "points with kinematic hardening have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: where "
-                 "this is shear, their back stress turns with Jaumann's rate and oscillates, so that they bear too "
-                 "little beyond a shear of about 1; isotropic hardening does not oscillate",
+                 "points with kinematic hardening have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: in "
+                 "shear their back stress turns with Jaumann's rate and oscillates, so they carry too little beyond a "
+                 "shear of about 1; use isotropic hardening, which does not oscillate",
                  p->plastic_strain[i], t, p->X[0][i]);
         warnings_add_and_print(to, text);
         return true;
@@ -466,7 +464,7 @@ status energy_check_last_sample(struct run *e)
 {
     if (e->stability->lost)
         return status_set(FAILED,
-                          "step %lld, t = %.4g s: an energy is not finite, though all positions are: check material, "
+                          "step %lld, t = %.4g s: an energy is not finite, but all positions are: check material, "
                           "supports and initial state (`cleave check`)",
                           (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = e->diagnostics;

@@ -158,10 +158,10 @@ static real critical_of_bonds(struct run *e)
 static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
     if (!(s->duration / dt <= STEPS_MOST))
-        return status_set(REFUSED,
-                          "duration: %.4g s would take %.1e steps of %.4g s; 1e12 is the largest number; check the "
-                          "duration and its unit",
-                          s->duration, s->duration / dt, dt);
+        return status_set(
+            REFUSED,
+            "duration: %.4g s needs %.1e steps of %.4g s, more than the limit of 1e12; check the duration and its unit",
+            s->duration, s->duration / dt, dt);
     clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12)); /* the factor keeps round-off from adding a step */
     if (clock->steps < 1) clock->steps = 1;
     clock->steps += (clock->stride - clock->steps % clock->stride) % clock->stride;
@@ -229,7 +229,7 @@ status time_step_choose_and_count_steps(struct run *e)
     if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
         return status_set(REFUSED,
                           "time.step: %.4g s is too large for coarse cells (mpm.levels above 0), which are stable up "
-                          "to %.4g s (%.2f of the critical step)",
+                          "to %.4g s (%.2f of the critical step); use a smaller step",
                           dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
     e->clock.dt_bears = dt;
     if (scene_has_load_steps(s))

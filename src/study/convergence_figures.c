@@ -167,16 +167,15 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
     for (int k = 0; k < wanted_count; k++)
         if (study_index_of_result(&s->table, wanted_names[k]) < 0)
             return status_set(REFUSED,
-                              "%s: summary.json has no such figure; names in it are joined by points, as "
-                              "in crack.angle_deg",
+                              "%s: summary.json has no such figure; join its names by points, such as crack.angle_deg",
                               wanted_names[k]);
     *figure = NEW("study.figures", s->table.figures, struct scalar_result_study);
     *figure_count = 0;
     for (int f = 0; f < s->table.figures && wanted_count == 0; f++)
         if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
             fprintf(stderr,
-                    "figure %s is left out, as several positions of a run tie for it and the run reports one of them; "
-                    "--of %s includes it\n",
+                    "figure %s is left out, because several positions of a run have the same value and the run reports "
+                    "one of them; --of %s includes it\n",
                     s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
@@ -190,7 +189,7 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
     memory_free(*figure);
     *figure = NULL;
     return status_set(FAILED,
-                      "nothing to extrapolate: no figure has a value at every spacing, as some runs failed; their "
+                      "nothing to extrapolate: no figure has a value at every spacing, because some runs failed; their "
                       "messages are in %s/logs",
                       s->study.folder);
 }
@@ -296,7 +295,7 @@ static void order_print(const struct scalar_result_study *f)
     else
         printf("; all spacings allow orders from 0.5 to 2");
     certain_digits(text, sizeof text, c->extrapolated, c->uncertainty[0] / 4);
-    printf(", %s%s", limit_is_impossible(f) ? "no limit, which would be negative: " : "limit ", text);
+    printf(", %s%s", limit_is_impossible(f) ? "no limit, because it would be negative: " : "limit ", text);
 }
 
 /* Returns a copy of the figure f (scalar result) with all values converted to the unit in which it is printed. */
@@ -330,7 +329,7 @@ static void figure_print(const struct scalar_result_study *figure, int own, cons
     order_print(f);
     if (isfinite(c->index)) printf("; grid convergence index %.2g", c->index);
     certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty[0]);
-    printf("\n  %s +- %.2g (of it %.2g by the scatter of runs, %.2g by the spacing)", text, c->uncertainty[0],
+    printf("\n  %s +- %.2g (%.2g of it from the scatter of runs, %.2g from the spacing)", text, c->uncertainty[0],
            c->level[0].error, c->discretisation[0]);
     if (own > 0 && own < c->levels) {
         certain_digits(text, sizeof text, c->level[own].mean, c->uncertainty[own]);
@@ -340,7 +339,7 @@ static void figure_print(const struct scalar_result_study *figure, int own, cons
     if (c->level[0].runs > 1 || c->level[0].deviation > 0)
         printf("; a single run differs from its mean by up to %.2g", 2 * c->level[0].deviation);
     else
-        printf("; scatter unknown, as there is one run");
+        printf("; scatter unknown (one run only)");
     printf("; most sensitive to: %s\n", mover(f));
 }
 
@@ -349,10 +348,9 @@ void scalar_results_print(const struct convergence_study *s, const struct scalar
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
     const struct unit metre = convergence_spacing_unit(s);
     int lost = 0;
-    printf(
-        "for each figure of summary.json: its mean at each spacing, and how it converges with the spacing; below, its "
-        "value at %.4g %s +- the distance within which the true value lies with a probability of 95 %%\n",
-        s->spacings.at[0][0] / metre.factor, metre.name);
+    printf("for each figure of summary.json: its mean at each spacing, and how it converges with the spacing; below, "
+           "its value at %.4g %s +- the distance within which the true value is with a probability of 95 %%\n",
+           s->spacings.at[0][0] / metre.factor, metre.name);
     for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own, &metre);
     for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;
     if (lost > 0)

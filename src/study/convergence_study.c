@@ -152,8 +152,7 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].file)
-            return "a body's particles come from a list, which has one spacing: nothing can be refined";
+        if (s->body[b].file) return "the particles of a body come from a list, so the spacing cannot be refined";
     if (w->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon";
     return NULL;
 }
@@ -254,8 +253,8 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
     }
     if (!planned)
         return status_set(REFUSED,
-                          "no %d spacings at and above that of the scene suit it: use fewer --levels, or a smaller "
-                          "particles.spacing",
+                          "fewer than %d spacings at and above that of the scene are possible: use fewer --levels, or "
+                          "a smaller particles.spacing",
                           w->levels);
     return status_set(REFUSED, "--budget %.3g s is too small: three runs at each spacing would take about %.3g s",
                       s->budget, need + s->spent);
@@ -285,11 +284,10 @@ static void plan_print(const struct convergence_study *s)
                 k > 0 ? "," : "");
     fprintf(stderr, ": about %.3g s of a budget of %.3g s\n", s->expected + s->spent, s->budget);
     if (s->own < 0)
-        fprintf(
-            stderr,
-            "warning: runs at the scene's own spacing, %.4g %s, would take longer than the budget: the results are for "
-            "%.4g %s\n",
-            s->scene.spacing / metre.factor, metre.name, s->spacings.at[0][0] / metre.factor, metre.name);
+        fprintf(stderr,
+                "warning: runs at the scene's own spacing, %.4g %s, would take longer than the budget, so the results "
+                "are for %.4g %s\n",
+                s->scene.spacing / metre.factor, metre.name, s->spacings.at[0][0] / metre.factor, metre.name);
 }
 
 /* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads
@@ -304,7 +302,7 @@ static status study_go(struct convergence_study *s, const struct convergence_req
     spacings_choose_for_convergence_study(&s->spacings, &s->scene, w->levels, s->scene.spacing);
     if (horizon_at(s, s->spacings.at[0][0]) > HORIZON_MOST)
         return status_set(REFUSED,
-                          "--horizon: the finest spacing would have a horizon of %.3g spacings, %g is the most; "
+                          "--horizon: the finest spacing would have a horizon of %.3g spacings, more than %g; use "
                           "fewer --levels or a smaller particles.horizon",
                           horizon_at(s, s->spacings.at[0][0]), HORIZON_MOST);
     TRY(first_run_sound(s, w));

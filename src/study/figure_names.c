@@ -37,7 +37,7 @@ static const struct figure_group {
      "steps load_time equilibria search_directions stretch_ratio bonds_broken released crack_area release_rate",
      scene_has_load_steps, "`solver: static`"},
     {"energy", "kinetic strain plastic fracture contact damped absorbed external_work balance_error", NULL, NULL},
-    {"contact", "began ended nodes_max pairs_max friction_work overlap_max", of_contact, "bodies that meet"},
+    {"contact", "began ended nodes_max pairs_max friction_work overlap_max", of_contact, "bodies in contact"},
     {"rigid.#", "x y z velocity_x velocity_y velocity_z force_max patch", NULL, NULL},
     {"fragments", "count mass_max particles_alone mass_alone", of_fragments, "bonds that break in time, or cracks"},
     {"crack",
@@ -186,7 +186,7 @@ static const char *figure_lacks(const struct scene *s, const char *group, const 
 status result_name_check_is_known(const struct scene *s, const char *name)
 {
     const char *now = result_current_name(name);
-    if (now) fprintf(stderr, "warning: the figure %s is now called %s\n", name, now), name = now;
+    if (now) fprintf(stderr, "warning: the figure %s has been renamed; use %s\n", name, now), name = now;
     char hidden[NAME_ROOM], group[NAME_ROOM];
     struct nearest n = {.to = name, .distance = 1000};
     numbers_hidden(hidden, sizeof hidden, name);
@@ -209,7 +209,6 @@ status result_name_check_is_known(const struct scene *s, const char *name)
         return status_set(REFUSED, "%.80s: runs of this scene do not have this figure, which requires %s", name, lacks);
     const bool similar = n.distance <= (int)strlen(n.name) / 2;
     return status_set(REFUSED,
-                      "%.80s: summary.json has no such figure; %s%s, and names in it are joined by points, as in "
-                      "crack.angle_deg",
+                      "%.80s: summary.json has no such figure; %s%s (join names by points, such as crack.angle_deg)",
                       name, similar ? "the nearest is " : "inputs/results.md describes them", similar ? n.name : "");
 }

@@ -183,7 +183,7 @@ static status search_failed(const struct pilot_search *p)
     }
     bool any = false;
     for (int k = 0; k < p->n; k++) any |= !p->at[k].failed[0];
-    if (!any) return status_set(REFUSED, "%s: no method can do the scene (%s)", p->scene, text);
+    if (!any) return status_set(REFUSED, "%s: no method can run the scene (%s)", p->scene, text);
     char limit[64] = "at its spacing";
     if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", PILOT_LONGEST);
     return status_set(REFUSED,
@@ -228,9 +228,8 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
                 pilot_name_of_requested_result(p), 100 * p->wish.within, p->wish.budget,
                 printable_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
-        fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; a "
-                        "crack that grows under "
-                        "rising loads takes method: pd or adaptive with solver: static\n");
+        fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; for a "
+                        "crack that grows under rising loads use method: pd or adaptive with solver: static\n");
     TRY(search_first(p));
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);
@@ -247,7 +246,7 @@ static status pilot_choose(struct pilot *to, struct pilot_search *p, const char 
     snprintf(run, sizeof run, "results/%s", p->wish.provisional.name);
     snprintf(p->folder, sizeof p->folder, "%s", pilot_folder_of_run(folder ? folder : run).text);
     if (strlen(p->folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
-        return status_set(REFUSED, "-o: the folder's name is too long");
+        return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     TRY(pilot_list_applicable_methods(p));
     return pilot_read_stored_choice(to, p) ? OK : pilot_search_all(to, p);
 }

@@ -95,11 +95,10 @@ status pilot_determine_required_spacing(struct pilot_search *search, struct pilo
     const struct scalar_result_study *f = *wanted ? figure : figure_usual(figure, figures);
     status done = OK;
     if (f && !(fabs(f->c.extrapolated) > 1e-9 * f->c.uncertainty[0]))
-        done = status_set(REFUSED, "accuracy.of: %s is zero, so that no relative error is defined; name another figure",
+        done = status_set(REFUSED, "accuracy.of: %s is zero, so no relative error is defined; name another figure",
                           f->name);
     else if (!f)
-        done = status_set(
-            REFUSED, "accuracy.of: the scene has no probe, no crack and no energy that could be compared; add a probe");
+        done = status_set(REFUSED, "accuracy.of: the scene has no probe, crack or energy to compare; add a probe");
     else {
         c->spacing = c->finest = c->seconds = 0, c->seen = false;
         snprintf(search->figure, sizeof search->figure, "%s", f->name);
@@ -121,7 +120,7 @@ void pilot_print(const struct pilot_search *search, const struct pilot_candidate
         fprintf(stderr, "pilot          method %s: %s +- %.2g %% at a spacing of %.4g mm, in %.2g s", c->name,
                 search->figure, 100 * c->reached, 1e3 * c->finest, c->finest_seconds);
         if (c->spacing > 0)
-            fprintf(stderr, "; %.2g %% would need %.4g mm, %.2g s", 100 * search->wish.within, 1e3 * c->spacing,
+            fprintf(stderr, "; for %.2g %% it would need %.4g mm, %.2g s", 100 * search->wish.within, 1e3 * c->spacing,
                     c->seconds);
         fputc('\n', stderr);
     }

@@ -89,8 +89,8 @@ status pilot_list_applicable_methods(struct pilot_search *search)
                           search->scene);
     if (!scene_acts(s))
         return status_set(REFUSED,
-                          "%s: method: auto judges results, and nothing moves or loads the bodies: no boundary with a "
-                          "value, gravity, initial or velocity is given",
+                          "%s: method: auto compares results, but nothing moves or loads the bodies: add a boundary "
+                          "with a value, gravity, initial or velocity",
                           search->scene);
     if (search->wish.figure[0]) TRY(result_name_check_is_known(s, search->wish.figure));
     candidates_find(search);
@@ -132,9 +132,8 @@ status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *
     if (!(wish->spacing > 0)) fprintf(out, ")");
     fprintf(out, "%s\n", wish->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
     if (wish->at_rest)
-        fprintf(out, "auto           the solver of this scene finds one equilibrium, in which no bond breaks; a crack "
-                     "that grows under "
-                     "rising loads takes method: pd or adaptive with solver: static\n");
+        fprintf(out, "auto           the solver of this scene finds one equilibrium, in which no bond breaks; for a "
+                     "crack that grows under rising loads use method: pd or adaptive with solver: static\n");
     fprintf(out,
             "auto           pilot runs take at most %.4g s (accuracy.budget), of which %.4g s are for the first %d "
             "runs of each method; the run that is chosen takes at most %.4g s\n",

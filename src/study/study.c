@@ -38,9 +38,9 @@ static status place_read(char *to, size_t capacity, const char *path, const char
 status study_make(struct study *s, const char *scene, const char *folder, const char *study_kind)
 {
     *s = (struct study){.scene = scene, .lock.fd = -1};
-    if (folder && !*folder) return status_set(REFUSED, "-o: needs the name of a folder");
+    if (folder && !*folder) return status_set(REFUSED, "-o: give the name of a folder");
     if (folder && strlen(folder) + CASE_NAME_ROOM + PATH_NAME_ROOM >= PATH_ROOM)
-        return status_set(REFUSED, "-o: the folder's name is too long");
+        return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     if (folder)
         snprintf(s->folder, sizeof s->folder, "%s", folder);
     else
@@ -255,7 +255,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
     double all = 1;
     for (int k = 0; k < keys; k++) all *= key[k].values;
     if (all > CASES_MOST)
-        return status_set(REFUSED, "%.0f runs: more than %d; fewer values of a key are expected", all, CASES_MOST);
+        return status_set(REFUSED, "%.0f runs: more than %d; give fewer values of a key", all, CASES_MOST);
     int *at = NEW("study.at", keys, int), *order = NEW("study.order", keys, int);
     const int varied = study_list_keys_in_run_names(order, key, keys);
     struct scene_override *override = NEW("study.override", keys, struct scene_override);

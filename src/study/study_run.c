@@ -144,7 +144,7 @@ static status case_guard(const struct study *s, const struct study_case *c)
     static const char *const begin[] = {log_mark, "warning: "};
     const struct path folder = study_case_folder(s, c), log = log_path(s, c);
     if (path_is_link(folder.text))
-        return status_set(REFUSED, "%s is a symbolic link, and results would be written elsewhere; choose another -o",
+        return status_set(REFUSED, "%s is a symbolic link, so results would be written elsewhere; choose another -o",
                           folder.text);
     TRY(file_check_replaceable(log.text));
     return file_check_is_from_cleave(log.text, begin, COUNT_OF(begin));
@@ -344,7 +344,7 @@ status study_lock_folder(struct study *s, bool overwrite)
 {
     if (path_exists(path_join(s->folder, "scene.yaml").text))
         return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
-    if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: no study there", s->folder);
+    if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: contains no study", s->folder);
     if (s->lock.fd >= 0) return OK;
     TRY(study_folder_check_is_usable(s->folder));
     TRY(folder_lock(&s->lock, s->folder));

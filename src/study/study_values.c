@@ -60,12 +60,12 @@ static char *trimmed(const char *from, const char *to)
 
 static status value_add(struct varied_key *k, char *value)
 {
-    const char *fault = !*value                         ? "a value is missing; key=value,value,... is expected"
-                        : k->values == VALUES_MOST      ? "more than 10000 values"
-                        : strlen(value) > VALUE_LONGEST ? "a value of more than 1000 characters"
+    const char *fault = !*value                         ? "a value is missing; write key=value,value,..."
+                        : k->values == VALUES_MOST      ? "more than 10000 values; give fewer"
+                        : strlen(value) > VALUE_LONGEST ? "a value has more than 1000 characters; shorten it"
                                                         : NULL;
     for (int v = 0; v < k->values && !fault; v++)
-        if (strcmp(k->value[v], value) == 0) fault = "a value is given twice";
+        if (strcmp(k->value[v], value) == 0) fault = "a value is given twice; remove one";
     if (fault) {
         const status s = status_set(REFUSED, "-s %s: %s", k->key, fault);
         memory_free(value);
@@ -103,16 +103,17 @@ static bool row_read(struct row *r, const struct varied_key *k, const char *text
         memory_free(piece);
         if (!fits && part < 2) return false;
         if (!fits)
-            *s = status_set(REFUSED, "-s %s: %s: from:to:step is expected, with a number as step; other rows as lists",
-                            k->key, text);
-        if (other) *s = status_set(REFUSED, "-s %s: %s: one unit is expected, as in 10:30:5 mm", k->key, text);
+            *s = status_set(
+                REFUSED, "-s %s: %s: give a range as from:to:step with a number as step; give other values as a list",
+                k->key, text);
+        if (other) *s = status_set(REFUSED, "-s %s: %s: use one unit, such as 10:30:5 mm", k->key, text);
         at = end + 1;
     }
     const double steps = (r->number[1] - r->number[0]) / r->number[2];
     if (*s == OK && !(steps >= 0 && steps < VALUES_MOST))
         *s = status_set(REFUSED,
-                        "-s %s: %s: from:to:step is expected, with a step that leads from the first value to the "
-                        "second one in fewer than %d steps",
+                        "-s %s: %s: give a range as from:to:step, whose step leads from the first value to the second "
+                        "one in fewer than %d steps",
                         k->key, text, VALUES_MOST);
     return true;
 }
@@ -165,8 +166,7 @@ status varied_key_parse_values(struct varied_key *k, const char *text)
     const char *equals = strchr(text, '=');
     *k = (struct varied_key){0};
     if (!equals || equals == text)
-        return status_set(REFUSED, "-s %s: a key and its values are expected, as in -s particles.spacing=1mm,0.5mm",
-                          text);
+        return status_set(REFUSED, "-s %s: give a key and its values, such as -s particles.spacing=1mm,0.5mm", text);
     k->key = trimmed(text, equals);
     key_unify(k->key);
     const status s = values_read(k, equals + 1);

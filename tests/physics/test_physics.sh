@@ -396,7 +396,7 @@ for x in 20 0; do
     sed "s/^mpm:.*/cracks: [{from: [$x mm, 0], to: [$((x + 5)) mm, 0]}]/" "$work/patch_axial.yaml" >"$work/crack.yaml"
     "$cleave" check "$work/crack.yaml" -s method=pd >"$work/out" 2>"$work/err"
     is "pre-crack at $x mm: exit status" $? 0
-    is "pre-crack at $x mm: warnings" "$(grep -c '^warning: .*\(outside of every body\|cut no bond\)' "$work/err")" $((x > 0))
+    is "pre-crack at $x mm: warnings" "$(grep -c '^warning: .*\(outside all bodies\|cut no bond\)' "$work/err")" $((x > 0))
 done
 
 finish

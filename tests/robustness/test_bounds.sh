@@ -93,7 +93,7 @@ block "method: pd" "solver: cg" "boundary:" "  - {name: pull, traction: [1e15, 0
     "  - {name: side, mirror: {axis: y, at: 0}}" >"$work/pulled.yaml"
 warned "an equilibrium of 5000 times the modulus" "$work/pulled" "times Young's modulus" "$work/pulled.yaml"
 block "initial: [{velocity_gradient: [10, 0, 0, 0]}]" >"$work/block.yaml"
-warned "a step 15 times the critical one" "$work/block" "the time step is above the critical one" "$work/block.yaml" -s time.step=5us
+warned "a step 15 times the critical one" "$work/block" "the time step is too large" "$work/block.yaml" -s time.step=5us
 "$cleave" check "$work/block.yaml" -s time.step=5us >"$work/out" 2>&1
 holds "what one step costs" grep -q 'run time .* [0-9.e-]* s (.*) on' "$work/out"
 is "no such time as nan" "$(grep -c 'nan' "$work/out")" 0
@@ -127,7 +127,7 @@ is "3000 cracks: exit status" $? 0
 
 # ---- names ---------------------------------------------------------------------------------------------------------
 
-refused "a name that looks like an option" "$work/r" "name: -rf is no name" $small -s name=-rf
+refused "a name that looks like an option" "$work/r" "name: -rf is not a name" $small -s name=-rf
 escape=$(printf 'a\033[2Jb\302\233c\342\200\256d')
 cp "$work/block.yaml" "$work/$escape.yaml"
 "$cleave" run -o "$work/$escape" "$work/$escape.yaml" >"$work/out" 2>&1

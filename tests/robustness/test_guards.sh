@@ -10,7 +10,7 @@ small="inputs/kalthoff_winkler.yaml -s particles.spacing=4mm -s output.frames=4 
 
 calm "$work/once" $small -t 1
 cp -r "$work/once" "$work/kept"
-refused "the same command again" "$work/kept" "holds a finished run of this scene; go on with --resume, replace it with --overwrite" $small
+refused "the same command again" "$work/kept" "holds a finished run of this scene; continue with --resume, replace it with --overwrite" $small
 same "left alone" "$work/once" "$work/kept"
 calm "$work/kept" $small --overwrite
 same "replaced" "$work/once" "$work/kept"
@@ -152,7 +152,7 @@ rm -rf "$work/part"
 interrupted "$work/part" 30 $small -s output.frames=6
 rm "$work/part/frames/000001.hdf"
 printf 'short' >"$work/part/frames/000003.hdf"
-warned "frames that are lost" "$work/part" "frames/000001.hdf is missing, and 1 frames more are lost" $small -s output.frames=6 --resume
+warned "frames that are lost" "$work/part" "frames/000001.hdf is missing, and 1 more frames are lost" $small -s output.frames=6 --resume
 is "the index leaves them out" "$(grep -c '"time"' "$work/part/frames.hdf.series")" 5
 is "and so does the other" "$(grep -c '<Time ' "$work/part/frames.xdmf")" 5
 holds "plots go on" "$cleave" plot "$work/part" --frames all --size 90mmx70mm >/dev/null
@@ -201,7 +201,7 @@ END
 calm "$work/lined" "$work/lined.yaml"
 interrupted "$work/profiles" 30 "$work/lined.yaml"
 rm "$work/profiles/axis_000000.csv" "$work/profiles/axis_000001.csv"
-warned "profiles that are lost" "$work/profiles" "axis_000000.csv is missing, and 1 profiles more are" "$work/lined.yaml" --resume
+warned "profiles that are lost" "$work/profiles" "axis_000000.csv is missing, and 1 more profiles are" "$work/lined.yaml" --resume
 for k in 2 3 4; do holds "profile $k" cmp "$work/profiles/axis_00000$k.csv" "$work/lined/axis_00000$k.csv"; done
 calm "$work/lined" "$work/lined.yaml" -s output.frames=2 --overwrite
 is "profiles of fewer frames" "$(ls "$work/lined" | grep -c '^axis_')" 3
@@ -351,16 +351,16 @@ is "without them, with a frame that is cut short: $(cat "$work/err")" $? 0
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different >"$work/out" 2>&1
 is "an export: $(cat "$work/out")" $? 0
 holds "what it leaves out is said" grep -q "^left out: 1 probe; plate.dump has" "$work/out"
-declined "a style by another name" "--style: peri (pair_style peri) or bpm (bond_style bpm/peri) is expected" \
+declined "a style by another name" "--style: give peri (pair_style peri) or bpm (bond_style bpm/peri)" \
     export lammps "$work/strip.yaml" -o "$work/bonds" --style bpm-peri
 "$cleave" export lammps "$work/strip.yaml" -o "$work/bonds" --allow-different --style bpm >"$work/out" 2>&1
 is "an export with bonds: $(cat "$work/out")" $? 0
-holds "an untested style is said" grep -q "^bond_style bpm/peri: not run with a LAMMPS of that style" "$work/out"
+holds "an untested style is said" grep -q "^bond_style bpm/peri has not been tested with a LAMMPS of that style" "$work/out"
 declined "an export that is there" "holds an export; .*--overwrite" export lammps "$work/strip.yaml" -o "$work/there" --allow-different
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite -s duration=2us >"$work/out" 2>&1
 is "an export that is replaced" $? 0
 cksum "$work/there"/* >"$work/sums"
-declined "an export over its own scene" "scene.yaml is read by this command" \
+declined "an export over its own scene" "scene.yaml is an input of this command" \
     export lammps "$work/there/scene.yaml" -o "$work/there" --allow-different --overwrite -s duration=3us
 holds "it stays" sh -c "cksum '$work/there'/* | cmp - '$work/sums'"
 
@@ -375,12 +375,12 @@ declined "a name that is too long" "too long" export lammps "$work/strip.yaml" -
 
 # A run never overwrites its own scene, its list of particles or its table of loads.
 "$cleave" run -q "$work/strip.yaml" -o "$work/own" 2>"$work/err"
-declined "a run over its own scene" "scene.yaml is read by this command" run -q "$work/own/scene.yaml" -o "$work/own" -s duration=2us --overwrite
+declined "a run over its own scene" "scene.yaml is an input of this command" run -q "$work/own/scene.yaml" -o "$work/own" -s duration=2us --overwrite
 "$cleave" run -q "$work/own/scene.yaml" -o "$work/own" --overwrite 2>"$work/err"
 is "the same scene once more" $? 0
 sed "s#face: y+#face: y+, time: {file: own/history.csv, column: step}#" "$work/strip.yaml" >"$work/driven.yaml"
 cp "$work/own/history.csv" "$work/before.csv"
-declined "a run over its own table" "history.csv is read by this command" run -q "$work/driven.yaml" -o "$work/own" --overwrite
+declined "a run over its own table" "history.csv is an input of this command" run -q "$work/driven.yaml" -o "$work/own" --overwrite
 holds "the table stays" cmp "$work/before.csv" "$work/own/history.csv"
 
 # A refusal precedes the removal of the older run.
@@ -477,7 +477,7 @@ is "the study goes on: $(cat "$work/out")" $? 0
 # ---- input must be files -------------------------------------------------------------------------------------------
 
 mkfifo "$work/pipe.yaml" "$work/pipe.csv" "$work/pipe.stl"
-for place in "$work/pipe.yaml" "$work" /dev/zero; do declined "a scene: $place" "is no regular file\|is a folder" check "$place"; done
+for place in "$work/pipe.yaml" "$work" /dev/zero; do declined "a scene: $place" "is not a regular file\|is a folder" check "$place"; done
 "$cleave" check --no-trial /dev/stdin <"$work/strip.yaml" >"$work/out" 2>&1
 is "a scene on standard input: $(head -n 1 "$work/out")" $? 0
 cat "$work/strip.yaml" | "$cleave" check --no-trial /dev/stdin >"$work/out" 2>&1

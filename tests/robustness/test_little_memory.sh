@@ -36,5 +36,5 @@ for threads in 1 2; do
 done
 (ulimit -v 1500000; exec "$cleave" run -q -o "$work/large" $solid -s method=pd -s particles.spacing=0.3mm) 2>"$work/err"
 is "a scene beyond the limit: exit status" $? 2
-holds "a scene beyond the limit: $(cat "$work/err")" grep -q 'GB of memory, and 1.[0-9] GB are available (ulimit -v)' "$work/err"
+holds "a scene beyond the limit: $(cat "$work/err")" grep -q 'GB of memory, but 1.[0-9] GB are available (ulimit -v)' "$work/err"
 finish

@@ -87,7 +87,7 @@ while IFS='|' read -r line text place words; do
     ended "check: $text" $? "$refused" ""
 done <<'END'
 1|nme: plate|1:1|nme: unknown key; the nearest is name
-1|name: ../plate|1:1|is no name
+1|name: ../plate|1:1|is not a name
 1|name: plate^name: plate|2:1|given twice
 1|name: &anchor plate|1:7|anchor
 1|name: *anchor|1:7|alias
@@ -99,19 +99,19 @@ done <<'END'
 2|spaces: plane|2:1|the nearest is space
 2|space: plane stress^temperature: 300|3:1|heat does not flow and does not expand a body; plastic work heats metals with
 2|space: plane stress^dt: 1 us|3:1|here it is `time.step`
-2|space: plane stress^periodic: x|3:1|does not do periodic boundaries; planes of symmetry come nearest: boundary: {mirror
+2|space: plane stress^periodic: x|3:1|has no periodic boundaries; nearest: planes of symmetry, boundary: {mirror
 6|material: {E: 190 GPa, density: 7800}|6:12|E: unknown key; here it is `young`
 6|material: {young: 190 GPa, nu: 0.3, density: 7800}|6:28|here it is `poisson`
 6|material: {young: 190 GPa, rho: 7800}|6:28|here it is `density`
 6|material: {young: 190 GPa, density: 7800, G_c: 100}|6:43|here it is `energy_release_rate`
 6|material: {young: 190 GPa, density: 7800, strength: 100 MPa}|6:43|with `tensile_strength` bonds soften
-6|material: {young: 190 GPa, density: 7800, f_c: 100 MPa}|6:43|does not do crushing
-6|material: {young: 190 GPa, density: 7800, friction_angle: 30}|6:43|does not do yielding that depends on pressure
-6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|does not do thermal expansion
-6|material: {young: 190 GPa, density: 7800, conductivity: 1}|6:43|does not do thermal expansion or flow of heat
+6|material: {young: 190 GPa, density: 7800, f_c: 100 MPa}|6:43|has no crushing
+6|material: {young: 190 GPa, density: 7800, friction_angle: 30}|6:43|has no yielding that depends on pressure
+6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|has no thermal expansion
+6|material: {young: 190 GPa, density: 7800, conductivity: 1}|6:43|has no thermal expansion or flow of heat
 6|material: {young: 190 GPa, density: 7800, strain_rate: 1}|6:43|by `johnson_cook`
-6|material: {young: 190 GPa, density: 7800, orthotropic: {}}|6:43|does not do anisotropic materials
-6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|does not do fatigue
+6|material: {young: 190 GPa, density: 7800, orthotropic: {}}|6:43|has no anisotropic materials
+6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|has no fatigue
 6|material: {young: 190 GPa, density: 7800, yield: 1 GPa}|6:43|here it is `yield_stress`
 8|  - sphere: {radius: 1}|8:5|here it is `ball`
 4|duration: 1 usec|4:1|has an unknown unit (us?)
@@ -120,11 +120,11 @@ done <<'END'
 8|  - circle: {radius: 1}|8:5|here it is `disc`
 5|method: adaptive^contact: {mu: 0.3}|6:11|here it is `friction`
 11|mpm: {kernel: gimp}|11:7|here it is `shape`
-5|method: adaptive^model: correspondence|6:1|does not do correspondence or other laws
+5|method: adaptive^model: correspondence|6:1|has no correspondence or other laws
 5|method: adaptive^contact: {stiffness: 1e9}|6:11|it is a factor of the stiffness of the bonds
 5|method: adaptive^time: 10 us|6:1|the simulated time is the key `duration`
 5|method: adaptive^crack: [{at: 1}]|6:1|pre-cracks are the key `cracks`
-10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|this key takes a number of spacings, here horizon: 3
+10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|give a number of spacings, here horizon: 3
 2|space: plane stress^crack: {from: [0, 0]}|3:9|from: unknown key; pre-cracks are a list of their own: cracks: [{from:
 13|  - {from: [10 mm, 5 mm], length: 5 mm}|13:27|length: unknown key; a crack is given by its ends
 16|    pressure: 1 MPa^    face: y+|17:5|pressure acts on every free face of the particles in `region`
@@ -144,7 +144,7 @@ done <<'END'
 2||1:1|space: missing
 3||1:1|thickness: missing
 3|thickness: 10 kg|3:1|a length is expected
-4|duration: 1e10 s|4:1|duration: 1e+10 s would take
+4|duration: 1e10 s|4:1|duration: 1e+10 s needs
 11|mpm: {frame: reference, cell: 1}|11:7|mpm.frame: body body cannot be in the reference frame: the reference frame needs mpm.cell: 2
 3|thickness: 0|3:1|out of range
 3|thickness: -1e-3|3:1|out of range
@@ -161,56 +161,56 @@ done <<'END'
 5|method: magic|5:1|pd, mpm, adaptive or auto
 5|method: auto^accuracy: 0.7|6:1|out of range
 5|method: auto^accuracy: {of: tip, withn: 2 %}|6:21|the nearest is within
-5|method: auto^solver: static^steps: {number: 3}|5:1|pd, or adaptive, is expected
-5|method: adaptive^accuracy: 1 %|6:1|no meaning without method: auto
+5|method: auto^solver: static^steps: {number: 3}|5:1|set method: pd or adaptive
+5|method: adaptive^accuracy: 1 %|6:1|no effect without method: auto
 5|model: lps|5:1|bond, ospd or mospd
-5|solver: cg|5:1|cg is for method pd
+5|solver: cg|5:1|cg works with method pd only
 5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
 6|material: {young: -1, density: 7800}|6:12|out of range
 6|material: {density: 7800}|6:1|young: missing
-6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|which have 1/3 in space plane stress; `model: ospd` has any
+6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|which have 1/3 in space plane stress; use `model: ospd` for any ratio
 6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given together with critical_stretch
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|not below Young's modulus
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|has no law; linear, voce
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa}}}|6:76|rate: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|keep one of the two
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_hardening: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:88|keep one of the two
-6|material: {young: 190 GPa, density: 7800, hardening: {linear: {modulus: 1 GPa}}}|6:43|yield_stress is expected beside it
+6|material: {young: 190 GPa, density: 7800, hardening: {linear: {modulus: 1 GPa}}}|6:43|add yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {power: {coefficient: 1 GPa, exponent: 1.2}}}|6:104|out of range
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa]]}}|6:55|2 to 16 are expected
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1]]}}|6:75|is no point of a curve
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|the first point is the yield stress
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1]]}}|6:75|is not a point of a curve
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|let the first point be the yield stress
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0, 2 GPa]]}}|6:75|strains in ascending order
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [1 mm, 2 GPa]]}}|6:76|a plain number is expected
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[1 GPa, 0], [2 GPa, 0.1]]}}|6:64|a plain number is expected
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the stress falls
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|the slope of the curve increases
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|keep one of the two
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is for material points; `method: mpm` is expected
-6|material: {young: 190 GPa, density: 7800, kinematic: {modulus: 1 GPa}}|6:43|yield_stress is expected beside it
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is for material points; use `method: mpm`
+6|material: {young: 190 GPa, density: 7800, kinematic: {modulus: 1 GPa}}|6:43|add yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, kinematic: {recall: 3}}|6:64|modulus: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}}|6:64|keep one of the two
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 1.3, C: 0.025, T_melt: 1356}}|6:81|out of range
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 200 K}}|6:99|is not above T_room
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356 m}}|6:99|a temperature in kelvin is expected
-6|material: {young: 190 GPa, density: 7800, specific_heat: 383}|6:43|no meaning without johnson_cook
+6|material: {young: 190 GPa, density: 7800, specific_heat: 383}|6:43|no effect without johnson_cook
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, Tm: 1356}}|6:99|Tm: unknown key; here it is `T_melt`
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, N: 0.3, C: 0.025, T_melt: 1356}}|6:81|N: unknown key; here it is `n`
-6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, D1: 0.1}}|6:99|does not do Johnson and Cook's failure law
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, D1: 0.1}}|6:99|does not have Johnson and Cook's failure law
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}, specific_heat: 0.4 kJ/m}|6:114|a specific heat is expected
 6|material: {young: 190 GPa, density: 7800, specific_heat: 383 J}|6:43|a specific heat is expected
-6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no meaning without specific_heat
+6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no effect without specific_heat
 6|material: steel|6:1|not a mapping
 8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
 8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not smaller than to
 8|  - box: {from: [0, 0], to: [inf, 10 mm]}|8:30|not finite
-8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|particles; 2e9 is the most
-8|  - cylinder: {radius: 1}|8:5|not in space plane stress
+8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|particles, more than the limit of 2e9
+8|  - cylinder: {radius: 1}|8:5|cannot be used in space plane stress
 8|  - half-space: {point: [0, 0], normal: [1, 0]}|8:5|infinite
 8|  - pyramid: {radius: 1}|8:5|unknown key
 10|particles: {spacing: 1 mm, horizon: 0.8}|10:28|smaller than one spacing; 3.015 is usual
 10|particles: {spacing: 1 mm, horizon: 100}|10:28|out of range
-10|particles: {spacing: 1 nm}|10:13|2e9 is the most
+10|particles: {spacing: 1 nm}|10:13|more than the limit of 2e9
 10|particles: {spacing: 1 mm, irregularity: 2}|10:28|out of range
 10|particles: {spacing: 1 mm, seed: 1.5}|10:28|whole number
 10|particles: {}|10:1|spacing: missing
@@ -221,13 +221,13 @@ done <<'END'
 11|conversion: {criteria: [bond, luck]}|11:31|bond or stress
 13|  - {from: [10 mm, 5 mm], to: [10 mm, 5 mm]}|13:5|no length
 13|  - {from: [10 mm, 5 mm]}|13:5|to
-13|  - {polygon: [[0, 0, 0]]}|13:6|not in space plane stress
+13|  - {polygon: [[0, 0, 0]]}|13:6|cannot be used in space plane stress
 16|    velocity: [free, free]|16:5|every component is free
 16|    velocity: [free, 1 m]|16:22|a velocity is expected
-16|    fixed: [z]|16:13|no axis
+16|    fixed: [z]|16:13|not an axis
 16|    traction: [1 MPa, 0]|15:5|face
 16||15:5|does nothing
-16|    absorbing: true^    face: x-|19:5|no meaning with absorbing
+16|    absorbing: true^    face: x-|19:5|cannot be given with absorbing
 16|    absorbing: true^    velocity: [free, 1 m/s]|17:5|given together with absorbing
 14|boundary:^  - {absorbing: false, face: x+}|15:6|can only be true
 14|boundary:^  - {absorbing: true}|15:5|face
@@ -237,9 +237,9 @@ done <<'END'
 17|    body: disk|17:5|there is no body
 18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not before until
 18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times in ascending order
-18|    time: whenever|18:5|no function of time
+18|    time: whenever|18:5|not a function of time
 19|time: {step: 0}|19:8|out of range
-19|time: {step: 1e-30}|19:8|1e12 is the largest number
+19|time: {step: 1e-30}|19:8|more than the limit of 1e12
 19|time: {safety: 3}|19:8|out of range
 19|output: {frames: -1}|19:10|frames
 19|output: {frames: 1e9}|19:10|frames
@@ -247,18 +247,18 @@ done <<'END'
 19|output: {compress: maybe}|19:10|true or false
 20|probes: [crack]|20:10|does not belong here
 20|probes: [sif: {inner: 21 mm}]|20:16|is not smaller than the outer radius
-20|probes: [growth]|20:10|growth is expected
+20|probes: [growth]|20:10|add the key growth
 20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no crack growth named a
 20|growth: [{at: [0, 0], direction: [1, 0], speed: 1 m/s, smoothing: 1 mm}]|20:56|without probe
 20|probes: [growth: {experiment: 200}]|20:19|out of range
 20|probes: [rigid: {region: here}]|20:18|region
 20|probes: [tip, tip]|20:15|name of another probe
-20|probes: [exact: step bar]|20:10|space: line is expected
+20|probes: [exact: step bar]|20:10|set space: line
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
 19|output: {times: [2 us, 1 us]}|19:24|values in ascending order
 19|output: {frames: 2, every: 1 us}|19:21|keep one of the two
 19|output: {regions: [{name: a, every: 1 us}]}|19:20|region: missing
-19|output: {regions: [{name: frames, region: {all: true}, every: 1 us}]}|19:21|the body's own files
+19|output: {regions: [{name: frames, region: {all: true}, every: 1 us}]}|19:21|the files of the whole body
 19|output: {regions: []}|19:10|regions
 19|output: {every: 1e-13}|19:10|at least
 19|output: {every: 0}|19:10|every
@@ -271,7 +271,7 @@ done <<'END'
 20|initial: {velocity: [1, 0]}|20:1|a mapping is not a list such as [{velocity: [22 m/s, 0]}]
 20|growth: {at: [1 mm, 0]}|20:1|a mapping is not a list such as [{at: [0.5 mm, 0]}]
 10|particles: 1 mm|10:1|1 mm is not a mapping such as {spacing: 0.5 mm}
-20|gravity: 9.81|20:1|is not a list; 2 components are expected in space plane stress, as [-9.81 m/s^2, 0]
+20|gravity: 9.81|20:1|is not a list; 2 components are expected in space plane stress, such as [-9.81 m/s^2, 0]
 20|---^name: second|20:1|second document
 END
 
@@ -374,7 +374,7 @@ bodies: [{name: grains, particles: kept/millimetres.csv}]' good.yaml >bad.yaml
     mv kept/other.yaml bad.yaml
     for command in check run; do
         "$cleave" $command bad.yaml >out 2>err
-        ended "$command, $method: a spacing in mm" $? "bad.yaml:7:25: particles: " "a particles.spacing of about 0.001 m is expected"
+        ended "$command, $method: a spacing in mm" $? "bad.yaml:7:25: particles: " "set particles.spacing to about 0.001 m"
     done
     sed -e 's/spacing: 1,/spacing: 1 mm,/' -e '/^cracks/,/^  - /d' bad.yaml >kept/list.yaml
     holds "$method: a list in metres" "$cleave" run kept/list.yaml -q -o kept/list_$method -s duration=0.1us -s probes=[]
@@ -388,7 +388,7 @@ x,y,volume
 0.5e-3,0.5e-3,1e-8
 0.5e-3,0.5e-3,1e-8
 END
-list "no particle" "bad.yaml:7:25: particles: " "its list holds no particle" <<'END'
+list "no particle" "bad.yaml:7:25: particles: " "its list has no entry for it" <<'END'
 x,y,volume
 END
 list "a pipe" "kept/grains.csv:1:1: " "column x is missing" <<'END'
@@ -411,7 +411,7 @@ run|no scene given|usage
 run good.yaml --fast|unknown option --fast|usage
 run good.yaml -x|unknown option -x|usage
 run good.yaml good.yaml|one scene at a time|
-run good.yaml method=pd|method=pd: |follows the option -s: -s method=pd
+run good.yaml method=pd|method=pd: |the option -s is missing before it: -s method=pd
 run good.yaml -o|-o needs a value|
 run good.yaml -s|-s needs a value|
 run good.yaml -s duration|-s duration|particles.spacing=0.5mm
@@ -445,7 +445,7 @@ bench nonsense|unknown bench|
 END
 "$cleave" check good.yaml -s method=mpm -s body= -s 'bodies=[{name: a, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}, {name: b, rigid: true,
     shape: {half-space: {point: [0, 0], normal: [0, 1]}}}]' >out 2>err
-ended "material points and a rigid body" $? "-s bodies=" "for a smooth wall at rest, a boundary \`mirror\`"
+ended "material points and a rigid body" $? "-s bodies=" "a smooth wall at rest can be a boundary \`mirror\`"
 "$cleave" run good.yaml -o '' >out 2>err
 ended "-o ''" $? "-o" ""
 "$cleave" run good.yaml -o "$(awk 'BEGIN { for (k = 0; k < 5000; k++) printf "x" }')" >out 2>err

@@ -57,103 +57,103 @@ steps='-s solver=static -s duration=1s'
 
 # ---- Poisson's ratios --------------------------------------------------------------------------------------------------
 
-refused 'which have 1/3 in space plane stress; `model: ospd` has any' "$plate" -s material.poisson=0.2
+refused 'which have 1/3 in space plane stress; use `model: ospd` for any ratio' "$plate" -s material.poisson=0.2
 remedied -s model=ospd
-refused '`model: ospd` has any' "$plate" -s material.poisson=0.2 -s method=adaptive
+refused 'use `model: ospd` for any ratio' "$plate" -s material.poisson=0.2 -s method=adaptive
 remedied -s model=ospd
-refused '`method: mpm` has any' "$plate" -s material.poisson=0.2 $yields
+refused 'use `method: mpm` for any ratio' "$plate" -s material.poisson=0.2 $yields
 remedied -s method=mpm
-refused '`method: mpm` has any' "$plate" -s material.poisson=0.2 $cook
+refused 'use `method: mpm` for any ratio' "$plate" -s material.poisson=0.2 $cook
 remedied -s method=mpm
-refused 'use that ratio, since no method has any other one together with rigid bodies and yield_stress' "$wall" -s material.poisson=0.2 $yields
+refused 'use that ratio: no method allows another one together with rigid bodies and yield_stress' "$wall" -s material.poisson=0.2 $yields
 remedied -s material.poisson=1/3
-refused 'which have 1/3 in space plane stress; `model: ospd` has any' "$plate" -s material.poisson=0.2 $soft
+refused 'which have 1/3 in space plane stress; use `model: ospd` for any ratio' "$plate" -s material.poisson=0.2 $soft
 remedied -s model=ospd
-refused 'which have 1/4 in space plane strain; `method: mpm` has any' "$plate" -s material.poisson=0.2 -s 'space=plane strain' -s 'material.viscosity={}'
+refused 'which have 1/4 in space plane strain; use `method: mpm` for any ratio' "$plate" -s material.poisson=0.2 -s 'space=plane strain' -s 'material.viscosity={}'
 remedied -s method=mpm
 
 # ---- rigid bodies ------------------------------------------------------------------------------------------------------
 
-refused 'only; `method: pd` or `method: adaptive` is expected, or, for a smooth wall at rest, a boundary `mirror`' "$wall" -s method=mpm
+refused 'only: use `method: pd` or `method: adaptive`; a smooth wall at rest can be a boundary `mirror`' "$wall" -s method=mpm
 remedied -s method=pd
 remedied -s method=adaptive
 other "$work/mirror.yaml"
-refused 'only; `method: pd` with `model: ospd` or `method: adaptive` with `model: ospd` is expected' "$wall" -s method=mpm -s material.poisson=0.2
+refused 'only; `method: pd` with `model: ospd` or `method: adaptive` with `model: ospd`' "$wall" -s method=mpm -s material.poisson=0.2
 remedied -s method=pd -s model=ospd
 remedied -s method=adaptive -s model=ospd
-refused 'which do not have a law of plasticity other than linear hardening; a boundary `mirror` in place' "$wall" -s method=mpm $cook
+refused 'which do not allow a law of plasticity other than linear hardening; use a boundary `mirror` for' "$wall" -s method=mpm $cook
 other "$work/mirror.yaml"
 keep -s method=mpm -s 'materials.m.johnson_cook={A: 100 MPa, B: 100 MPa, n: 0.3, C: 0.01, T_melt: 900}'
 other "$work/stiff.yaml"
-refused "which do not have a Poisson's ratio that bonds do not have and yield_stress; a boundary" "$wall" -s method=mpm -s material.poisson=0.2 $yields
+refused "which do not allow a Poisson's ratio that bonds do not have and yield_stress; use a boundary" "$wall" -s method=mpm -s material.poisson=0.2 $yields
 other "$work/mirror.yaml"
-refused '`solver: explicit` is expected, or, for a smooth wall at rest, a boundary `mirror`' "$wall" -s solver=cg
+refused 'set `solver: explicit`; a smooth wall at rest can be a boundary `mirror`' "$wall" -s solver=cg
 remedied -s solver=explicit
 other "$work/mirror.yaml"
 
 # ---- plasticity --------------------------------------------------------------------------------------------------------
 
-refused 'model ospd does not yield; `model: bond` does' "$plate" -s model=ospd $yields
+refused 'model ospd cannot yield; use `model: bond`' "$plate" -s model=ospd $yields
 remedied -s model=bond
-refused 'model mospd does not yield; `method: mpm` without the key model does' "$plate" -s model=mospd -s material.poisson=0.2 $yields
+refused 'model mospd cannot yield; use `method: mpm` without the key model' "$plate" -s model=mospd -s material.poisson=0.2 $yields
 remedied -s method=mpm -s model=
-refused "no method has all of rigid bodies and a Poisson's ratio that bonds do not have and yield_stress; leave out" "$wall" -s model=ospd \
+refused "no method has all of rigid bodies and a Poisson's ratio that bonds do not have and yield_stress; leave one" "$wall" -s model=ospd \
     -s material.poisson=0.2 $yields
 remedied -s material.yield_stress=
 remedied -s material.poisson= -s model=
-refused 'is for material points; `method: mpm` is expected, or yield_stress with linear hardening by yield_hardening, which bonds have' "$plate" $cook
+refused 'is for material points; use `method: mpm`, or yield_stress with linear hardening by yield_hardening, which bonds have' "$plate" $cook
 remedied -s method=mpm
 remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
-refused '`method: mpm` without the key model is expected, or yield_stress with linear hardening by yield_hardening, which bonds (`model: bond`) have at' \
+refused '`method: mpm` without the key model, or yield_stress with linear hardening by yield_hardening, which bonds (`model: bond`) have at' \
     "$plate" -s model=ospd -s material.poisson=0.2 -s material.yield_stress=100MPa -s material.hardening.voce.saturation=1MPa -s material.hardening.voce.rate=1
 remedied -s method=mpm -s model=
 remedied -s material.hardening= -s model=bond -s material.poisson=1/3 -s material.yield_hardening=1GPa
-refused 'is for material points; yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
+refused 'is for material points; use yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
 remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
-refused 'material m yields; solver: explicit is expected' "$plate" $yields -s solver=cg
+refused 'material m yields; set solver: explicit' "$plate" $yields -s solver=cg
 remedied -s solver=explicit
-refused 'material m yields; solver: explicit is expected' "$plate" $yields -s solver=cg -s method=mpm
+refused 'material m yields; set solver: explicit' "$plate" $yields -s solver=cg -s method=mpm
 remedied -s solver=explicit
 
 # ---- strength ----------------------------------------------------------------------------------------------------------
 
-refused 'is of bonds that soften; `method: pd` or `method: adaptive` is expected' "$plate" $soft -s method=mpm
+refused 'needs bonds that can soften; use `method: pd` or `method: adaptive`' "$plate" $soft -s method=mpm
 remedied -s method=pd
 remedied -s method=adaptive
-refused 'solver: explicit or static is expected' "$plate" $soft -s solver=cg
+refused 'set solver: explicit or static' "$plate" $soft -s solver=cg
 remedied -s solver=explicit
 remedied $steps
-refused 'solver: explicit or static is expected' "$plate" $soft -s material.compressive_strength=300MPa -s solver=cg
+refused 'set solver: explicit or static' "$plate" $soft -s material.compressive_strength=300MPa -s solver=cg
 remedied -s solver=explicit
 remedied $steps
-refused 'method: pd, which is expected' "$plate" $soft $steps -s method=adaptive
+refused 'need method: pd; set it' "$plate" $soft $steps -s method=adaptive
 remedied -s method=pd
 remedied -s method=pd -s model=ospd
-refused 'one of yield_stress and tensile_strength is expected' "$plate" $soft $yields
+refused 'cannot be combined with yield_stress' "$plate" $soft $yields
 remedied -s material.yield_stress=
 remedied -s material.tensile_strength=
 
 # ---- solvers, faces, interfaces ----------------------------------------------------------------------------------------
 
-refused 'relaxation is expected with material points' "$plate" -s solver=cg -s method=mpm
+refused 'with material points use relaxation' "$plate" -s solver=cg -s method=mpm
 remedied -s solver=relaxation
-refused 'so there is no friction' "$plate" -s contact.friction=0.3
+refused 'so friction has no effect' "$plate" -s contact.friction=0.3
 remedied -s contact.friction=0
 remedied -s contact.between=all
-refused 'moments needs a regular lattice in 2D or 3D; volume or none is expected' "$plate" -s pd.surface=moments -s particles.irregularity=0.1
+refused 'moments needs a regular lattice in 2D or 3D; use volume or none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1
 remedied -s pd.surface=volume
 remedied -s pd.surface=none
-refused 'moments needs a regular lattice in 2D or 3D; none is expected' "$plate" -s pd.surface=moments -s particles.irregularity=0.1 -s model=ospd
+refused 'moments needs a regular lattice in 2D or 3D; use none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1 -s model=ospd
 remedied -s pd.surface=none
-refused 'goes with space plane strain, solid or line' "$plate" -s 'material.viscosity={}'
+refused 'cannot be used in space plane stress' "$plate" -s 'material.viscosity={}'
 remedied -s 'space=plane strain'
-refused 'a static equilibrium has no velocities; solver: explicit is expected' "$plate" -s damping=1e3 -s solver=cg
+refused 'a static equilibrium has no velocities to damp; set solver: explicit' "$plate" -s damping=1e3 -s solver=cg
 remedied -s solver=explicit
 sed 's/^particles:/interfaces: [{bodies: [plate, wall]}]\n&/' "$work/stiff.yaml" >"$work/joined.yaml"
-refused 'by their grid; `method: pd` or `method: mpm` is expected' "$work/joined.yaml" -s method=adaptive
+refused 'by their grid (method mpm); use `method: pd` or `method: mpm`' "$work/joined.yaml" -s method=adaptive
 remedied -s method=pd
 remedied -s method=mpm
-refused 'space plane stress; `method: pd` with `model: ospd` or `method: mpm` has any' "$work/joined.yaml" -s method=adaptive -s materials.m.poisson=0.2
+refused 'space plane stress; `method: pd` with `model: ospd` or use `method: mpm` for any ratio' "$work/joined.yaml" -s method=adaptive -s materials.m.poisson=0.2
 remedied -s method=pd -s model=ospd
 remedied -s method=mpm
 

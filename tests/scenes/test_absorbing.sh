@@ -45,7 +45,7 @@ part 28 >"$work/overlap.yaml"
 calm "$work/parts" "$work/parts.yaml" -s method=pd
 within "in parts" "$(awk -v a="$(share "$work/parts")" -v b="$(share "$work/pd1")" 'BEGIN { print a / b - 1 }')" -1e-12 1e-12
 sed "s/^boundary:/boundary:\n  - {name: middle, mirror: {axis: x, at: 80 mm}}/" $plate >"$work/behind.yaml"
-refused "a face in a mirror" "$work/not" "mirror middle continues the body at this face" "$work/behind.yaml"
+refused "a face in a mirror" "$work/not" "mirror middle is a plane of symmetry at this face" "$work/behind.yaml"
 refused "parts that overlap" "$work/not" "boundary boundary4: boundary right already absorbs at this face" "$work/overlap.yaml"
 
 # The echo is an equivalent scene, the key is documented, check accepts the scene.

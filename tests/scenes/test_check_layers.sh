@@ -111,7 +111,7 @@ boundary:
 probes: [point: {name: tip, at: [79 mm, 5 mm]}]
 output: {frames: 1}
 END
-soft() { sed -n 's/.*one dilatation, so that [0-9]* layers bend up to \([0-9]*\) % too much.*/\1/p' "$work/said"; }
+soft() { sed -n 's/.*same change of volume, so [0-9]* layers bend up to \([0-9]*\) % too much.*/\1/p' "$work/said"; }
 run sheet "$work/sheet.yaml"
 told "$work/sheet.yaml"
 beam=$(compute "3.2 * (0.08 * 0.079^2 / 2 - 0.079^3 / 6) / (200e9 / 0.91 * 4e-3 * 8e-3^3 / 12) + 3.2 * 0.079 / (5/6 * 200e9 / 2.6 * 32e-6)")
@@ -138,7 +138,7 @@ boundary:
 probes: [reaction: {boundary: up}]
 output: {frames: 1}
 END
-off() { sed -n "s/.*boundary up: .* its $1 spacings were $2: its stiffness is off by \\([-+0-9.]*\\) % in tension.*/\\1/p" "$work/said"; }
+off() { sed -n "s/.*boundary up: .* the $1 spacings of the body were $2: its stiffness is off by \\([-+0-9.]*\\) % in tension.*/\\1/p" "$work/said"; }
 pulled() { compute "$(figure "$folder" probes.reaction.force_max) / (200e9 * 32e-6 * 1e-5 / $1) * 100 - 100"; }
 run odd "$work/odd.yaml"
 told "$work/odd.yaml"

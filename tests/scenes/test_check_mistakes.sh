@@ -51,10 +51,10 @@ silent "glass that softens" 'E G_c/tensile_strength' "$glass" $soft
 says "an energy of steel" '^warning: material material: its length E G_c/tensile_strength^2 over the longest edge of the bodies is 1.44e+03 (72 m over 0.05 m), above 30: check' \
     "$glass" $soft -s material.energy_release_rate=100kJ/m^2
 silent "an energy of steel that is meant" 'E G_c/tensile_strength' "$glass" $soft -s material.energy_release_rate=100kJ/m^2 -s 'accept=[brittleness]'
-refuses "a strength in GPa" 'is expected; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (mm?)' "$glass" \
+refuses "a strength in GPa" 'm; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (mm?)' "$glass" \
     -s material.tensile_strength=2GPa
 checked "$glass" -s material.tensile_strength=60MPa
-holds "a strength that needs smaller particles" sh -c "grep -q 'is expected$' '$work/said'"
+holds "a strength that needs smaller particles" sh -c "grep -q 'particles.spacing below [^;]* m$' '$work/said'"
 
 # ---- times of loads ----------------------------------------------------------------------------------------------------
 
@@ -62,7 +62,7 @@ factor() { echo "boundary.up.time={$1}"; }
 late='^warning: boundary up: the largest load within the duration, over the largest at any time, is' early='^warning: boundary up: its time function ends at'
 silent "a ramp" "$late\|$early" "$glass" -s "$(factor 'ramp: {until: 40 us}')"
 silent "a ramp of ten times the run" "$late" "$glass" -s "$(factor 'ramp: {until: 399 us}')"
-says "a ramp in ms" "$late 0.001, below 0.1: check the units of its times (us?) and duration; if this is meant: accept: \[times\]" "$glass" \
+says "a ramp in ms" "$late 0.001, below 0.1: check the units of its times (us?) and duration; if this is intended, add accept: \[times\]" "$glass" \
     -s "$(factor 'ramp: {until: 40 ms}')"
 silent "a ramp in ms that is meant" "$late" "$glass" -s "$(factor 'ramp: {until: 40 ms}')" -s 'accept=[times]'
 says "a pulse in ms" "$late" "$glass" -s "$(factor 'pulse: {until: 40 ms}')"
@@ -71,10 +71,10 @@ says "a step after the end" "$late 0, below 0.1" "$glass" -s "$(factor 'step: {f
 silent "a step that lasts" "$late" "$glass" -s "$(factor 'step: {until: 1 s}')"
 says "a table in ms" "$late 0.04, below 0.1" "$glass" -s "$(factor 'table: [[0, 0], [1 ms, 1], [2 ms, 0]]')"
 silent "a table whose peak is before the end" "$late" "$glass" -s "$(factor 'table: [[0, 0], [20 us, 1], [1 s, 0]]')"
-says "a ramp in ps" "$early 4e-11 s, long before the first time step of 1.43e-07 s, so that it acts at once, as without time: check" "$glass" \
+says "a ramp in ps" "$early 4e-11 s, long before the first time step of 1.43e-07 s, so it acts at once, as if without time: check" "$glass" \
     -s "$(factor 'ramp: {until: 0.04 ns}')"
-says "a pulse in ps" "$early 4e-11 s, .*, so that it never acts: check" "$glass" -s "$(factor 'pulse: {until: 0.04 ns}')"
-says "a table in ps" "$early 4e-11 s, .*, so that it has its last value at once: check" "$glass" -s "$(factor 'table: [[0, 0], [0.04 ns, 1]]')"
+says "a pulse in ps" "$early 4e-11 s, .*, so it never acts: check" "$glass" -s "$(factor 'pulse: {until: 0.04 ns}')"
+says "a table in ps" "$early 4e-11 s, .*, so it has its last value at once: check" "$glass" -s "$(factor 'table: [[0, 0], [0.04 ns, 1]]')"
 rigid() { echo "bodies=[{name: plate, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}, {name: jaw, rigid: true, velocity: [-1, 0], ramp: $1,
     shape: {box: {from: [50 mm, -20 mm], to: [60 mm, 20 mm]}}}]"; }
 says "a ramp of a rigid body in ms" '^warning: body jaw: .* is 0.001 (by its ramp), below 0.1' "$glass" -s body= -s "$(rigid '40 ms')"
@@ -82,12 +82,12 @@ silent "a ramp of a rigid body" 'by its ramp' "$glass" -s body= -s "$(rigid '40 
 
 # ---- keys that do nothing ----------------------------------------------------------------------------------------------
 
-idle='keys that do nothing in this scene: '
+idle='keys without effect in this scene: '
 silent "no idle keys" "$idle" "$glass"
 says "keys of points" "^hints .*${idle}mpm.cell, mpm.frame (method pd has no material points)$" "$glass" -s boundary.up.traction='[0, 11 MPa]' -s mpm.cell=2 -s mpm.frame=current
-says "keys of bonds" "${idle}particles.horizon, model (method mpm has no bonds); contact.law (no particles with bonds are in contact)$" "$glass" -s method=mpm -s cracks=[] \
+says "keys of bonds" "${idle}particles.horizon, model (method mpm has no bonds); contact.law (no particles with bonds have contact)$" "$glass" -s method=mpm -s cracks=[] \
     -s particles.horizon=3 -s model=bond -s contact.law=surface
-says "bonds that do not break" 'material material: its energy_release_rate, toughness or critical_stretch does nothing, as method mpm has no bonds' "$glass" \
+says "bonds that do not break" 'material material: energy_release_rate, toughness or critical_stretch has no effect: method mpm has no bonds' "$glass" \
     -s method=mpm -s cracks=[]
 says "keys of conversion and solvers" "${idle}conversion.alpha, pd.region (only points of .*); solver_tolerance (solver: explicit does not iterate); time.safety (time.step is given); particles.seed (" \
     "$glass" -s conversion.alpha=0.9 -s solver_tolerance=1e-3 -s time.step=0.1us -s time.safety=0.4 -s particles.seed=3 \
@@ -95,7 +95,7 @@ says "keys of conversion and solvers" "${idle}conversion.alpha, pd.region (only 
 says "time steps of an equilibrium" "${idle}time.safety (the solver makes no time steps); crack.speed_window (no crack grows in time)$" "$glass" -s solver=cg -s time.safety=0.4 \
     -s crack.speed_window=1us
 silent "keys of an equilibrium" "$idle" "$glass" -s solver=cg -s solver_tolerance=1e-3 -s solver_steps=100
-says "a material of no body" 'material other: no body consists of it$' "$glass" -s material= -s body= \
+says "a material of no body" 'material other: no body consists of it; remove it, or name it$' "$glass" -s material= -s body= \
     -s 'materials=[{name: glass, young: 72 GPa, density: 2440}, {name: other, young: 72 GPa, density: 2440}]' \
     -s 'bodies=[{name: a, material: glass, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}]'
 "$cleave" run "$glass" -q -o "$work/ran" -s output.frames=0 -s duration=3us >/dev/null 2>&1
@@ -115,18 +115,18 @@ says "a velocity outside" "^warning: initial\[0\]: no particle is in its region;
 says "peridynamics outside" "^warning: pd.region: no particle is in it; $between the region" "$glass" -s "pd.region={$(box '100, 0' '200, 50')}"
 refuses "a part outside" "its part 1, of material material, holds no particle" "$glass" -s "parts=[{region: {$(box '100, 0' '200, 50')}, material: material}]"
 silent "a velocity inside" 'initial' "$glass" -s "initial=[{velocity: [0.1, 0], region: {$(box '0, 0' '1 mm, 1 mm')}}]"
-says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle, where half a spacing, 0.0005 m, is expected, and does nothing; $between" "$glass" \
+says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle, but should be half a spacing (0.0005 m) away: it has no effect (${between%: check})" "$glass" \
     -s 'boundary.down={name: m, mirror: {axis: y, at: -30 mm}}' -s cracks=[] -s contact.between=none
 # Bonds of 3.015 mm cross gaps of 1 mm at most; cells of 2 mm, the second of which begins 1 mm beside the body.
-beside() { echo "boundary m: its plane of symmetry y = -0.02$1 m is 0.00$2 m from the nearest particle, where half a spacing, 0.0005 m, is expected, and $3;"; }
+beside() { echo "boundary m: its plane of symmetry y = -0.02$1 m is 0.00$2 m from the nearest particle, but should be half a spacing (0.0005 m) away: it $3 ("; }
 for method in pd mpm; do
-    says "a plane half a spacing off, $method" "$(beside 05 1 'holds the body across the gap, too softly')" "$glass" -s cracks=[] -s method=$method \
+    says "a plane half a spacing off, $method" "$(beside 05 1 'holds the body too softly across the gap')" "$glass" -s cracks=[] -s method=$method \
         -s 'boundary.down={name: m, mirror: {axis: y, at: -20.5 mm}}'
-    says "a plane of symmetry far off, $method" "$(beside 3 35 'does nothing')" "$glass" -s cracks=[] -s contact.between=none -s method=$method -s 'boundary.down={name: m, mirror: {axis: y, at: -23 mm}}'
+    says "a plane of symmetry far off, $method" "$(beside 3 35 'has no effect')" "$glass" -s cracks=[] -s contact.between=none -s method=$method -s 'boundary.down={name: m, mirror: {axis: y, at: -23 mm}}'
 done
-says "a plane in contact" "$(beside 3 35 'only keeps the body from its mirror image, by contact')" "$glass" -s cracks=[] -s method=pd -s contact.between=all \
+says "a plane in contact" "$(beside 3 35 'only acts on the body by contact with its mirror image')" "$glass" -s cracks=[] -s method=pd -s contact.between=all \
     -s 'boundary.down={name: m, mirror: {axis: y, at: -23 mm}}'
-silent "a plane of symmetry at the body" 'does nothing' "$glass" -s 'boundary.down={name: m, mirror: {axis: y, at: -20 mm}}' -s cracks=[]
+silent "a plane of symmetry at the body" 'away: it ' "$glass" -s 'boundary.down={name: m, mirror: {axis: y, at: -20 mm}}' -s cracks=[]
 # Rows of the second body are 0.4 spacings beside those of the first, from 10 mm inside it on.
 two() { echo "bodies=[{name: a, shape: {$(box '0, -20 mm' '50 mm, 20 mm')}}, {name: b, shape: {$(box "$1, -19.6 mm" '90 mm, 20 mm')}}]"; }
 says "bodies that overlap" '^warning: bodies b and a overlap: 400 particles of b are inside a, the deepest by 0.0093 m at (0.0407, -0.0103) m: move one body, or subtract' "$glass" \
@@ -135,23 +135,23 @@ silent "bodies that overlap on purpose" 'overlap' "$glass" -s body= -s "$(two '4
 silent "bodies that touch" 'overlap' "$glass" -s body= -s "$(two '50 mm')"
 grown() { echo "growth=[{at: [$1, 0], direction: [1, 0], speed: $2, start: $3}]"; }
 says "growth outside" '^warning: growth growth0: its tip starts 24.9 m from the nearest particle' "$glass" -s "$(grown 24.9 '500 m/s' 0)"
-says "growth after the end" '^warning: growth growth0: starts at 0.01 s, but the duration is 4e-05 s' "$glass" -s "$(grown '24.9 mm' '500 m/s' '10 ms')"
+says "growth after the end" '^warning: growth growth0: starts at 0.01 s, after the duration of 4e-05 s' "$glass" -s "$(grown '24.9 mm' '500 m/s' '10 ms')"
 says "growth by nothing" '^warning: growth growth0: at 0.5 m/s it grows by 2e-05 m in the run, less than a spacing of 0.001 m' "$glass" -s "$(grown '24.9 mm' '0.5 m/s' 0)"
 says "growth in mm/us" '^warning: growth growth0: 5e+05 m/s is 163 times the speed of Rayleigh waves, 3058 m/s' "$glass" -s "$(grown '24.9 mm' '500 mm/us' 0)"
 silent "growth" 'growth' "$glass" -s "$(grown '24.9 mm' '500 m/s' 0)"
 pressed() { echo "boundary=[{name: p, pressure: $1, region: {$(box '-inf, 19 mm' 'inf, inf')}}]"; }
 says "a pressure that pulls" 'hints .*boundary p: a pressure of -1.2e+07 Pa is negative and pulls the faces outwards' "$glass" -s "$(pressed '-12 MPa')"
 silent "a pressure" 'pulls' "$glass" -s "$(pressed '12 MPa')"
-says "tractions of one direction" 'boundaries up and down: tractions of 1.2e+07 and 1.2e+07 Pa along y on opposite faces push the body one way' "$glass" \
+says "tractions of one direction" 'boundaries up and down: tractions of 1.2e+07 and 1.2e+07 Pa along y on opposite faces push the body in one direction; to' "$glass" \
     -s boundary.down.traction='[0, 12 MPa]'
 slot() { echo "body=[{$(box '0, -20 mm' '50 mm, 20 mm')}, {subtract: {$1}}]"; }
 thin='accuracy  *body body: solid 2 of its shape, which is subtracted, is'
-says "a slot narrower than a spacing" "$thin 0.0004 m thin, less than a spacing of 0.001 m: .*; a spacing of 0.1 mm resolves it$" "$glass" -s cracks=[] \
+says "a slot narrower than a spacing" "$thin 0.0004 m thin (spacing 0.001 m), so: .*; a spacing of 0.1 mm resolves it$" "$glass" -s cracks=[] \
     -s "$(slot "$(box '0, -0.2 mm' '25 mm, 0.2 mm')")"
 holds "a slot of half the width is not symmetric about the middle" sh -c "! grep -q 'symmetric about x' '$work/said'"
 says "a hole smaller than a spacing" "$thin 0.0006 m thin" "$glass" -s cracks=[] -s "$(slot 'disc: {centre: [25 mm, 0], radius: 0.3 mm}')"
 silent "a slot of four spacings" "$thin" "$glass" -s cracks=[] -s "$(slot "$(box '0, -2 mm' '25 mm, 2 mm')")"
-says "friction in percent" 'contact.friction: 30 is above 3; dry solids have 0.1 to 1.5' "$glass" -s contact.friction=30
+says "friction in percent" 'contact.friction: 30 is above 3; dry solids have 0.1 to 1.5; check its unit' "$glass" -s contact.friction=30
 says "gravity in mm/s^2 by 10" 'gravity: 9.81e+04 m/s^2 is 1e+04 times that of the Earth' "$glass" -s 'gravity=[0, -98100]'
 says "a crack wider than the body" 'crack 1: its width of 5 m is larger than the bodies, 0.05 m' "$glass" -s 'cracks=[{from: [0, 0], to: [24.9 mm, 0], width: 5}]'
 says "damping that stops all" 'damping: at 1e+09 1/s motion dies out within 2 time steps' "$glass" -s damping=1e9

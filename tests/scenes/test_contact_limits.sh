@@ -46,19 +46,19 @@ mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k
     NR > 1 { sum += $at; n++ } END { print sum / n }' "$work/rest/history.csv")
 between "a weight rests" "$mean" 380 420
 
-warned "rigid bodies do not meet" "$work/through" "push particles, not each other" "$work/plate.yaml" \
+warned "rigid bodies do not meet" "$work/through" "push particles but not each other" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, mass: 1 g, velocity: [100 m/s, 0], shape: {box: {from: [30 mm, 0], to: [35 mm, 9 mm]}}}, {name: q, rigid: true, shape: {box: {from: [36 mm, 0], to: [40 mm, 9 mm]}}}')"
 stopped "a blade that outruns contact" "$work/blade" "spacings per step" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, velocity: [0, -3e4 m/s], shape: {box: {from: [0, 11 mm], to: [20 mm, 11.6 mm]}}}')"
 refused "a rigid body inside another" "$work/no" "overlaps body a" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, shape: {box: {from: [15 mm, 0], to: [25 mm, 5 mm]}}}')"
-refused "a mirror and a body that flies" "$work/no" "mirrors do not act on it" "$work/plate.yaml" -s "boundary=[{mirror: {axis: y, at: 0}}]" \
+refused "a mirror and a body that flies" "$work/no" "mirrors do not act on such bodies" "$work/plate.yaml" -s "boundary=[{mirror: {axis: y, at: 0}}]" \
     -s "$(bodies '{name: p, rigid: true, mass: 1 g, shape: {ball: {centre: [30 mm, 0], radius: 5 mm}}}')"
-refused "a ramp of a body that flies" "$work/no" "one without mass" "$work/plate.yaml" -s bodies.1.ramp=1us
-refused "a force without a mass" "$work/no" "moves only what has a mass" "$work/plate.yaml" \
+refused "a ramp of a body that flies" "$work/no" "is for a rigid body with a prescribed velocity" "$work/plate.yaml" -s bodies.1.ramp=1us
+refused "a force without a mass" "$work/no" "has no effect on a body without a mass" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, force: [0, 1 N], shape: {box: {from: [30 mm, 0], to: [35 mm, 9 mm]}}}')"
 refused "a load of a rigid body" "$work/no" "p is rigid" "$work/plate.yaml" -s "boundary=[{body_force: [0, -1e9], body: p}]"
-refused "friction of nothing" "$work/no" "so there is no friction" "$work/plate.yaml" -s "$alone" -s contact.between=none -s contact.friction=0.3
+refused "friction of nothing" "$work/no" "so friction has no effect" "$work/plate.yaml" -s "$alone" -s contact.between=none -s contact.friction=0.3
 refused "contact without time" "$work/no" "has no contact" "$work/plate.yaml" -s "$alone" -s contact.between=all -s solver=cg
 says=$("$cleave" check "$work/plate.yaml" -t 1 2>&1)
 case $says in *"a with itself"*"rigid p;"*"near a face"*) pass ;; *) fail "check does not say who meets: $says" ;; esac
@@ -116,7 +116,7 @@ for key in contact.between=all 'accept=[contact]' duration=20us; do
     if grep -q 'pass through' "$work/err"; then fail "pieces with $key pass"; else pass; fi
 done
 says=$("$cleave" check "$work/plate.yaml" -s bodies= -s "$two" -s "$fly" 2>&1)
-case $says in *"pieces that meet pass through each other: contact.between: all"*) pass ;; *) fail "check does not say that pieces pass: $says" ;; esac
+case $says in *"parts that touch pass through each other: set contact.between: all"*) pass ;; *) fail "check does not say that pieces pass: $says" ;; esac
 
 # ---- compressed bonds --------------------------------------------------------------------------------------------------
 
@@ -135,6 +135,6 @@ boundary:
 E
 calm "$work/press" "$work/press.yaml"
 between "a bar at half its length" "$(figure "$work/press" energy.balance_error)" -1e-3 1e-3
-stopped "a bar at nothing" "$work/nothing" "bonds are squeezed" "$work/press.yaml" -s duration=1ms
+stopped "a bar at nothing" "$work/nothing" "bonds are compressed" "$work/press.yaml" -s duration=1ms
 
 finish

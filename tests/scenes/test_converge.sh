@@ -69,7 +69,7 @@ is "nothing on standard error" "$(cat err)" ""
 sed 's/frames: 0/times: [1 us, 2 us]/' bar.yaml >times.yaml
 "$cleave" converge times.yaml -o times --runs 1 -q >out 2>err
 is "frames at given times" $? 0
-grep -q "scatter unknown, as there is one run" out && pass || fail "one run: $(cat out)"
+grep -q "scatter unknown (one run" out && pass || fail "one run: $(cat out)"
 "$cleave" converge bar.yaml -o limit -s time.safety=1 -q >out
 is "no two runs are equal" "$(cat limit/spacing*/scene.yaml | grep -c '^time')" "$(for run in limit/spacing*; do cksum <"$run/scene.yaml"; done | sort -u | wc -l | tr -d ' ')"
 
@@ -101,7 +101,7 @@ is "its unit" "$(value energy.external_work unit)" J
 # ---- warnings of runs ------------------------------------------------------------------------------------------------
 
 "$cleave" converge bar.yaml -o warned -s method=mpm -s mpm.cell=1 --runs 1 -q >out 2>err
-is "warnings in a line" "$(grep -c '^warning: in 3 of 3 runs: mpm.cell: 1 puts one point in a cell' err) $(wc -l <err | tr -d ' ')" "1 1"
+is "warnings in a line" "$(grep -c '^warning: in 3 of 3 runs: mpm.cell: 1 puts one point into a cell' err) $(wc -l <err | tr -d ' ')" "1 1"
 
 # ---- paths of tips ---------------------------------------------------------------------------------------------------
 
@@ -158,10 +158,10 @@ refused()
 }
 refused "no scene given" -o none
 refused "is too small" bar.yaml --budget 1us -o tiny
-refused "10.5 is the most" bar.yaml --horizon --levels 6 -o none
-refused "a time is expected" bar.yaml --budget 10mm -o none
+refused "more than 10.5" bar.yaml --horizon --levels 6 -o none
+refused "give a time, such as" bar.yaml --budget 10mm -o none
 refused "a number from 3 to 6" bar.yaml --levels 2 -o none
-refused "cleave sweep varies keys" bar.yaml -s method=pd,mpm -o none
+refused "to vary a key use cleave sweep" bar.yaml -s method=pd,mpm -o none
 refused "unknown option" bar.yaml --list -o none
 refused "unknown key" bar.yaml -s nonsense=1 -o none
 holds "nothing is left behind" test ! -e none
@@ -179,6 +179,6 @@ is "names that figure_names.c lacks" "$(sort -u written | awk 'NR == FNR { text 
     text !~ "[\" ]" $0 "[\" ]" { print }' "$root/src/study/figure_names.c" -)" ""
 awk 'BEGIN { print "x,volume"; for (i = 0; i < 20; i++) printf "%.4f,1e-3\n", 0.0005 + i * 0.001 }' >points.csv
 sed 's/^body:.*/bodies: [{name: bar, particles: points.csv}]/; s/0.2 mm/1 mm/' bar.yaml >list.yaml
-refused "nothing can be refined" list.yaml -o none
+refused "so the spacing cannot be refined" list.yaml -o none
 
 finish

@@ -50,7 +50,7 @@ done
 for x in 0.25 0.75 1.25 1.75; do for y in 0.25 0.75 1.25; do echo "$x $y 0 0.5 1"; done; done >bare.txt
 { echo "x y z volume block_id"; cat bare.txt; } >named.txt
 list='bodies=[{name: plate, particles: {file: bare.txt, unit: mm, columns: [x, y, z, volume, block]}}]'
-refused "or its unit as in particles: {file: .., unit: mm}" check plate.yaml -s "bodies=[{name: plate, particles: named.txt}]"
+refused "or name its unit as in particles: {file: .., unit: mm}" check plate.yaml -s "bodies=[{name: plate, particles: named.txt}]"
 "$cleave" run plate.yaml -q -o bare -s "$list" -s boundary= >said 2>&1 || fail "the bare list does not run: $(cat said)"
 "$cleave" run bare/scene.yaml -q -o again >said 2>&1 || fail "the echo of the bare list does not run: $(cat said)"
 holds "the echo gives the same run" cmp -s bare/history.csv again/history.csv
@@ -84,16 +84,16 @@ fi
 # What is refused.
 head -c 700 plate.g >cut.g
 refused "cut.g: " check plate.yaml -s 'bodies=[{name: plate, particles: cut.g}]'
-refused "that ends in .exo, .e or .g is expected" export exodus plate.yaml -o plate.vtk
+refused "give a name that ends in .exo, .e or .g" export exodus plate.yaml -o plate.vtk
 refused "choose another -o, or replace it with --overwrite" export exodus plate.yaml -o plate.g
 refused "is a run, whose scene -s cannot change" export exodus shape -o other.g -s duration=1us
 refused "are for lammps" export exodus plate.yaml -o other.g --allow-different
 mkdir study && touch study/sweep.csv study/study.yaml
 refused "study: holds a study; export one of its runs" export exodus study -o other.g
 refused "study: holds a study; export one of its runs" export lammps study -o other
-refused "lammps or exodus is expected" export cubit plate.yaml -o other.g
-refused "is no list of columns" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, columns: x}}]'
-refused "is no unit of length" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, unit: inch}}]'
+refused "give lammps or exodus" export cubit plate.yaml -o other.g
+refused "is not a list of columns" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, columns: x}}]'
+refused "is not a unit of length" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, unit: inch}}]'
 
 cd "$root" || exit 1
 finish

@@ -178,7 +178,7 @@ refuse "$follow" "needs probe and toughness"
 refuse "$follow, probe: sif" "needs probe and toughness"
 refuse "$follow, toughness: 1 MPa m^0.5" "without probe"
 refuse "$follow, probe: sif, toughness: 1 MPa m^0.5, fastest: 0 m/s" "fastest"
-refuse "$good, fastest: 900 m/s" "beside a given speed"
+refuse "$good, fastest: 900 m/s" "has no effect with a given speed"
 refuse "$good, colour: red" "colour"
 refuse "$good" "method mpm has no bonds" -s method=mpm
 # Bonds that have yielded and fade behind the tip: their plastic work stays on the account. Without it 4.6 % of the energy was missing.

@@ -141,15 +141,15 @@ drawn "what has no space of a title" "0[.][.][.]' at screen"
 refused "LOW:HIGH" results/strip --field speed --range 3
 refused "--range 0:5m: 5m: " results/strip --field speed --range 0:5m
 refused "--range a:b: b: " results/strip --field speed --range a:b
-refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
+refused "give the lower end first" results/strip --field speed --range 5m/s:1m/s
 refused "X:X,Y:Y" results/strip --crop 1mm:2mm
 refused "lower end" results/strip --crop 2mm:1mm,0:1mm
 refused "nothing is in this rectangle; the body is in -0.5mm:20.5mm,-3mm:10.5" results/strip --crop 100mm:120mm,0mm:5mm -o beside.png
 holds "no empty picture" test ! -e beside.png
 refused "above 0" results/strip --magnify -3
-refused "WxH" results/strip --size 100
-refused "a width in pixels or mm, as 1200 or 85mm" results/strip --size 8.5cm
-refused "after a space: --range 0:5" results/strip --field speed --range=0:5
+refused "or a size, such as 1200x800" results/strip --size 100
+refused "a width in pixels or mm, such as 1200 or 85mm" results/strip --size 8.5cm
+refused "between the option and its value: --range 0:5" results/strip --field speed --range=0:5
 refused "from 53mmx40mm" results/strip --size 52mmx60mm
 refused "from 53mmx40mm" results/strip --size 85mmx39mm
 refused "viridis" results/strip --colours rainbow
@@ -182,22 +182,22 @@ is "a film without ffmpeg: exit status" $? 2
 holds "a film without ffmpeg: one line names it" grep -q "the package ffmpeg" err
 
 refused "von_mises" results/strip --field van_mises
-refused "it has several components, draw one of strain_xx, strain_yy" results/strip --field strain
+refused "it has several components; draw one of strain_xx, strain_yy" results/strip --field strain
 refused "there are damage, kind, material" results/strip --field nonsense
 "$cleave" plot results/strip --field principal_stress $small >out 2>err
-holds "principal_stress: which one is drawn" grep -q "principal_stress is the largest one; the others are principal_stress_2" err
+holds "principal_stress: which one is drawn" grep -q "principal_stress is the largest one; draw the others as principal_stress_2" err
 refused "runs in space" results/strip --slice z=1mm
-refused "do you mean --field" results/strip --feild speed
+refused "did you mean --field" results/strip --feild speed
 refused "a time is expected" results/strip --times 5kg
 refused "png, svg, pdf, mp4 or gif" results/strip --format bmp
-refused "not that of --format pdf" results/strip --field speed --format pdf -o x.png
-refused "an ending .png" results/strip --field speed -o x.bmp
+refused "does not fit --format pdf" results/strip --field speed --format pdf -o x.png
+refused "a file that ends in .png" results/strip --field speed -o x.bmp
 refused "one of them" results/strip --times 1us --frames 2
 refused "at most 24 panels" results/strip --frames 30
 refused "cleave plot --scene strip.yaml" strip.yaml
 refused "before it runs" results/strip --scene strip.yaml
 refused "for scenes in space" --scene strip.yaml --view x+
-refused "goes with --scene" results/strip -s method=pd
+refused "use it with --scene" results/strip -s method=pd
 "$cleave" plot results/strip --field strain_xx >out 2>err
 is "a field that the run has not written: exit status" $? 1
 holds "the remedy is named" grep -q "output: {fields: \[strain\]}" err
@@ -252,7 +252,7 @@ done
 "$cleave" plot --scene strip.yaml -o photo.svg $small >out 2>err
 is "by any picture of cleave" $? 0
 mkfifo pipe.png
-refused "no regular file" results/strip --field speed -o pipe.png
+refused "is not a regular file" results/strip --field speed -o pipe.png
 "$cleave" plot results/strip --field speed --times last -o full.png >out 2>err
 cp full.png before.png
 # A limit on the file length acts as a full disk: gnuplot's picture is truncated.
@@ -416,7 +416,7 @@ for title in "crack.start_time .[µnm]s." "energy.kinetic .[mµn]J."; do holds "
 is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.strat_time -o varied >out 2>err
 is "sweep --of an unknown figure: exit status" $? 2
-holds "it names the nearest" grep -q "no such figure in sweep.csv; do you mean crack\." err
+holds "it names the nearest" grep -q "no such figure in sweep.csv; did you mean crack\." err
 
 # Numbers of a key without a unit are in SI, which the axis says, and so does the page.
 : >all

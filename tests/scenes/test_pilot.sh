@@ -159,10 +159,10 @@ refused "found no method that is accurate to 1e-07 %" collide.yaml -s accuracy.w
 refused "no method that is accurate to 0.1 % at its spacing" plate.yaml -s particles.spacing=1mm -s accuracy.within=0.1%
 refused "nothing moves or loads the bodies" plate.yaml -s boundary=[]
 refused "no time is left for it" collide.yaml -s accuracy.budget=1ms
-refused "accuracy_table: is no longer a key, as .method: auto. chooses by pilot runs alone; remove it" plate.yaml -s accuracy_table=mine.csv
-refused "auto does not do load steps" plate.yaml -s steps.number=3
+refused "accuracy_table: is no longer a key; remove it (.method: auto. always chooses by pilot runs)" plate.yaml -s accuracy_table=mine.csv
+refused "auto cannot use load steps" plate.yaml -s steps.number=3
 refused "accuracy: 0 is out of range" plate.yaml -s accuracy=0
-refused "no figure of summary.json" plate.yaml -s "accuracy={of: [1]}"
+refused "is not a figure of summary.json" plate.yaml -s "accuracy={of: [1]}"
 refused "no method of the pilot runs can be combined with the model, solver and pd.region" plate.yaml -s "pd.region={box: {from: [0, 0], to: [1mm, 1mm]}}"
 printf 'x, y\n0, 0\n0.001, 0\n0, 0.001\n0.001, 0.001\n' >list.csv
 refused "comes from a particle list" plate.yaml -s body= -s "bodies=[{name: a, particles: list.csv}]"
@@ -172,7 +172,7 @@ for command in "converge" "sweep -s time.safety=0.5,0.8" "export lammps"; do
     "$cleave" ${command%% -s*} collide.yaml $(echo "$command" | grep -o -- '-s.*') -o none >out 2>err
     is "$command" $? 2
     is "$command: lines" "$(wc -l <err)" 1
-    holds "$command: $(cat err)" grep -q "collide.yaml:3:1: method: auto is resolved by the pilot runs of .cleave run.; write a method" err
+    holds "$command: $(cat err)" grep -q "collide.yaml:3:1: method: auto is for .cleave run. only, which chooses by pilot runs; give a method" err
     holds "$command: left behind" test ! -e none
 done
 finish

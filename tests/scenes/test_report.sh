@@ -112,7 +112,7 @@ holds "says that it was interrupted" grep -q '"status.": ."interrupted' going/re
 # ---- files of others ----------------------------------------------------------------------------------------------------
 
 echo "mine" >mine.html
-refused "no page of cleave" results/plate -o mine.html
+refused "not a page of cleave" results/plate -o mine.html
 is "the file of another" "$(cat mine.html)" mine
 "$cleave" report results/plate -o mine.html --overwrite -q
 is "--overwrite: exit status" $? 0
@@ -129,7 +129,7 @@ refused "neither a run" empty
 refused "neither a run" nowhere
 refused "is a file" plate.yaml
 refused "no folder is given"
-refused "one folder" empty empty
+refused "is a second folder" empty empty
 refused "unknown option" results/plate --format pdf
 holds "no page in an empty folder" test -z "$(ls empty)"
 

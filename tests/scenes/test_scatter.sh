@@ -68,7 +68,7 @@ holds "seeds: a mean" grep -q '^crack.start_time: mean .* µs (95 % interval), s
 
 bad() { refused "$1" "$work/no" "$2" "$work/ring.yaml" -s "$3"; }
 bad "a modulus" "modulus: missing" 'material.scatter={length: 1 mm}'
-bad "a variation with weibull" "is the parameter of the other distribution" 'material.scatter={modulus: 8, variation: 0.1}'
+bad "a variation with weibull" "belongs to another distribution" 'material.scatter={modulus: 8, variation: 0.1}'
 bad "lognormal" "variation: missing" 'material.scatter={distribution: lognormal}'
 bad "below 1" "1 to 1000" material.scatter.modulus=0.5
 bad "nothing that breaks" "its bonds never break" material.critical_stretch=inf
@@ -76,6 +76,6 @@ bad "a length of time" "length" 'material.scatter.length=2 us'
 refused "yield" "$work/no" "where it yields" "$work/ring.yaml" -s method=adaptive -s material.yield_stress=100MPa
 # Material points do not break, and their yield stress does not scatter: with the position of the key.
 refused "yielding points" "$work/no" "ring.yaml:6:58: scatter: material points of method mpm do not break" "$work/ring.yaml" -s method=mpm -s material.yield_stress=100MPa
-refused "points with a flow law" "$work/no" "and the yield stress does not scatter" "$work/ring.yaml" -s method=mpm \
+refused "points with a flow law" "$work/no" "and a yield stress does not scatter" "$work/ring.yaml" -s method=mpm \
     -s material.hardening='{table: [[0, 100 MPa], [0.1, 200 MPa]]}'
 finish

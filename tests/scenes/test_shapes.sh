@@ -38,7 +38,7 @@ refused "" run gear.yaml -q -s duration=15us -s output.frames=1 --resume
 refused "the file has no set tooth; it has" check gear.yaml -s regions.teeth.mesh.set=tooth
 refused "spacing: 1 MPa is a stress; a length is expected" check gear.yaml -s particles.spacing='1 MPa'
 refused "unit is missing" check gear.yaml -s body='{mesh: {file: gear.inp}}'
-refused "is no unit of length" check gear.yaml -s body='{mesh: {file: gear.inp, unit: inch}}'
+refused "is not a unit of length" check gear.yaml -s body='{mesh: {file: gear.inp, unit: inch}}'
 
 # Fibres: as many particles as the image has pixels that are not void; another grey value is refused.
 "$cleave" run fibres.yaml -q -s duration=1ns -s output.frames=1 >/dev/null 2>&1 || fail "fibres.yaml does not run"

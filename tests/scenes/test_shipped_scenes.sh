@@ -44,12 +44,12 @@ done
 said_by() { "$cleave" run "$@" -q -t 1 -o "$work/run" --overwrite 2>&1 >/dev/null; }
 is "hopkinson_bar" "$(said_by inputs/hopkinson_bar.yaml)" ""
 said_by inputs/hopkinson_bar.yaml -s 'accept=none' >"$work/said"
-is "hopkinson_bar without accept: $(cat "$work/said")" "$(grep -c '^warning: .*; if this is meant: accept: \[' "$work/said")" 3
-holds "points that stretch: no remedy that the scene refuses" grep -q 'stretched by .* use method: pd or lower loads and speeds (mpm.frame: reference: bodies meet on the grid' \
+is "hopkinson_bar without accept: $(cat "$work/said")" "$(grep -c '^warning: .*; if this is intended, add accept: \[' "$work/said")" 3
+holds "points that stretch: no remedy that the scene refuses" grep -q 'stretched by .* use method: pd or lower loads and speeds (mpm.frame: reference: bodies have contact only on the grid' \
     "$work/said"
 is "bar_spall" "$(said_by inputs/bar_spall.yaml)" ""
 said_by inputs/bar_spall.yaml -s 'accept=none' >"$work/said"
-is "bar_spall without accept: $(cat "$work/said")" "$(grep -c '^warning: .*; if this is meant: accept: \[' "$work/said")" 3
+is "bar_spall without accept: $(cat "$work/said")" "$(grep -c '^warning: .*; if this is intended, add accept: \[' "$work/said")" 3
 
 # The comparison itself detects missing and superfluous comments.
 printf 'accuracy       own mirror image at x = 0\nhints          another one\n               own mirror image at y = 0\n' >"$work/said"

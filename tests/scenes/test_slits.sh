@@ -15,8 +15,8 @@ plate=inputs/kalthoff_winkler.yaml
 start slit $plate -s output.frames=0
 start bonds $plate -s output.frames=0 -s conversion.notch=bonds
 wait
-is "slit: what the summary says" "$(f slit conversion.notches.0)" "slit of the mesh, bonds within 8 spacings of its ends"
-is "bonds: what the summary says" "$(f bonds conversion.notches.1)" "cut bonds: the scene says so"
+is "slit: what the summary says" "$(f slit conversion.notches.0)" "slit of the mesh; bonds within 8 spacings of its ends"
+is "bonds: what the summary says" "$(f bonds conversion.notches.1)" "cut bonds: the scene sets this"
 close() { between "$1" "$(awk -v a="$2" -v b="$3" 'BEGIN { print a - b }')" "-$4" "$4"; }
 close "first break" "$(f slit crack.start_time)" "$(f bonds crack.start_time)" 2.4e-7
 close "length" "$(f slit crack.length_end)" "$(f bonds crack.length_end)" 1e-3
@@ -118,7 +118,7 @@ stays()
     refused "slit: $reason" "$work/not" "cannot be a slit of the mesh (a row of doubled nodes): .*$reason" "$@" -s conversion.notch=slit
 }
 stays "neither of its ends is inside the body" "$work/squeeze.yaml" -s "cracks=[{from: [-1 mm, 0], to: [61 mm, 0]}]"
-stays "hold all of it" "$work/squeeze.yaml" -s "cracks=[{from: [20 mm, 0], to: [30 mm, 0]}]"
+stays "contain all of it" "$work/squeeze.yaml" -s "cracks=[{from: [20 mm, 0], to: [30 mm, 0]}]"
 stays "pass through each other" "$work/squeeze.yaml" -s contact.convert=false
 stays "reference frame" "$work/squeeze.yaml" -s mpm.frame=current
 stays "between two nodes" "$work/half.yaml" -s "mpm.origin=[0, 1 mm]"

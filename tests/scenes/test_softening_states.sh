@@ -106,7 +106,7 @@ holds "check: strength" grep -q 'strength  *glass: 4e+07 Pa in tension, .*(kappa
 
 bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/strip.yaml" "$@"; }
 bad "a large horizon" "particles.spacing below 0.00019" -s particles.spacing=0.2mm
-bad "points" 'is of bonds that soften' -s method=mpm
-bad "a surface" "starts bonds of model: bond" -s materials.0.compressive_strength=1GPa
+bad "points" 'needs bonds that can soften' -s method=mpm
+bad "a surface" "a strength that depends on the stress state) needs model: bond" -s materials.0.compressive_strength=1GPa
 bad "brittle beside softening" "breaks without softening" -s materials.1.energy_release_rate=10
 finish

@@ -145,7 +145,7 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
         return (reference_turn(c->corner[0], c->corner[1], a) > 0) !=
                    (reference_turn(c->corner[0], c->corner[1], b) > 0) &&
                (reference_turn(a, b, c->corner[0]) > 0) != (reference_turn(a, b, c->corner[1]) > 0);
-    for (int k = 1; k + 1 < c->n; k++) /* a convex polygon is a fan of triangles */
+    for (int k = 1; k + 1 < c->n; k++) /* a convex polygon a fan of triangles */
         if (reference_pierced(c->corner[0], c->corner[k], c->corner[k + 1], a, b)) return true;
     return false;
 }

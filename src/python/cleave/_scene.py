@@ -211,7 +211,7 @@ def sweep(scene: Union[Path, Scene, Mapping[str, Any]], values: Mapping[str, Any
     """
     words: List[str] = []
     if not values:
-        raise ValueError('values: lists of values by key are expected, as {"particles.spacing": ["1 mm", "2 mm"]}')
+        raise ValueError('values: lists of values by key are expected, such as {"particles.spacing": ["1 mm", "2 mm"]}')
     for key, listed in values.items():
         many = isinstance(listed, (list, tuple, np.ndarray, range))
         words += ["-s", "%s=%s" % (key, ",".join(value_text(value) for value in listed) if many else value_text(listed))]

@@ -179,13 +179,13 @@ static void files_are_kept(void **state)
     FILE *to = fopen("a.e", "w");
     fputs("mine\n", to);
     fclose(to);
-    assert_refused(export_to("a.e", true), "a.e: is there, and is no export of Cleave");
+    assert_refused(export_to("a.e", true), "a.e: exists and is not an export of Cleave");
     unlink("a.e");
     assert_ok(export_to("a.e", false));
-    assert_refused(export_to("a.e", false), "a.e: is there; choose another -o, or replace it with --overwrite");
+    assert_refused(export_to("a.e", false), "a.e: exists; choose another -o, or replace it with --overwrite");
     assert_ok(export_to("a.e", true));
     unlink("a.e");
-    assert_refused(export_to("a.vtk", false), "a.vtk: a name that ends in .exo, .e or .g is expected");
+    assert_refused(export_to("a.vtk", false), "a.vtk: give a name that ends in .exo, .e or .g");
 }
 
 int main(void)

@@ -172,31 +172,31 @@ static void what_lammps_cannot(void **state)
     (void)state;
     refused("", "", false,
             "-s pd.volume=cut-ramp -s pd.surface=none -s pd.weights=uniform -s pd.last_force=whole "
-            "-s contact.law=pair -s contact.distance=lammps; set these keys in the scene, or use --allow-different");
+            "-s contact.law=pair -s contact.distance=lammps; set these keys in the scene, or pass --allow-different");
     refused(scene_equal, "", true, "-s contact.between=none");
     refused(scene_equal, "boundary: [{mirror: {axis: x, at: -6 mm}}]\n", false, "no planes of symmetry");
-    refused(scene_equal, "boundary: [{absorbing: true, face: x+}]\n", false, "absorbing faces are not exported");
+    refused(scene_equal, "boundary: [{absorbing: true, face: x+}]\n", false, "absorbing faces cannot be exported");
     refused(scene_equal, "boundary: [{traction: [0, 1 MPa * t / us], face: y+}]\n", false,
-            "formulas and rotation are not");
-    refused(scene_equal, "boundary: [{pressure: 1 MPa}]\n", false, "this kind of load is not exported");
+            "formulas and rotation cannot be");
+    refused(scene_equal, "boundary: [{pressure: 1 MPa}]\n", false, "this kind of load cannot be exported");
     refused(scene_equal, "solver: relaxation\n", false, "solver: ");
     refused(scene_equal, "solver: static\n", false, "solver: ");
     refused(scene_equal, "solver: cg\n", false, "solver: ");
-    refused(scene_equal, "damping: 10 1/s\n", false, "damping is not exported");
+    refused(scene_equal, "damping: 10 1/s\n", false, "damping cannot be exported");
     refused(scene_equal, "boundary: [{rotation: {centre: [0, 0], rate: 10 1/s}}]\n", false,
-            "rotation are not exported");
+            "rotation cannot be exported");
     refused(scene_equal, "growth: [{at: [0, 0], direction: [1, 0], speed: 100 m/s}]\n", false, "growth: LAMMPS");
-    refused("", "model: mospd\n", false, "model: mospd is not in LAMMPS");
+    refused("", "model: mospd\n", false, "model: mospd does not exist in LAMMPS");
     assert_int_equal(export_text("space: solid\nduration: 1 us\nmethod: pd\nparticles: {spacing: 1 mm}\n"
                                  "material: {young: 192 GPa, density: 8000, viscosity: {}}\n"
                                  "body: {box: {from: [0, 0, 0], to: [6 mm, 6 mm, 6 mm]}}\n",
                                  scene_equal, "", false, false),
                      REFUSED);
-    assert_non_null(strstr(status_message(), "viscosity is not exported"));
+    assert_non_null(strstr(status_message(), "viscosity cannot be exported"));
     refused("pd: {volume: cut-ramp, surface: none, weights: uniform, last_force: whole, influence: inverse, "
             "normalisation: local}\n"
             "contact: {between: none}\n",
-            "model: ospd\n", false, "the weighted volume of a particle still includes broken bonds");
+            "model: ospd\n", false, "the weighted volume of a particle; set model: bond");
 }
 
 int main(void)

@@ -229,7 +229,7 @@ static void third_order(void **state)
         fclose(file);
         if (curved) {
             assert_refused(geometry_read(&g, "c.msh", 2, 1, NAN),
-                           "c.msh:18: curved elements of order 3 are not supported; curved elements of order 2 are "
+                           "c.msh:18: curved elements of order 3 are not supported; save them with order 2 "
                            "(gmsh -order 2");
         } else {
             assert_ok(geometry_read(&g, "c.msh", 2, 1, NAN));

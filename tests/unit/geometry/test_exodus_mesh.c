@@ -245,7 +245,7 @@ static void spheres(void **state)
         for (int k = 0; k < 3 && l.volume; k++) assert_close(l.volume[k], (k ? 4 + 2 * k : 5) * 1e-9, 1e-15);
         particle_list_free(&l);
     }
-    assert_refused(particle_list_read(&l, "a.e", &mm, 3), "a.e: has 2 coordinates; the space has 3");
+    assert_refused(particle_list_read(&l, "a.e", &mm, 3), "a.e: has 2 coordinates, but the space has 3");
     write_plate("a.e", 0, 2);
     assert_refused(particle_list_read(&l, "a.e", &mm, 2), "block 1 has elements of type BAR2 with 2 nodes; a list of");
     int file = exodus_begin("a.e", 0, 2, 3, X[0], 2, 0, 0);
@@ -294,23 +294,23 @@ static void bad_files(void **state)
     (void)state;
     static const int square[] = {1, 2, 3, 4};
     write_bytes("bad.e", "solid cube\n", 11);
-    refused("bad.e: does not begin as a netCDF file; a file in the format Exodus II is expected");
+    refused("bad.e: does not begin like a netCDF file; give a file in the format Exodus II");
     write_bytes("bad.e", "CDF\1\0\0\0\0\0\0\0\12", 12);
-    refused("bad.e: the header of this netCDF file breaks off or is damaged near byte 12");
+    refused("bad.e: the header of this netCDF file ends early or is damaged near byte 12");
     int file;
     NC(nc_create("bad.e", NC_CLOBBER, &file));
     exodus_dim(file, "x", 0, 3);
     NC(nc_close(file));
-    refused("bad.e: a netCDF file with num_dim = 0 and num_nodes = 0; a mesh in the format Exodus II is expected");
+    refused("bad.e: a netCDF file with num_dim = 0 and num_nodes = 0; give a mesh in the format Exodus II");
 
     file = begin_bad(0, 0);
     exodus_put_block(file, 1, "QUAD4", 1, 4, (int[]){1, 2, 3, 5});
     NC(nc_close(file));
-    refused("element 1 has node 5; nodes from 1 to 4 are expected");
+    refused("element 1 has node 5; a number from 1 to 4 is expected");
     file = begin_bad(0, 0);
     exodus_put_block(file, 1, "NSIDED", 1, 4, square);
     NC(nc_close(file));
-    refused("elements of type NSIDED with 4 nodes are not read");
+    refused("elements of type NSIDED with 4 nodes cannot be read");
     file = begin_bad(0, 0);
     exodus_put_block(file, 1, "SPHERE", 4, 1, square);
     NC(nc_close(file));
@@ -319,17 +319,17 @@ static void bad_files(void **state)
     exodus_put_block(file, 1, "QUAD4", 1, 4, square);
     exodus_put_sides(file, 1, 1, (int[]){1}, (int[]){5});
     NC(nc_close(file));
-    refused("set surface_1 has side 5 of an element that has 4 sides");
+    refused("set surface_1 has side 5 of an element, but the element has 4 sides");
     file = begin_bad(1, 0);
     exodus_put_block(file, 1, "QUAD4", 1, 4, square);
     exodus_put_sides(file, 1, 1, (int[]){2}, (int[]){1});
     NC(nc_close(file));
-    refused("set surface_1 has element 2; elements from 1 to 1 are expected");
+    refused("set surface_1 has element 2; a number from 1 to 1 is expected");
     file = begin_bad(0, 1);
     exodus_put_block(file, 1, "QUAD4", 1, 4, square);
     exodus_put_nodes(file, 1, 1, (int[]){0});
     NC(nc_close(file));
-    refused("set nodelist_1 has node 0; nodes from 1 to 4 are expected");
+    refused("set nodelist_1 has node 0; a number from 1 to 4 is expected");
     unlink("bad.e");
 }
 

@@ -104,11 +104,11 @@ static void bad_stl(void **state)
     write_stl_words("c.stl", 12, "");
     refused("c.stl", 3, "it is cut off");
     write_stl_words("c.stl", 0, "endsolid");
-    refused("c.stl", 3, "holds no triangle");
+    refused("c.stl", 3, "contains no triangle");
     write_stl_words("c.stl", 2, "vertex 1 2 nan\n");
-    refused("c.stl", 3, "c.stl:16: nan is no coordinate");
+    refused("c.stl", 3, "c.stl:16: nan is not a coordinate");
     write_stl_words("c.stl", 2, "vertex 1 2 3\nendfacet\nendsolid\n");
-    refused("c.stl", 3, "a facet with 1 corners");
+    refused("c.stl", 3, "a facet has 1 corners");
     write_stl_words("c.stl", 6, "endsolid");
     refused("c.stl", 3, "open or turned inside out at 8 edges");
     write_file("c.stl", bytes, stl_bytes(bytes, 13));
@@ -278,13 +278,13 @@ static void bad_gmsh(void **state)
     (void)state;
     static const struct {
         const char *from, *to, *message;
-    } bad[] = {{"2.2 0", "4.0 0", ":2: Gmsh's file format 4.0 is not supported; 2.2 and 4.1 are"},
-               {"$MeshFormat", "Meshformat", "$MeshFormat is expected first"},
-               {"$Nodes\n12", "$Nodes\n12000000000", "12000000000 nodes are announced, more than the rest of the file"},
-               {"$Nodes\n12", "$Nodes\n-1", "-1 nodes are announced, more"},
-               {"2 1 0 0\n", "2 1 nan 0\n", ":13: nan is no coordinate"},
+    } bad[] = {{"2.2 0", "4.0 0", ":2: Gmsh's file format 4.0 is not supported; save it as 4.1"},
+               {"$MeshFormat", "Meshformat", "does not begin with $MeshFormat"},
+               {"$Nodes\n12", "$Nodes\n12000000000", "12000000000 nodes, more than the rest of the file"},
+               {"$Nodes\n12", "$Nodes\n-1", "the header gives -1 nodes, more"},
+               {"2 1 0 0\n", "2 1 nan 0\n", ":13: nan is not a coordinate"},
                {"2 1 0 0\n", "1 1 0 0\n", "node 1 is given twice"},
-               {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, which $Nodes does not define"},
+               {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, but $Nodes does not define it"},
                {"4 6 2 2 2", "4 77 2 2 2", "type 77"},
                {"$Nodes", "$Knots", "ends without $Nodes"},
                {"\"grip\"", "grip", "a name in quotes"},
@@ -298,7 +298,7 @@ static void bad_gmsh(void **state)
     write_changed("bad.msh", msh4, "1 1 0 .1", "1 1 3 .1");
     refused("bad.msh", 2, "not in one plane z = const");
     write_changed("bad.msh", msh4, "$Entities", "$PartitionedEntities");
-    refused("bad.msh", 2, "a mesh in partitions");
+    refused("bad.msh", 2, "the mesh has partitions");
 }
 
 /* ---- Abaqus ------------------------------------------------------------------------------------------------------ */
@@ -418,21 +418,21 @@ static void bad_abaqus(void **state)
     (void)state;
     static const struct {
         const char *from, *to, *message;
-    } bad[] = {{"2, 1., 0.", "2, 1.x, 0.", ":6: 1.x is no number"},
-               {"2, 1., 0.", "-2, 1., 0.", ":6: -2 is no number of a node"},
+    } bad[] = {{"2, 1., 0.", "2, 1.x, 0.", ":6: 1.x is not a number"},
+               {"2, 1., 0.", "-2, 1., 0.", ":6: -2 is not the number of a node"},
                {"2, 1., 0.", "1, 1., 0.", "node 1 is given twice"},
                {"10, 1, 2, 5, 4", "10, 1, 2, 5, 44", "element 10 has node 44"},
                {" 3, 6, 5\n", "", "an element of a type with 4 nodes lists only 1"},
                {"CPS4R", "B31", "no elements that can fill a body, but others such as T3D2"},
-               {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; a deck that lists all nodes"},
+               {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; write a deck that lists all nodes"},
                {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", ":15: *NSET: x: "},
-               {"*node, nset=all", "*node, input=d.inp", "d.inp:1: a keyword among the data lines of *NODE"},
+               {"*node, nset=all", "*node, input=d.inp", "d.inp:1: a keyword is among the data lines of *NODE"},
                {"*node, nset=all", "*Include, input=nodes.inc", ":4: *INCLUDE: nodes.inc: "},
                {"*node, nset=all", "*Include, input=bad.inp", "files include each other"},
-               {"CPS4R", "CPS4Q", "element type CPS4Q is not known"},
-               {"*NSET, NSET=left", "*NSET", "a set without a name"},
+               {"CPS4R", "CPS4Q", "element type CPS4Q is unknown"},
+               {"*NSET, NSET=left", "*NSET", "a set has no name"},
                {"*node, nset=all", "*node, system=C", ":4: coordinates in the system C"},
-               {"11, 11, 1\n", "1, 999999999, 1\n", "sets have more members than the file can hold nodes or elements"}};
+               {"11, 11, 1\n", "1, 999999999, 1\n", "sets list more nodes or elements than the file has"}};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
         write_changed("bad.inp", flat, bad[k].from, bad[k].to);
         refused("bad.inp", 2, bad[k].message);
@@ -441,7 +441,7 @@ static void bad_abaqus(void **state)
     refused("bad.inp", 3, "part A is in the assembly twice");
     write_words("bad.inp", "PK\3\4\n, , ,\n");
     refused("bad.inp", 3, "no *NODE");
-    refused("bad.obj", 3, "a file that ends in .stl, .msh, .inp or .exo");
+    refused("bad.obj", 3, "is not a shape file; give one that ends in .stl, .msh, .inp or .exo");
 }
 
 /* ---- damage ------------------------------------------------------------------------------------------------------ */

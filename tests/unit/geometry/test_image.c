@@ -224,12 +224,12 @@ static void samples_refused(void **state)
         struct layout layout;
         const char *message;
     } bad[] = {{{.bits = 16, .format = SAMPLEFORMAT_INT},
-                "a.tif: pixels are signed values of 16 bits; unsigned grey values "
-                "are expected: add 32768 to each"},
+                "a.tif: pixels are signed values of 16 bits; save unsigned grey values"
+                ": add 32768 to each"},
                {{.bits = 8, .format = SAMPLEFORMAT_INT}, "a.tif: pixels are signed values of 8 bits"},
                {{.bits = 16, .format = SAMPLEFORMAT_IEEEFP}, "with fractions"},
                {{.bits = 12, .format = SAMPLEFORMAT_UINT},
-                "a.tif: pixels of 12 bits are not supported; grey values of 8 or 16"},
+                "a.tif: pixels of 12 bits are not supported; save it with grey values of 8 or 16"},
                {{.bits = 32, .format = SAMPLEFORMAT_UINT}, "pixels of 32 bits or with fractions"},
                {{.bits = 8, .format = SAMPLEFORMAT_UINT, .orientation = ORIENTATION_LEFTTOP},
                 "its rows are stored as columns"}};
@@ -254,7 +254,7 @@ static void a_stack_of_files(void **state)
     assert_ok(image_read_voxels(&v, 3, paths, 3, size, from));
     assert_int_equal(v.n[2], 3);
     voxels_free(&v);
-    assert_refused(image_read_voxels(&v, 2, paths, 2, size, from), "in plane spaces a single image is expected");
+    assert_refused(image_read_voxels(&v, 2, paths, 2, size, from), "in plane spaces give a single one");
 }
 
 static void write_bytes(const char *name, const void *bytes, size_t n)
@@ -286,12 +286,12 @@ static void bad_images(void **state)
     static unsigned char bytes[MOST];
     write_png("a.png", PNG_COLOR_TYPE_GRAY, 8);
     const size_t n = read_bytes("a.png", bytes);
-    refused(bytes, n / 2, "bad.png: no whole PNG: ");
-    refused(bytes, 20, "no whole PNG: it is cut off");
+    refused(bytes, n / 2, "bad.png: not a complete PNG: ");
+    refused(bytes, 20, "not a complete PNG: it is cut off");
     refused((const unsigned char *)"GIF89a", 6, "neither PNG nor TIFF");
-    refused((const unsigned char *)"II*\0abcd", 8, "no TIFF");
+    refused((const unsigned char *)"II*\0abcd", 8, "not a TIFF file");
     bytes[20] ^= 1;
-    refused(bytes, n, "no whole PNG: ");
+    refused(bytes, n, "not a complete PNG: ");
 }
 
 /* Distances of centres from the nearest voxel of the other kind, compared with all pairs; and the sign at positions. */

@@ -38,20 +38,16 @@ static void wrong_ones(void **state)
     static const struct {
         const char *name, *text, *from, *to, *message;
     } bad[] = {
-        {"a.msh", msh2, "Elements\n2", "Elements\n1",
-         "a.msh:19: $Elements announces 1 elements, but more follow where"},
-        {"a.msh", msh2, "$Nodes\n4", "$Nodes\n3",
-         "a.msh:14: $Nodes announces 3 nodes, but more follow where $EndNodes"},
-        {"a.msh", msh2, "Names\n2", "Names\n1", "a.msh:7: $PhysicalNames announces 1 names, but more follow"},
-        {"a.msh", msh2, "2 1 1 3 4", "1 1 3 1 2",
-         "1 element has the corners of another one, as element 2 has those of"},
-        {"a.msh", msh4, "0 0 1 0", "0 0 0 0", "$Entities announces 0 entities, but more follow"},
-        {"a.msh", msh4, "1 4 1 4", "1 3 1 4", "3 nodes are announced, but the blocks contain 4"},
-        {"a.msh", msh4, "2 2 1 2", "2 3 1 2", "3 elements are announced, but the blocks contain 2"},
-        {"a.msh", msh4, "2 2 1 2", "1 1 1 2", "$Elements announces 1 blocks, but more follow"},
+        {"a.msh", msh2, "Elements\n2", "Elements\n1", "a.msh:19: $Elements gives 1 elements, but more follow where"},
+        {"a.msh", msh2, "$Nodes\n4", "$Nodes\n3", "a.msh:14: $Nodes gives 3 nodes, but more follow where $EndNodes"},
+        {"a.msh", msh2, "Names\n2", "Names\n1", "a.msh:7: $PhysicalNames gives 1 names, but more follow"},
+        {"a.msh", msh2, "2 1 1 3 4", "1 1 3 1 2", "1 element has the corners of another one (element 2 has those of"},
+        {"a.msh", msh4, "0 0 1 0", "0 0 0 0", "$Entities gives 0 entities, but more follow"},
+        {"a.msh", msh4, "1 4 1 4", "1 3 1 4", "the section gives 3 nodes, but its blocks contain 4"},
+        {"a.msh", msh4, "2 2 1 2", "2 3 1 2", "the section gives 3 elements, but its blocks contain 2"},
+        {"a.msh", msh4, "2 2 1 2", "1 1 1 2", "$Elements gives 1 blocks, but more follow"},
         {"a.inp", inp, "2, 1, 3, 4", "1, 1, 3, 4", "element 1 is given twice"},
-        {"a.inp", inp, "2, 1, 3, 4", "7, 2, 3, 1",
-         "1 element has the corners of another one, as element 7 has those of"},
+        {"a.inp", inp, "2, 1, 3, 4", "7, 2, 3, 1", "1 element has the corners of another one (element 7 has those of"},
     };
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
         struct geometry g;

@@ -217,7 +217,7 @@ static void test_refused(void **state)
     (void)state;
     struct sample a;
     sample_try(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " BOX(0, 2, 30, 6),
-               "boundary pull: other particles of the body are in front of every particle in its region, seen from y+; "
+               "boundary pull: seen from y+, other particles of the body are in front of every particle in its region; "
                "choose");
     sample_free(&a);
     sample_try(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " BOX(40, 2, 50, 6),

@@ -251,11 +251,11 @@ static void strange_files_are_refused(void **state)
     unlink(path);
     assert_int_equal(mkdir(path, 0777), 0);
     assert_not_restored(&o);
-    assert_message("checkpoint.h5 is no regular file");
+    assert_message("checkpoint.h5 is not a regular file");
     rmdir(path);
     assert_int_equal(mkfifo(path, 0666), 0);
     assert_not_restored(&o);
-    assert_message("checkpoint.h5 is no regular file");
+    assert_message("checkpoint.h5 is not a regular file");
     output_close(&o);
 }
 
@@ -290,7 +290,7 @@ static void future_formats_are_refused(void **state)
     open_fresh(&o, "future");
     assert_int_equal(checkpoint_write(&o, scene_text, future_archive, NULL), OK);
     assert_not_restored(&o);
-    assert_message("has format 1000, this program reads format 19");
+    assert_message("has format 1000, but this program reads only format 19");
     output_close(&o);
 }
 

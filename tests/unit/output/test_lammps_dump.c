@@ -80,13 +80,14 @@ static void refused(const char *from, const char *to, const char *message)
 static void what_is_wrong(void **state)
 {
     (void)state;
-    refused("ATOMS\n3", "ATOMS\n300000000", "plate.dump:4: no number of particles that this file can hold");
-    refused("ATOMS\n3", "ATOMS\nmany", "plate.dump:4: no number of particles");
-    refused("id x y", "id y", "plate.dump:9: columns id, x, y and z are expected");
-    refused("\n2 1.5", "\n1 1.5", "plate.dump:11: an id is there twice");
+    refused("ATOMS\n3", "ATOMS\n300000000",
+            "plate.dump:4: is not a possible number of particles: the file is too short for it, or damaged");
+    refused("ATOMS\n3", "ATOMS\nmany", "plate.dump:4: is not a possible number of particles");
+    refused("id x y", "id y", "plate.dump:9: the columns id, x, y and z are missing");
+    refused("\n2 1.5", "\n1 1.5", "plate.dump:11: an id occurs twice");
     refused("\n2 1.5", "\n4 1.5", "plate.dump:11: ids from 1 to the number of particles are expected");
-    refused("1.5 2 0", "nan 2 0", "plate.dump:11: a particle's numbers are expected");
-    refused("ITEM: TIMESTEP", "<html>", "plate.dump:1: ITEM: TIMESTEP, of a text dump of LAMMPS, is expected");
+    refused("1.5 2 0", "nan 2 0", "plate.dump:11: the numbers of a particle are missing");
+    refused("ITEM: TIMESTEP", "<html>", "plate.dump:1: ITEM: TIMESTEP is missing; a text dump of LAMMPS is expected");
 }
 
 static void damaged(void **state)

@@ -169,7 +169,7 @@ static void frames_alone_are_refused(void **state)
     assert_failed(frame_read(&f, frame), "particles_000000.h5 beside it, to which it links, is damaged");
     flip(file, 3000);
     assert_int_equal(rename("another/frames/particles_000000.h5", file), 0);
-    assert_failed(frame_read(&f, frame), "is of another run");
+    assert_failed(frame_read(&f, frame), "belongs to another run");
     assert_int_equal(unlink(file), 0);
     assert_failed(frame_read(&f, frame), "is missing");
     assert_int_equal(link(frame, file), 0);

@@ -493,7 +493,7 @@ static void words_have_units(void **state)
     assert_true(length_read(&value, "4mm", what, sizeof what) && value == 4e-3);
     assert_true(time_read(&value, "10us", what, sizeof what) && value == 10e-6);
     assert_false(time_read(&value, "10mm", what, sizeof what));
-    assert_string_equal(word_propose_similar("--slcie", names, 3).text, "; do you mean --slice?");
+    assert_string_equal(word_propose_similar("--slcie", names, 3).text, "; did you mean --slice?");
     assert_string_equal(word_propose_similar("--palette", names, 3).text, ";");
 }
 

@@ -213,7 +213,7 @@ static void alarm_names_the_first_runaway(void **state)
                         "faster than the wave speed 5232 m/s");
     b.p.v[0][17] = 0;
     assert_failed(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6),
-                  "particle 2500 at (40.5, 41.5) m has a position or velocity that is no finite number");
+                  "particle 2500 at (40.5, 41.5) m has a position or velocity that is not a finite number");
     b.p.v[0][2500] = 0;
     b.p.x[1][2999] = INFINITY;
     assert_failed(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6), "particle 2999");

@@ -445,10 +445,10 @@ static void bars_that_have_no_closed_form(void **state)
     refused(&b, EXACT_STEP_BAR, "drives the bar");
     b.boundary[2] = (struct boundary){.kind = BOUNDARY_VELOCITY}, b.load[2].n = 1, b.load[2].particle = &b.last;
     refused(&b, EXACT_STEP_BAR, "the loaded end is held");
-    b.loads.n = 2, b.last = 150, refused(&b, EXACT_STEP_BAR, "not on the bar's end"), b.last = 199;
+    b.loads.n = 2, b.last = 150, refused(&b, EXACT_STEP_BAR, "does not act on the end of the bar"), b.last = 199;
     b.boundary[1].time.kind = TIME_RAMP, refused(&b, EXACT_STEP_BAR, "changes with time");
     b.boundary[1].time.kind = TIME_CONSTANT, b.boundary[1].value[0] = 0, refused(&b, EXACT_STEP_BAR, "traction is 0");
-    b.boundary[1].value[0] = 1, b.p.v[0][7] = 1, refused(&b, EXACT_STEP_BAR, "begins at rest"), b.p.v[0][7] = 0;
+    b.boundary[1].value[0] = 1, b.p.v[0][7] = 1, refused(&b, EXACT_STEP_BAR, "let it start at rest"), b.p.v[0][7] = 0;
     b.material.yield_tangent = 0, refused(&b, EXACT_PLASTIC_BAR, "without hardening");
     b.material.yield_stress = INFINITY, refused(&b, EXACT_PLASTIC_BAR, "does not yield");
     refused(&b, EXACT_PULSE, "starts no pulse");

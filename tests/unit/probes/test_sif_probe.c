@@ -151,15 +151,15 @@ static void bad_requests_are_refused(void **state)
     struct plate p, two, corner;
     plate_make(&p, 0, start);
     refused(&p, &(struct probe_request){.inner = 0}, "no pre-crack ends inside a body");
-    refused(&p, &(struct probe_request){.has_at = true, .at = {30, 30}}, "give `direction`, in which");
+    refused(&p, &(struct probe_request){.has_at = true, .at = {30, 30}}, "give `direction`");
     refused(&p, &(struct probe_request){.has_at = true, .at = {90, 30}, .has_direction = true, .direction = {1, 0}},
             "no particle is ahead");
     plate_free(&p);
     plate_make(&p, 1, start);
     refused(&p, &(struct probe_request){.outer = 31}, "leaves the body at (");
-    refused(&p, &(struct probe_request){.outer = 5}, "narrower than 3 spacings; sif: {outer: 10 m}, or more,");
-    refused(&p, &(struct probe_request){.outer = 9.99}, "or more, is expected");
-    refused(&p, &(struct probe_request){.outer = 12, .inner = 10}, "narrower than 3 spacings; sif: {outer: 30 m");
+    refused(&p, &(struct probe_request){.outer = 5}, "narrower than 3 spacings; use sif: {outer: 10 m}, or more");
+    refused(&p, &(struct probe_request){.outer = 9.99}, "or more");
+    refused(&p, &(struct probe_request){.outer = 12, .inner = 10}, "narrower than 3 spacings; use sif: {outer: 30 m");
     refused(&p, &(struct probe_request){.outer = 5.5}, "the ring from 2.75 to 5.5 m is narrower");
     /* Rings for comparison are scaled from those of the figures: 0.8 and 5/17 of their outer radii. */
     refused(&p, &(struct probe_request){.outer = 17, .inner = 13.6}, "the ring from 8.16 to 10.2 m is narrower");
@@ -173,9 +173,9 @@ static void bad_requests_are_refused(void **state)
     p.o.part->material[40 * WIDTH + 30] = 0;
     plate_make(&two, 2, start); /* its ends are (10, -20) and (10, 20) away */
     refused(&two, &(struct probe_request){.outer = 24}, "another crack's tip at (40, ");
-    refused(&two, &(struct probe_request){.outer = 24}, "radius 24 m; sif: {outer: 22.1 m}, or less, is expected");
+    refused(&two, &(struct probe_request){.outer = 24}, "radius 24 m; use sif: {outer: 22.1 m}, or less");
     plate_make(&corner, 1, (const real[]){8, 30});
-    refused(&corner, &(struct probe_request){.outer = 20}, "; sif: {outer: 8 m}, or less, is expected");
+    refused(&corner, &(struct probe_request){.outer = 20}, "; use sif: {outer: 8 m}, or less");
     refused(&corner, &(struct probe_request){.inner = 7.3}, "the ring of radius 20 m");
     plate_free(&corner);
     plate_free(&two);

@@ -155,30 +155,29 @@ static void faults_are_placed(void **state)
         enum unit unit;
         const char *text, *message;
     } wrong[] = {
-        {UNIT_LENGTH, "x + t",
-         "x + t combines a length and a time by + (character 3); both are expected to have the same unit"},
+        {UNIT_LENGTH, "x + t", "x + t combines a length and a time by + (character 3); give both the same unit"},
         {UNIT_LENGTH, "x + 3",
-         "x + 3 combines a length and a plain number by + (character 3); both are expected to have the same unit"},
+         "x + 3 combines a length and a plain number by + (character 3); give both the same unit"},
         {UNIT_NONE, "2*exp(x)",
-         "2*exp(x) applies exp to a length (character 3); a plain number is expected, as (t/5us)"},
-        {UNIT_PRESSURE, "3 mm*x/m", "3 mm*x/m is a length; a stress is expected, as 190 GPa"},
-        {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; a stress is expected, as 190 GPa"},
-        {UNIT_NONE, "x*x", "x*x is an area; a plain number is expected, as 0.25"},
-        {UNIT_NONE, "x*t", "x*t is in m^1 s^1; a plain number is expected, as 0.25"},
-        {UNIT_NONE, "2*(3 +", "2*(3 + ends where a number is expected (in a list a formula with a comma needs quotes)"},
+         "2*exp(x) applies exp to a length (character 3); a plain number is expected, such as (t/5us)"},
+        {UNIT_PRESSURE, "3 mm*x/m", "3 mm*x/m is a length; a stress is expected, such as 190 GPa"},
+        {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; a stress is expected, such as 190 GPa"},
+        {UNIT_NONE, "x*x", "x*x is an area; a plain number is expected, such as 0.25"},
+        {UNIT_NONE, "x*t", "x*t is in m^1 s^1; a plain number is expected, such as 0.25"},
+        {UNIT_NONE, "2*(3 +",
+         "2*(3 + ends where a number is expected (in a list, put a formula with a comma in quotes)"},
         {UNIT_NONE, "2*(3",
-         "2*(3 ends where an operation or ) is expected (in a list a formula with a comma needs quotes)"},
+         "2*(3 ends where an operation or ) is expected (in a list, put a formula with a comma in quotes)"},
         {UNIT_NONE, "2*3)", "2*3) has ) at character 4, where an operation is expected"},
         {UNIT_NONE, "2**3", "2**3 has * at character 3, where a number is expected"},
         {UNIT_NONE, "--2", "--2 has - at character 2, where a number is expected"},
-        {UNIT_NONE, "2*sinn(3)",
-         "2*sinn(3) has an unknown function sinn (character 3); `cleave help expression` lists them"},
+        {UNIT_NONE, "2*sinn(3)", "2*sinn(3) has an unknown function sinn (character 3); see `cleave help expression`"},
         {UNIT_NONE, "2*sin", "2*sin ends where ( and what it is of is expected"},
         {UNIT_NONE, "2*tau", "2*tau has an unknown name tau, and the scene has no variables"},
         {UNIT_NONE, "3 mm*s1", "3 mm*s1 has an unknown name s1, and the scene has no variables"},
         {UNIT_NONE, "2*3 pounds",
-         "2*3 pounds has an unknown unit pounds (character 5); between a number and a name an "
-         "operation is expected"},
+         "2*3 pounds has an unknown unit pounds (character 5); write an operation, such as *, between a number and a "
+         "name"},
         {UNIT_NONE, "min(x)/m", "min(x)/m has ) at character 6, where a comma and another operand is expected"},
         {UNIT_NONE, "sin(1, 2)", "sin(1, 2) has , at character 6, where an operation or ) is expected"},
         {UNIT_NONE, "2*1_000",
@@ -187,16 +186,15 @@ static void faults_are_placed(void **state)
          "2*007 has no number at character 3: a leading 0 means octal elsewhere; write the decimal "
          "number without it"},
         {UNIT_NONE, "2/(1 - 1)", "2/(1 - 1) divides by 0 (character 2)"},
-        {UNIT_NONE, "log(-1)*t/s", "log(-1)*t/s has a part that is no finite number"},
+        {UNIT_NONE, "log(-1)*t/s", "log(-1)*t/s has a part that is not a finite number"},
         {UNIT_LENGTH, "x^t", "x^t has a time as a power (character 2); a plain number is expected"},
-        {UNIT_LENGTH, "x^(t/s)",
-         "x^(t/s) raises a length to a power that varies (character 2); a constant number is expected as the power"},
+        {UNIT_LENGTH, "x^(t/s)", "x^(t/s) raises a length to a power that varies (character 2); use a constant power"},
         {UNIT_LENGTH, "x^0.3",
-         "x^0.3 raises a length (character 2) to a power whose unit cannot be represented; whole and half powers of m, "
-         "kg and s can be"},
+         "x^0.3 raises a length (character 2) to a power whose unit cannot be represented; use whole and half powers "
+         "of m, kg and s"},
         {UNIT_LENGTH, "sqrt(sqrt(x))",
          "sqrt(sqrt(x)) takes the square root of in m^0.5 (character 1), whose unit has no square root"},
-        {UNIT_LENGTH, "2*1e20 m*1e20", "2*1e20 m*1e20 is above 1e30 in SI units; a length is expected, as 0.5 mm"},
+        {UNIT_LENGTH, "2*1e20 m*1e20", "2*1e20 m*1e20 is above 1e30 in SI units; a length is expected, such as 0.5 mm"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct expression e = {0};

@@ -334,15 +334,16 @@ static void bad_bodies_are_refused(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 0.2}); /* 0.4 of a spacing thick */
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: holds no particle");
     s.solid[0][0].to[1] = 1e300;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: too large for particles.spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8; /* 1.6e17 positions */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: too large for particles.spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: its shape is infinite");
     s.body[0].shape.n = 1;
     s.scene.spacing = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "particles.spacing, which is not given");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+                   "particles.spacing, at which a shape is filled, is missing");
     s.scene.spacing = 0.5;
     s.scene.bodies = 2;
     s.solid[1][0] = s.solid[0][0]; /* the same position twice */
@@ -355,7 +356,7 @@ static void bad_bodies_are_refused(void **state)
     s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* expanded across by as much and more */
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "inside out");
     s.scene.bodies = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "no bodies");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "give body or bodies");
 }
 
 /* Pulses along and across their direction: velocity from its form, displacement from its integral; the stress on planes

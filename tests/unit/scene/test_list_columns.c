@@ -92,11 +92,11 @@ static void scene_says_unit_and_columns(void **state)
     assert_refused(particle_list_read(&l, name, &(struct particle_list_form){0, "x,y"}, 2),
                    "said.txt:1:7: more values than the 2 columns of the scene");
     assert_refused(particle_list_read(&l, name, &(struct particle_list_form){0, "x,y,volume,block"}, 2),
-                   "said.txt:1:1: 3 values; the scene names 4 columns");
+                   "said.txt:1:1: 3 values, but the scene names 4 columns");
     remove(name);
     list_written(&s, h5, "x");
     assert_refused(particle_list_read(&l, h5, &(struct particle_list_form){0, "x,y"}, 2),
-                   "said.h5: names its columns itself");
+                   "said.h5: this kind of file names its columns itself");
     remove(h5);
 }
 
@@ -171,14 +171,14 @@ static void volumes_have_a_default(void **state)
     list_written(&s, name, "x,y,colour\n0,0,red\n0.5,0,blue\n");
     s.scene.thickness = 0.1;
     assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
-    assert_string_equal(head.note, "colour not read; no volumes: each that of the spacing");
+    assert_string_equal(head.note, "colour not read; no volumes: taken from the spacing");
     assert_true(!head.material && !head.mass);
     assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
     assert_close(p.volume0[1], 0.5 * 0.5 * 0.1, 1e-15);
     particles_free(&p);
     s.scene.spacing = 0;
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
-                   "has no column volume, and there is no particles.spacing");
+                   "gives no volumes; add a column volume, or set particles.spacing");
     remove(name);
 }
 

@@ -69,7 +69,9 @@ static void bodies_share_a_list(void **state)
     }
     particles_free(&p);
     s.body[1].file = NULL;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "shared.csv:2: this file is not that of body 1");
+    assert_refused(
+        fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+        "shared.csv:2: the body with the number 1 (counted from 0 in the order of the scene) does not use this file");
     remove(name);
 }
 
@@ -79,17 +81,17 @@ static const struct {
 } bad_list[] = {
     {"", "bad.csv: empty"},
     {"# nothing\n\n", "bad.csv: empty"},
-    {"x,y,volume\n", "body plate: its list holds no particle"},
-    {"x,y,weight,volume\n", "bad.csv:1:5: weight: a mass or a volume? its unit says it, as weight [kg]"},
-    {"x,y,weight [m],volume\n", "bad.csv:1:5: weight: a mass or a volume?"},
+    {"x,y,volume\n", "body plate: its list has no entry for"},
+    {"x,y,weight,volume\n", "bad.csv:1:5: weight may be a mass or a volume; give its unit, such as weight [kg]"},
+    {"x,y,weight [m],volume\n", "bad.csv:1:5: weight may be a mass or a volume"},
     {"x,y,mass,density\n", "bad.csv:1:1: mass and density are both given"},
-    {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; a length is expected, as 0.5 mm"},
+    {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; a length is expected, such as 0.5 mm"},
     {"x [furlong],y,volume\n", "bad.csv:1:4: x: [furlong] has an unknown unit"},
     {"x,y,volume,material\n0,0,1,glass\n", "bad.csv:2:7: the scene has no material glass; it has"},
     {"x,y,mass\n0,0,0\n", "bad.csv:2:5: mass: 0 must be larger than 0"},
     {"x,volume\n", "bad.csv:1:1: column y is missing"},
     {"x,y,x,volume\n", "bad.csv:1:5: column x is named twice"},
-    {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3:1: 2 values; the header names 3"},
+    {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3:1: 2 values, but the header names 3"},
     {"x,y,volume\n0,0,1,5\n", "bad.csv:2:7: more values than the 3"},
     {"x,y,volume\n0,0,1,\n", "bad.csv:2:7: more values than the 3"},
     {"x,y,volume\n\n0,zero,1\n", "bad.csv:3:3: y: 'zero' is not a number"},
@@ -101,22 +103,25 @@ static const struct {
     {"x,y,volume\n0,0,-1\n", "bad.csv:2:5: volume: -1 must be larger than 0"},
     {"x,y,volume,material\n0,0,1,0.5\n", "bad.csv:2:7: material: 0.5 must be a whole number"},
     {"x,y,volume,material\n0,0,1,256\n", "bad.csv:2:7: material: 256 must be a whole number"},
-    {"x,y,volume,material\n0,0,1,2\n", "bad.csv:2:7: the scene has no material 2 (numbered from 0 in its order)"},
-    {"x,y,volume,body\n0,0,1,1\n", "bad.csv:2: this file is not that of body 1"},
+    {"x,y,volume,material\n0,0,1,2\n",
+     "bad.csv:2:7: the scene has no material 2 (numbered from 0 in the order of the scene)"},
+    {"x,y,volume,body\n0,0,1,1\n",
+     "bad.csv:2: the body with the number 1 (counted from 0 in the order of the scene) does not use this file"},
     {"x,y,volume\n0x1p-9,0,1\n", "bad.csv:2:1: x: '0x1p-9' is not a number"},
-    {"'x','y','volume'\n", "names without quotes, or in double ones, are expected"},
-    {"\"x,y,volume\n", "names without quotes, or in double ones, are expected"},
-    {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; numbers have a point, not a comma"},
-    {"# x and places\n0 0 0 1\n", "bad.csv:2:1: numbers, and no line before them names the columns"},
-    {"0,0,0,1,1\n", "bad.csv:1:1: numbers, and no line before them names the columns"},
-    {"0 0 0 3 1.0\n", "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in its order); it has"},
+    {"'x','y','volume'\n", "names without quotes or in double quotes"},
+    {"\"x,y,volume\n", "names without quotes or in double quotes"},
+    {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; write numbers with a point, not a comma"},
+    {"# x and places\n0 0 0 1\n", "bad.csv:2:1: numbers, but no line before them names the columns"},
+    {"0,0,0,1,1\n", "bad.csv:1:1: numbers, but no line before them names the columns"},
+    {"0 0 0 3 1.0\n",
+     "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in the order of the scene); it has"},
     {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256"},
     {"0 0 0 3.0 2\n", "bad.csv:1:7: 3.0: without names the fourth column is block_id, a whole number; "
                       "if it is the volume, give the list as {file: .., columns: [x, y, z, volume, block]}, else"},
-    {"0 0 0 1 1\n1 0 0 1 2\n", "bad.csv:1:1: the fourth and the fifth column are whole numbers, and each may be the "
+    {"0 0 0 1 1\n1 0 0 1 2\n", "bad.csv:1:1: columns 4 and 5 are both whole numbers, so either may be the "
                                "block or the volume; say which: {file: .., columns: [x, y, z, block, volume]} or"},
     {"0 0 0 1 2\n0.5 0 0 0.25 2\n", "bad.csv:2:9: 0.25: without names the fourth column is block_id"},
-    {"x,y,volume\r0,0,1\r", "lines end in carriage returns alone"},
+    {"x,y,volume\r0,0,1\r", "lines end in carriage returns only; convert the file to line feeds"},
     {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at (0, 0, 0) m"},
     {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "two particles at ("},
     {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
@@ -144,7 +149,7 @@ static void bad_lists_are_refused(void **state)
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "bad.csv: there is no such file");
     s.body[0].file = "points.xyz";
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
-                   "points.xyz: a particle list is a .csv, .h5 or .exo file");
+                   "points.xyz: is not a particle list; give a file that ends in .csv, .h5 or .exo");
 }
 
 static void write_table(hid_t file, const char *name, int rank, const hsize_t *extent, hid_t type, const void *value)
@@ -232,7 +237,7 @@ static void hdf5_lists_have_units(void **state)
             assert_refused(particle_list_read_column_names(&head, name, NULL, 2), "mass and density are both given");
         if (part >= 2) continue;
         assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
-        assert_string_equal(head.note, "further positions not read; no volumes: each that of the spacing");
+        assert_string_equal(head.note, "further positions not read; no volumes: taken from the spacing");
         assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
         assert_close(p.X[0][1], 0.5, 1e-15);
         assert_close(p.v[1][1], 4000, 1e-15);
@@ -329,8 +334,8 @@ static const struct {
      1e-3,
      {10, 1, 0, 0, 1, 0},
      "100 % of its particles have no neighbour within 3.015 "
-     "spacings of 0.001 m: particles of the list are 1 m apart; a list in m is expected "
-     "(is it in mm?), or its unit as in particles: {file: .., unit: mm}, or a particles.spacing of about 1 m"},
+     "spacings of 0.001 m: particles of the list are 1 m apart; give the list in m "
+     "(is it in mm?), or name its unit as in particles: {file: .., unit: mm}, or set particles.spacing to about 1 m"},
     {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
     {SPACE_PLANE_STRESS,
      BOTH,
@@ -347,8 +352,8 @@ static const struct {
      PD,
      1,
      {10, 1, 0, 0, 1e-3, 0},
-     "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
-     "particles.spacing of about 0.001 m is expected (is it in mm?), or a list in m"},
+     "neighbours of the list are 0.001 m apart, but the spacing is 1 m; set "
+     "particles.spacing to about 0.001 m (is it in mm?), or give the list in m"},
     {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart"},
     {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1, 0}, "neighbours of the list are 0.1 m apart"},
     {SPACE_SOLID,
@@ -356,13 +361,13 @@ static const struct {
      1,
      {5, 1, 0, 0, 1, 1e9},
      "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
-     "apart; volumes in m^3 are expected (are they in mm^3?)"},
+     "apart; give volumes in m^3 (are they in mm^3?)"},
     {SPACE_PLANE_STRESS,
      MPM,
      1,
      {10, 1, 0, 0, 1, 1e-3},
      "volumes of its particles are 0.001 times the space up to their neighbours, "
-     "which are 1 m apart, times the thickness; volumes in m^3 are expected"},
+     "which are 1 m apart, times the thickness; give volumes in m^3"},
     /* Valid lists. */
     {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL}, /* heavy knots of a net */
     {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},
@@ -434,7 +439,7 @@ static void bonds_beyond_memory_are_refused(void **state)
     s.scene.method = METHOD_PD, s.scene.spacing = 1, s.scene.horizon = 30;
     s.body[0].file = name;
     write_grains(name, 3, &(struct grains){59, 1, 0, 0, 0.2, 0});
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "whose bonds need some 1e+03 GB");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "their bonds need about 1e+03 GB");
     remove(name);
 }
 

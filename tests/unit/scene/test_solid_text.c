@@ -222,11 +222,11 @@ static void test_refusals(void **state)
         const char *regions, *shape, *message;
     } cases[] = {
         {2, "", "{polygon: {corners: [[0, 0], [1, 1], [1, 0], [0, 1]]}}", "a polygon without crossings"},
-        {2, "", "{polygon: {corners: [[0, 0], [1, 0], [1, 1]], round: 1}}", "a smaller radius is expected"},
+        {2, "", "{polygon: {corners: [[0, 0], [1, 0], [1, 1]], round: 1}}", "a smaller radius"},
         {2, "", "{polygon: {corners: [[0, 0], [1, 0]]}}", "has 2 items"},
         {2, "", "{polygon: {round: 1}}", "corners: missing in solid.polygon"},
         {2, "", "{tube: {from: [0, 0], to: [1, 1], radius: 1, inner: 0.5}}", "not in space plane stress"},
-        {3, "", "{polygon: {corners: [[0, 0], [1, 0], [1, 1]]}}", "extrude, with a polygon as its shape, is expected"},
+        {3, "", "{polygon: {corners: [[0, 0], [1, 0], [1, 1]]}}", "extrude with a polygon as the shape of extrude"},
         {3, "", "{extrude: {shape: {ball: {centre: [0, 0, 0], radius: 1}}, from: 0, to: 1}}",
          "2 are expected in the plane of extrude"},
         {2, "", "{ring: {centre: [0, 0], radius: 1, inner: 2}}", "is not below radius"},
@@ -238,20 +238,21 @@ static void test_refusals(void **state)
         {2, "", "{box: {from: [0, 0], to: [1, 1]}, pattern: {grid: {count: [100, 100], step: [1, 1]}}}", "4096 copies"},
         {2, "", "{box: {from: [0, 0], to: [1, 1]}, disc: {centre: [0, 0], radius: 1}}", "has 2 solids"},
         {2, "", "{rotate: {angle: 30 deg}}", "has 0 solids"},
-        {2, "", "{subtract: {box: {from: [0, 0], to: [1, 1]}}}", "subtracts from nothing"},
+        {2, "", "{subtract: {box: {from: [0, 0], to: [1, 1]}}}", "has nothing to subtract from"},
         {2, "", "{half-space: {point: [0, 0], normal: [1, 0]}}", "a body cannot be infinite"},
         {2, "", "grip", "the scene has no region of this name"},
         {2, "regions: {grip: {box: {from: [0, 0], to: [1, 1]}}, other: {region: grip}}\n", "girp",
          "there is no region girp; the nearest is grip"},
-        {2, "regions: {a: {region: b}, b: [{region: c}], c: {region: a}}\n", "a", "region a is part of itself"},
+        {2, "regions: {a: {region: b}, b: [{region: c}], c: {region: a}}\n", "a",
+         "region a is part of itself; remove this reference"},
         {2, "regions: {a: {box: {from: [0, 0], to: [-1, 1]}}}\n", "a", "from is not smaller than to"},
         {2, "regions: {a: {box: {from: [0, 0], to: [1, 1]}}, a: {all: true}}\n", "a", "given twice"},
-        {2, "regions: {'a b': {box: {from: [0, 0], to: [1, 1]}}}\n", "a b", "is no name"},
+        {2, "regions: {'a b': {box: {from: [0, 0], to: [1, 1]}}}\n", "a b", "is not a name"},
         {2, "regions: 3\n", "a", "is not a mapping"},
         {2, "sections: {a: {box: {from: [0, 0], to: [1, 1]}}}\n", "{box: {from: [0, 0], to: [1, 1]}}",
-         "not in space plane stress; regions are expected there"},
+         "cannot be used in space plane stress; use regions there"},
         {3, "regions: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
-         "a is not the word of a solid, and the scene has no section of this name; sections: {a: {box: ..}} is "
+         "a is not a kind of solid, and the scene has no section of this name; define it by sections: {a: {box: ..}} "
          "expected"},
         {3, "sections: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
          "2 are expected in the plane of extrude"},
@@ -284,7 +285,7 @@ static void test_multiplied_names(void **state)
     }
     struct scene s;
     assert_int_equal(scene_read_text(&s, text, n, "a.yaml", NULL, 0), REFUSED);
-    assert_non_null(strstr(status_message(), "fewer are expected"));
+    assert_non_null(strstr(status_message(), "solids with its copies; use fewer"));
     scene_free(&s);
 }
 

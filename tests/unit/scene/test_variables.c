@@ -99,26 +99,25 @@ static void overrides_set_them(void **state)
 static const struct {
     const char *line, *message;
 } wrong[] = {
-    {"a: b/2", "2:3: b: 2*a + 4 mm needs b, which depends on itself"},
-    {"a: a", "2:3: b: 2*a + 4 mm needs a, which depends on itself"},
-    {"a: 3 s",
-     "2:3: b: 2*a + 4 mm combines a time and a length by + (character 5); both are expected to have the same unit"},
-    {"a: 3", "2:3: b: 2*a + 4 mm combines a plain number and a length by + (character 5); both are expected to have "
+    {"a: b/2", "2:3: b: 2*a + 4 mm needs b, which depends on itself; change one of the variables in this circle"},
+    {"a: a", "2:3: b: 2*a + 4 mm needs a, which depends on itself; change one of the variables in this circle"},
+    {"a: 3 s", "2:3: b: 2*a + 4 mm combines a time and a length by + (character 5); give both the same unit"},
+    {"a: 3", "2:3: b: 2*a + 4 mm combines a plain number and a length by + (character 5); give both "
              "the same unit"},
     {"aa: 3 mm", "2:3: b: 2*a + 4 mm has an unknown name a; the nearest variable is aa"},
     {"a: 3 mm\n  a: 2 mm", "4:3: a: given twice, first in line 3; keep one"},
-    {"a: 3 mm\n  s: 1", "4:3: s: is a unit in expressions; another name is expected, as s1"},
-    {"a: 3 mm\n  m2: 1", "4:3: m2: is a unit in expressions; another name is expected, as m21"},
-    {"a: 3 mm\n  x: 1", "4:3: x: is a coordinate in expressions; another name is expected, as x1"},
-    {"a: 3 mm\n  t: 1", "4:3: t: is the time in expressions; another name is expected, as t1"},
-    {"a: 3 mm\n  exp: 1", "4:3: exp: is the name of a function in expressions; another name is expected, as exp1"},
-    {"a: 3 mm\n  pi: 3", "4:3: pi: is a number in expressions; another name is expected, as pi1"},
+    {"a: 3 mm\n  s: 1", "4:3: s: is a unit in expressions; choose another name, such as s1"},
+    {"a: 3 mm\n  m2: 1", "4:3: m2: is a unit in expressions; choose another name, such as m21"},
+    {"a: 3 mm\n  x: 1", "4:3: x: is a coordinate in expressions; choose another name, such as x1"},
+    {"a: 3 mm\n  t: 1", "4:3: t: is the time in expressions; choose another name, such as t1"},
+    {"a: 3 mm\n  exp: 1", "4:3: exp: is the name of a function in expressions; choose another name, such as exp1"},
+    {"a: 3 mm\n  pi: 3", "4:3: pi: is a number in expressions; choose another name, such as pi1"},
     {"a: 3 mm\n  a-b: 3",
-     "4:3: a-b: cannot be the name of a variable; up to 40 letters, digits and _ are expected, a letter first"},
+     "4:3: a-b: cannot be the name of a variable; use up to 40 letters, digits and _, a letter first"},
     {"a: 3 mm\n  2a: 3",
-     "4:3: 2a: cannot be the name of a variable; up to 40 letters, digits and _ are expected, a letter first"},
+     "4:3: 2a: cannot be the name of a variable; use up to 40 letters, digits and _, a letter first"},
     {"a: 3 mm\n  d: [1]", "4:3: d: a list is not a number or an expression"},
-    {"a: 3 mm\n  d: x", "4:3: d: x contains x, which has no meaning in this key"},
+    {"a: 3 mm\n  d: x", "4:3: d: x contains x, which this key does not have"},
     {"a: 3 mm\n  d: red", "4:3: d: red has an unknown name red; the nearest variable is rho"},
     {"a: 1/0*1 mm", "2:3: b: 2*a + 4 mm needs a, which divides by 0 (character 2)"},
     {"a: 1e40 mm", "2:3: b: 2*a + 4 mm needs a, which is above 1e30 in SI units"},
@@ -132,22 +131,21 @@ static void wrong_ones_are_refused(void **state)
         struct scene_override o;
         const char *message;
     } override[] = {
-        {{"thickness", "E"}, "-s thickness=E: thickness: E is a stress; a length is expected, as 0.5 mm"},
+        {{"thickness", "E"}, "-s thickness=E: thickness: E is a stress; a length is expected, such as 0.5 mm"},
         {{"thickness", "n"}, "v.yaml:8:1: "},
         {{"thickness", "2*aa"}, "-s thickness=2*aa: thickness: 2*aa has an unknown name aa; the nearest variable is a"},
         {{"thickness", "a - a"},
-         "-s thickness=a - a: thickness: a - a is out of range; a length above 0 is expected, as 0.5 mm"},
+         "-s thickness=a - a: thickness: a - a is out of range; a length above 0 is expected, such as 0.5 mm"},
         {{"output.samples", "n/3"}, "-s output.samples=n/3: samples: n/3 is 1.33333; a whole number is expected"},
         {{"output.samples", "-n"},
          "-s output.samples=-n: samples: -n is out of range; a whole number from 1 to 10000000 is expected"},
         {{"particles.seed", "-n"},
-         "-s particles.seed=-n: seed: -n is no seed; a whole number from 0 to "
+         "-s particles.seed=-n: seed: -n is not a seed; a whole number from 0 to "
          "18446744073709551615 is expected"},
         {{"variables.aa", "3 mm"},
-         "-s variables.aa=3 mm: aa: no value of the scene contains this variable; the nearest is a"},
+         "-s variables.aa=3 mm: aa: no value of the scene uses this variable; the nearest is a"},
         {{"variables", "3 mm"}, "-s variables=3 mm: variables: 3 mm is not a mapping such as {a: 3 mm, b: 2*a}"},
-        {{"variables.a", "t*m/s"},
-         "v.yaml:2:3: b: 2*a + 4 mm needs a, which contains t, which has no meaning in this key"},
+        {{"variables.a", "t*m/s"}, "v.yaml:2:3: b: 2*a + 4 mm needs a, which contains t, which this key does not have"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct scene s;

@@ -86,10 +86,10 @@ static void other_scenes_have_no_wish(void **state)
         const char *text, *why;
     } wrong[] = {
         {PLATE "accuracy: 0\n", "out of range"},
-        {PLATE "accuracy: {of: [1]}\n", "no figure of summary.json"},
+        {PLATE "accuracy: {of: [1]}\n", "not a figure of summary.json"},
         {PLATE "accuracy: {budget: 0}\n", "out of range"},
         {PLATE "accuracy: {bydget: 3 s}\n", "the nearest is budget"},
-        {PLATE "solver: static\nsteps: {number: 3}\n", "does not do load steps"},
+        {PLATE "solver: static\nsteps: {number: 3}\n", "cannot use load steps"},
         {PLATE "nonsense: 1\n", "unknown key"},
         {PLATE "accuracy_table: mine.csv\n", "is no longer a key"},
         {PLATE "accuracy_chart: mine.csv\n", "is no longer a key"},

@@ -328,39 +328,38 @@ static void jumps_are_refused(void **state)
         const char *keys, *boundary, *part;
     } bad[] = {
         {"method=pd", GRIP("displacement: [1 um, free], face: x+"),
-         "boundary grip: its displacement is 1e-06 m at t = 0 already, a jump within the first step; one that grows "
+         "boundary grip: its displacement is 1e-06 m at t = 0 already, a jump within the first step; let it grow "
          "from "
-         "0 is expected, as with time: {ramp: {until: 100 us}}"},
+         "0 is expected, such as with time: {ramp: {until: 100 us}}"},
         {"method=pd", GRIP("displacement: [\"1 um*cos(t/(1 us))\", free], face: x+"), "is 1e-06 m at t = 0 already"},
         {"method=pd", GRIP("displacement: [1 um, free], face: x+, time: {step: {from: 1 us, until: 1}}"),
-         "boundary grip: its displacement jumps (time: step), which no body can follow; a ramp, pulse or table is "
+         "boundary grip: its displacement jumps (time: step), which no body can follow; use time: ramp, pulse or table "
          "expected"},
         {"method=pd", GRIP("displacement: [1 mm, free], face: x+, time: {ramp: {until: 0.1 us}}"),
          "its displacement grows by 1e+04 m/s, faster than the waves"},
         {"method=pd", GRIP("displacement: [1 mm*ramp(t/(0.1 us)), free], face: x+"), "faster than the waves"},
-        {"method=pd", GRIP("displacement: [1 um, free], depth: 1 mm"), "depth: has no meaning without face"},
+        {"method=pd", GRIP("displacement: [1 um, free], depth: 1 mm"), "depth: has no effect without face"},
         {"method=pd", GRIP("displacement: [1 um, free], face: x+, depth: 0"), "depth"},
         {"method=pd", GRIP("displacement: [1 um, free], face: z+"),
          "z+ is not the name of a face in space plane stress"},
-        {"method=pd", GRIP("displacement: [free, free]"),
-         "every component is free; at least one displacement is expected"},
+        {"method=pd", GRIP("displacement: [free, free]"), "every component is free; give at least one displacement"},
         {"method=pd", GRIP("displacement: [1 m/s, free]"), "a length is expected"},
         {"method=pd", GRIP("displacement: 1 um"), "a list of 2 is expected, for example [0.1 mm, free]"},
         {"method=pd", GRIP("displacement: [1 um, free], velocity: [0, 0]"), "given together with displacement"},
         {"method=pd", GRIP("pressure: 1 MPa, face: x+"),
          "face: pressure acts on every free face of the particles in `region`"},
         {"method=pd", GRIP("traction: [1 MPa, 0], face: x+, depth: 1 mm"),
-         "depth: has no meaning without fixed, velocity, displacement or rotation; leave it out"},
-        {"solver=cg", GRIP("velocity: [\"t*1 m/s^2\", free], face: x+"), "displacement is expected in its place"},
+         "depth: has no effect without fixed, velocity, displacement or rotation; leave it out"},
+        {"solver=cg", GRIP("velocity: [\"t*1 m/s^2\", free], face: x+"), "does not give it; use displacement"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         assert_refused(refusal(PLATE, bad[k].keys, bad[k].boundary, NULL), bad[k].part);
     assert_refused(
         refusal(PLATE, "method=mpm", "mpm.frame=current", GRIP("displacement: [1e-3*x*ramp(t/(10 us)), free]"), NULL),
-        "a displacement by x, y, z depends on reference positions");
+        "a displacement that depends on x, y, z needs reference positions");
     assert_refused(refusal(PLATE, "method=pd", "initial=[{displacement_gradient: [[1e-3, 0], [0, 0]]}]",
                            GRIP("displacement: [1 um, free], face: x+, time: {ramp: {until: 10 us}}"), NULL),
-                   "displacements are relative to the reference position, and `initial` gives");
+                   "displacements are relative to the reference position, but `initial` moves particles there by");
 }
 
 int main(void)

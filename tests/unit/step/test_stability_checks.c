@@ -142,7 +142,7 @@ static void slow_growth_is_no_matter_of_the_step(void **state)
     remedy_of("mpm.frame", "reference", 1000, remedy);
     assert_non_null(strstr(remedy, "try method: pd or mpm.frame: current, and"));
     remedy_of("boundary", "[{mirror: {axis: x, at: 0, tangential: held}}]", 1000, remedy);
-    assert_non_null(strstr(remedy, "`fixed` in place of a mirror that holds"));
+    assert_non_null(strstr(remedy, "`fixed` in place of a mirror with tangential: held"));
     remedy_of(NULL, NULL, 20, remedy);
     assert_true(strncmp(remedy, "choose a smaller time.safety (now dt = ", 39) == 0);
     assert_null(strstr(remedy, "gains energy"));

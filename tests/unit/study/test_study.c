@@ -47,15 +47,15 @@ static void wrong_values_are_refused(void **state)
     static const struct {
         const char *text, *message;
     } bad[] = {
-        {"a", "-s a: a key and its values are expected"},
-        {"=1", "a key and its values are expected"},
+        {"a", "-s a: give a key and its values, such as"},
+        {"=1", "a key and its values, such as"},
         {"a=", "-s a: a value is missing"},
         {"a=1,,2", "a value is missing"},
         {"a=1,1", "a value is given twice"},
         {"a=1:2:0", "1:2:0: from:to:step"},
         {"a=1:2:-1", "from:to:step"},
-        {"a=1:2:x3", "1:2:x3: from:to:step is expected, with a number as step"},
-        {"a=1mm:2cm:1mm", "one unit is expected"},
+        {"a=1:2:x3", "1:2:x3: give a range as from:to:step with a number as step"},
+        {"a=1mm:2cm:1mm", "one unit, such as"},
         {"a=0:1:1e-9", "in fewer than 10000 steps"},
     };
     struct varied_key k;
@@ -88,7 +88,7 @@ static void runs_have_names_of_their_own(void **state)
     }
     for (int v = 0; v < 3; v++) varied_key_free(&k[v]);
     study_free(&s);
-    assert_refused(study_make(&s, "a.yaml", "", "sweep"), "needs the name of a folder");
+    assert_refused(study_make(&s, "a.yaml", "", "sweep"), "give the name of a folder");
 }
 
 /* Names of the same runs, with the keys in both orders; long ones are hashes. */
