@@ -173,7 +173,7 @@ cp -r "$work/lone" "$work/alien"
 calm "$work/other" $small -s particles.spacing=5mm -s output.frames=6
 cp "$work/other/frames/particles_000000.h5" "$work/alien/frames/"
 for lost in lone bent alien; do
-    warned "$lost: frames that lost what they share" "$work/$lost" "frames/000000.hdf links to frames/particles_000000.h5, which is " $small -s output.frames=6 --resume
+    warned "$lost: frames that lost what they share" "$work/$lost" "frames/000000.hdf links to frames/particles_000000.h5, which \(is\|belongs to\) " $small -s output.frames=6 --resume
     holds "$lost: another one" test "$(ls "$work/$lost/frames" | grep -c '^particles_00000[1-6].h5$')" -eq 1
     holds "$lost: the last frame is that of a whole run" "$cleave" compare "$work/$lost" "$work/whole" >/dev/null
 done
@@ -239,9 +239,9 @@ cp -r "$work/whole" "$work/swapped"
 mv "$work/swapped/frames/000001.hdf" "$work/frame"
 mv "$work/swapped/frames/000002.hdf" "$work/swapped/frames/000001.hdf"
 mv "$work/frame" "$work/swapped/frames/000002.hdf"
-warned "frames that changed places" "$work/swapped" "frames/000001.hdf is another one, and 1 frames more" $small -s output.frames=6 --resume
+warned "frames that changed places" "$work/swapped" "frames/000001.hdf belongs to another time, and 1 more frames" $small -s output.frames=6 --resume
 sed -i '5s/1/2/' "$work/swapped/history.csv"
-stopped "a history that changed" "$work/swapped" "history.csv is not what it was.*--overwrite" $small -s output.frames=6 --resume
+stopped "a history that changed" "$work/swapped" "history.csv is different from what it was.*--overwrite" $small -s output.frames=6 --resume
 holds "no index of all frames is left of the run before" test ! -e "$work/swapped/frames.vtkhdf"
 mkfifo "$work/pipe"
 mv "$work/pipe" "$work/swapped/history.csv" 2>/dev/null

@@ -95,7 +95,7 @@ says "keys of conversion and solvers" "${idle}conversion.alpha, pd.region (only 
 says "time steps of an equilibrium" "${idle}time.safety (the solver makes no time steps); crack.speed_window (no crack grows in time)$" "$glass" -s solver=cg -s time.safety=0.4 \
     -s crack.speed_window=1us
 silent "keys of an equilibrium" "$idle" "$glass" -s solver=cg -s solver_tolerance=1e-3 -s solver_steps=100
-says "a material of no body" 'material other: no body consists of it; remove it, or name it$' "$glass" -s material= -s body= \
+says "a material of no body" 'material other: no body consists of it; remove it, or name it in a body$' "$glass" -s material= -s body= \
     -s 'materials=[{name: glass, young: 72 GPa, density: 2440}, {name: other, young: 72 GPa, density: 2440}]' \
     -s 'bodies=[{name: a, material: glass, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}]'
 "$cleave" run "$glass" -q -o "$work/ran" -s output.frames=0 -s duration=3us >/dev/null 2>&1
@@ -145,8 +145,8 @@ silent "a pressure" 'pulls' "$glass" -s "$(pressed '12 MPa')"
 says "tractions of one direction" 'boundaries up and down: tractions of 1.2e+07 and 1.2e+07 Pa along y on opposite faces push the body in one direction; to' "$glass" \
     -s boundary.down.traction='[0, 12 MPa]'
 slot() { echo "body=[{$(box '0, -20 mm' '50 mm, 20 mm')}, {subtract: {$1}}]"; }
-thin='accuracy  *body body: solid 2 of its shape, which is subtracted, is'
-says "a slot narrower than a spacing" "$thin 0.0004 m thin (spacing 0.001 m), so: .*; a spacing of 0.1 mm resolves it$" "$glass" -s cracks=[] \
+thin='accuracy  *body body: solid 2 of its shape, which is subtracted, is only'
+says "a slot narrower than a spacing" "$thin 0.0004 m thin (spacing 0.001 m), so it acts as a slit .*; use a spacing of 0.1 mm to resolve it$" "$glass" -s cracks=[] \
     -s "$(slot "$(box '0, -0.2 mm' '25 mm, 0.2 mm')")"
 holds "a slot of half the width is not symmetric about the middle" sh -c "! grep -q 'symmetric about x' '$work/said'"
 says "a hole smaller than a spacing" "$thin 0.0006 m thin" "$glass" -s cracks=[] -s "$(slot 'disc: {centre: [25 mm, 0], radius: 0.3 mm}')"
