@@ -72,7 +72,10 @@ struct boundary {
 struct load {
     const struct boundary *boundary; /* borrowed from the scene */
     int64_t n;
-    int32_t *particle;    /* [n] ascending */
+    int32_t *particle; /* [n] ascending */
+    /* [n] VELOCITY, MIRROR that is clamped: bit d: the load prescribes component d of the particle; components that a
+     * later load prescribes as well are left out */
+    uint8_t *prescribes;
     real *share[DIM_MAX]; /* [n] by component. TRACTION: area [m^2], for tangential components 3/2 of it on the first
                              particle of a column and -1/2 on the next; BODY_FORCE: volume times profile [m^3], or mass
                              [kg]. Equal shares of several components or loads are one array */
@@ -126,6 +129,7 @@ static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
 struct held {
     int32_t node;
     uint8_t component, load;
+    bool overruled; /* a later load constrains the component, so that this entry has no effect */
 };
 
 /* Velocity components of the nodes of a grid that boundary conditions prescribe; found again when the grid covers
@@ -176,6 +180,16 @@ static inline bool particle_is_loaded(const struct loads *l, int64_t i)
 static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
+}
+
+/* Returns the components of the motion that boundary b prescribes, as bits (bit d: component d): those of a prescribed
+ * motion, the normal one of a mirror, all of a clamped mirror. In the plane of a mirror that is not clamped nodes are
+ * held, particles are not. */
+static inline uint8_t boundary_prescribed_components(const struct boundary *b, int dim)
+{
+    if (b->kind == BOUNDARY_VELOCITY) return b->components;
+    if (boundary_is_clamped_mirror(b, dim)) return (uint8_t)((1 << dim) - 1);
+    return b->kind == BOUNDARY_MIRROR ? (uint8_t)(1 << b->axis) : 0;
 }
 
 /* Finds the particles on which boundary b acts, those in its region (for a clamped mirror those in its plane), and

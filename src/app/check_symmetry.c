@@ -85,7 +85,7 @@ static void loads_ask(const struct particles *part, const struct loads *loads, i
         const struct boundary *a = l->boundary;
         const bool drives = a->kind == BOUNDARY_VELOCITY;
         for (int64_t k = 0; k < l->n; k++) {
-            if (drives && !(a->components & 1 << d)) continue;
+            if (drives && !(l->prescribes[k] >> d & 1)) continue;
             if (a->kind == BOUNDARY_ABSORBING) {
                 held[l->particle[k]] += load_mark(a) * l->outer[k] * (d == a->face ? 2 : 1);
                 continue;

@@ -42,9 +42,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     return apart & a->boundary->components & b->boundary->components;
 }
 
-/* Adds a warning to *to if the loads a and b prescribe different motions in the same components of the same particles.
- * The later load then moves these particles, but the energy balance counts the work of both loads; at an edge that two
- * loaded faces share the error is some ten per cent of the work. */
+/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles, so
+ * that the order of the loads in the scene decides which of them moves the particles. b: the later load. */
 static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
                              const struct load *b, struct warnings *to)
 {
@@ -63,10 +62,11 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
     for (int d = 0; d < s->dim; d++)
         if (apart >> d & 1)
             used += snprintf(axes + used, sizeof axes - (size_t)used, "%s%c", used ? "," : "", "xyz"[d]);
-    warnings_add_if_new(to,
-                        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s, so "
-                        "energies are wrong: remove one of the two, or give each a face or region of its own",
-                        a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s");
+    warnings_add_if_new(
+        to,
+        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s: %s, the later one, "
+        "moves them; list the one last that shall move them, or give each a face or region of its own",
+        a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s", b->boundary->name);
 }
 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,

@@ -29,6 +29,26 @@ static void loads_list(struct loads *l, const struct particles *p)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
 }
 
+/* Sets load->prescribes of all loads that prescribe motion of particles. Each component of a particle belongs to the
+ * last load in the scene that prescribes it: this load alone moves it, and has its reaction, impulse and work.
+ * particles: number of particles; dim: number of components. */
+static void loads_divide_components(struct loads *l, int64_t particles, int dim)
+{
+    uint8_t *taken = NEW("loads.taken", particles, uint8_t);
+    for (int b = l->n; b-- > 0;) {
+        struct load *load = &l->load[b];
+        const uint8_t components = boundary_prescribed_components(load->boundary, dim);
+        if (components == 0 || load->n == 0) continue;
+        load->prescribes = NEW("loads.prescribes", load->n, uint8_t);
+        for (int64_t k = 0; k < load->n; k++) {
+            uint8_t *others = &taken[load->particle[k]];
+            load->prescribes[k] = (uint8_t)(components & ~*others);
+            *others |= components;
+        }
+    }
+    memory_free(taken);
+}
+
 status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
                   real mirror_reach, int optional_arrays)
 {
@@ -40,6 +60,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
     for (int b = 0; b < boundaries; b++)
         TRY(status_prepend_location(boundary[b].place,
                                     load_find_particles_of_boundary(&l->load[b], &boundary[b], p, spacing)));
+    loads_divide_components(l, p->n, p->dim);
     for (int b = 0; b < boundaries; b++)
         TRY(status_prepend_location(boundary[b].place,
                                     load_find_pressure_faces(&l->load[b], boundary, boundaries, b, p, spacing)));
@@ -77,7 +98,11 @@ void loads_free(struct loads *l)
 {
     loads_shares_free(l);
     absorbing_dashpots_free(l);
-    for (int b = 0; b < l->n; b++) load_varying_shares_free(&l->load[b]), memory_free(l->load[b].particle);
+    for (int b = 0; b < l->n; b++) {
+        load_varying_shares_free(&l->load[b]);
+        memory_free(l->load[b].particle);
+        memory_free(l->load[b].prescribes);
+    }
     memory_free(l->load);
     memory_free(l->loaded);
     memory_free(l->list);
@@ -99,7 +124,6 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
                   real dt_velocity)
 {
     const struct boundary *b = load->boundary;
-    const uint8_t components = boundary_is_clamped_mirror(b, p->dim) ? UINT8_MAX : b->components;
     real given[DIM_MAX] = {0}, work = 0;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
@@ -107,7 +131,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
         if (particle_moves_with_nodes(p, i)) continue;
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
-            if (!(components >> d & 1)) continue;
+            if (!(load->prescribes[k] >> d & 1)) continue;
             const real target = prescribed_velocity_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i]; /* without the driven particles' inertia: a load cell's reading */
@@ -207,14 +231,13 @@ void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t
 static void velocities_set(struct loads *l, const struct load *load, struct particles *p,
                            const struct prescribed_motion *by)
 {
-    const struct boundary *b = load->boundary;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         real X[DIM_MAX];
         if (!particle_moves_with_nodes(p, i) || p->flag[i] & FLAG_MESHED) continue; /* the mesh constrains nodes */
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
-            if (!(b->components >> d & 1)) continue;
+            if (!(load->prescribes[k] >> d & 1)) continue;
             const real target = prescribed_velocity_at(by, X, d, false), given = p->mass[i] * (target - p->v[d][i]);
             l->impulse[d] += given;
             l->constraint_work +=
@@ -244,7 +267,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
         if (on_grid && p->flag[i] & FLAG_MESHED) continue;
         particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
-            if (!(load->boundary->components >> d & 1)) continue;
+            if (!(load->prescribes[k] >> d & 1)) continue;
             const real at = X[d] + prescribed_displacement_at(&by->to, X, d), off = p->x[d][i] - at;
             if (!on_grid && !(fabs(off) <= OFF_PLACE * spacing)) continue;
             moved = moved || (on_grid && off != 0);

@@ -120,14 +120,11 @@ static int64_t dashpot_of(const struct absorbing *a, int32_t i)
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
-        const struct boundary *c = l->load[b].boundary;
-        const uint8_t held = boundary_is_clamped_mirror(c, p->dim) ? UINT8_MAX
-                             : c->kind == BOUNDARY_VELOCITY        ? c->components
-                                                                   : 0;
-        for (int64_t q = 0; q < l->load[b].n && held; q++) {
-            const int64_t k = dashpot_of(&l->absorbing, l->load[b].particle[q]);
+        const struct load *load = &l->load[b];
+        for (int64_t q = 0; q < load->n && load->prescribes; q++) {
+            const int64_t k = dashpot_of(&l->absorbing, load->particle[q]);
             for (int d = 0; d < p->dim && k >= 0; d++)
-                if (held >> d & 1) l->absorbing.rate[MOVED_BY_BONDS][d][k] = 0;
+                if (load->prescribes[q] >> d & 1) l->absorbing.rate[MOVED_BY_BONDS][d][k] = 0;
         }
     }
 }

@@ -121,7 +121,7 @@ void loads_collect_static_reactions(struct loads *l, struct particles *p)
         const bool by_place = works_by_place(load->boundary);
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
-                if (!(load->boundary->components >> d & 1)) continue;
+                if (!(load->prescribes[k] >> d & 1)) continue;
                 real *f = &p->f[d][load->particle[k]];
                 load->reaction[d] -= *f;
                 if (by_place) load->held_work -= *f * static_displacement(&by, load, p, k, d);

@@ -14,7 +14,7 @@
 static void constrained_add(struct constrained_set *s, int64_t node, int component, int load)
 {
     GROW("loads.held", s->held, s->n + 1);
-    s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load};
+    s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load, false};
 }
 
 /* Returns true if a load constrains component `component` of every node at position x[dim] [m]: in the region of a
@@ -135,6 +135,33 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
                     (reference || !l->load[b].boundary->rotates)) /* the region rotates, nodes do not */
                     constrained_add(s, I, d, b);
     }
+    s->lasting = s->n;
+}
+
+/* Returns true if two loads prescribe the same component of motion, not necessarily of the same nodes. */
+static bool component_is_prescribed_twice(const struct loads *l, int dim)
+{
+    uint8_t once = 0, twice = 0;
+    for (int b = 0; b < l->n; b++) {
+        const uint8_t components = boundary_prescribed_components(l->load[b].boundary, dim);
+        twice |= once & components, once |= components;
+    }
+    return twice != 0;
+}
+
+/* Marks those entries of s as overruled whose component of a node a later load in the scene constrains as well. Thus
+ * one load alone moves each component of a node, and has its reaction, impulse and work. g: the grid of s. */
+static void constrained_mark_overruled(const struct loads *l, struct constrained_set *s, const struct grid *g)
+{
+    if (!component_is_prescribed_twice(l, g->dim)) return;
+    uint8_t *last = NEW("loads.last", g->n * g->dim, uint8_t); /* number of the last load + 1, by node and component */
+    for (int64_t q = 0; q < s->n; q++) {
+        uint8_t *of = &last[s->held[q].node * g->dim + s->held[q].component];
+        if (*of <= s->held[q].load) *of = (uint8_t)(s->held[q].load + 1);
+    }
+    for (int64_t q = 0; q < s->n; q++)
+        s->held[q].overruled = s->held[q].load + 1 < last[s->held[q].node * g->dim + s->held[q].component];
+    memory_free(last);
 }
 
 /* Returns true if `load` constrains the component `component` of mesh node I because of the node's position: in the
@@ -246,12 +273,12 @@ static real least_driven_share(const real *share, const uint8_t *mask, const rea
     return largest >= MOSTLY ? MOSTLY : NEARLY_LARGEST * largest;
 }
 
-/* Prescribes the velocity of the nodes of g that have at least the share `least` of their mass from points of load
- * number `which`. l->share[g->n]: this mass [kg]. Skips node components that the load constrains already because the
- * node is in its region; a second entry would count the inertia of the node as a reaction. by: motion that this load
- * prescribes. */
-static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
-                         const struct particles *p, real least)
+/* Lists in *s the nodes of g that have at least the share `least` of their mass from points of load number `which`, for
+ * each component that this load prescribes. l->share[g->n]: this mass [kg]. Skips node components that the load
+ * constrains already because the node is in its region; a second entry would count the inertia of the node as a
+ * reaction. */
+static void driven_nodes_add(const struct loads *l, int which, struct constrained_set *s, const struct grid *g,
+                             const struct particles *p, real least)
 {
     const struct load *load = &l->load[which];
     const bool region = !load->boundary->rotates && load_holds(load, g, p);
@@ -263,8 +290,7 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
             if (!(load->boundary->components >> d & 1) ||
                 (region && node_constrained(load, g, x, LOADS_TOLERANCE * l->spacing, d)))
                 continue;
-            const struct wall wall = wall_at(by, I, x, d, which, false);
-            grid_add_prescribed_velocity(g, &wall);
+            constrained_add(s, I, d, which);
         }
     }
 }
@@ -283,7 +309,8 @@ static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool 
     }
 }
 
-/* Prescribes the velocities of all node components in the list s on grid g, except of nodes without mass. by[loads]:
+/* Prescribes the velocities of all node components in the list s on grid g, except of nodes without mass, each by the
+ * last load in the scene that constrains it. by[loads]:
  * prescribed motion of each load; mesh: the mesh to which g belongs, or NULL; reference: true if nodes move with the
  * material, as on a mesh. */
 static void constrained_walls(const struct constrained_set *s, struct grid *g, const struct mesh *mesh,
@@ -294,7 +321,7 @@ static void constrained_walls(const struct constrained_set *s, struct grid *g, c
         const struct driven_by *motion = &by[h->load];
         struct wall wall;
         real x[DIM_MAX];
-        if (g->mass[h->node] <= 0) continue;
+        if (h->overruled || g->mass[h->node] <= 0) continue;
         if (motion->uniform)
             wall = motion->wall[h->component], wall.node = h->node;
         else {
@@ -313,14 +340,16 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
     g->walls = 0, g->damped = l->damped;
     if (l->n == 0) return;
     if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, false);
-    driven_by_all(l, g->dim, t, dt, false, by);
-    constrained_walls(driven_nodes, g, NULL, by, false);
+    driven_nodes->n = driven_nodes->lasting;
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
-            driven_walls(l, b, g, &by[b], p,
-                         points_choose_driven_nodes(l, b, driven_nodes, g, p)
-                             ? least_driven_share(l->share, NULL, g->mass, g->n)
-                             : MOSTLY);
+            driven_nodes_add(l, b, driven_nodes, g, p,
+                             points_choose_driven_nodes(l, b, driven_nodes, g, p)
+                                 ? least_driven_share(l->share, NULL, g->mass, g->n)
+                                 : MOSTLY);
+    constrained_mark_overruled(l, driven_nodes, g);
+    driven_by_all(l, g->dim, t, dt, false, by);
+    constrained_walls(driven_nodes, g, NULL, by, false);
     loads_add_grid_dashpots(l, g, p, k, half_width);
 }
 
@@ -370,20 +399,21 @@ void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const stru
 {
     if (mesh->points == 0) return;
     /* regions and mirrors are constant; driven nodes depend on masses */
-    if (!constrained_is_current(&l->constrained_mesh, &mesh->grid)) {
+    if (!constrained_is_current(&l->constrained_mesh, &mesh->grid))
         constrained_find(l, &l->constrained_mesh, &mesh->grid, mesh, p, true);
-        l->constrained_mesh.lasting = l->constrained_mesh.n;
-    }
     l->constrained_mesh.n = l->constrained_mesh.lasting;
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
+    constrained_mark_overruled(l, &l->constrained_mesh, &mesh->grid);
     loads_add_mesh_dashpots(l, mesh, p);
 }
 
 void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                     const struct particles *p)
 {
-    if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, true);
+    if (constrained_is_current(driven_nodes, g)) return;
+    constrained_find(l, driven_nodes, g, NULL, p, true);
+    constrained_mark_overruled(l, driven_nodes, g);
 }
 
 /* Replaces the prescribed nodal velocities g->wall by those of the node components in `held`, for the step of size dt

@@ -28,7 +28,7 @@ real statics_norm_of_prescribed_loads(const struct run *e, real t)
             real X[DIM_MAX], f[DIM_MAX];
             particle_reference_position(&e->part, l->particle[k], X);
             for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
-                if (l->boundary->components >> d & 1) sum += square(prescribed_displacement_at(&by, X, d));
+                if (l->prescribes[k] >> d & 1) sum += square(prescribed_displacement_at(&by, X, d));
             if (!boundary_applies_force(l->boundary)) continue;
             load_force_on_particle(l, &e->part, k, t, f);
             forces += dot(f, f, e->part.dim);

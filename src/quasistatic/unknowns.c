@@ -66,8 +66,8 @@ static void mirror_particles_mark(struct statics *s, const struct particles *p, 
     }
 }
 
-/* Marks the components of particles and mesh nodes that supports prescribe. Where two supports overlap, the later one
- * prescribes. particle_at, node_of_mesh: unknown of each particle and of each mesh node, -1: none. */
+/* Marks the components of particles and mesh nodes that supports prescribe, each by the support that prescribes it
+ * alone. particle_at, node_of_mesh: unknown of each particle and of each mesh node, -1: none. */
 static void supports_mark(struct statics *s, const struct loads *loads, const struct mesh *mesh,
                           const int32_t *particle_at, const int32_t *node_of_mesh)
 {
@@ -76,15 +76,14 @@ static void supports_mark(struct statics *s, const struct loads *loads, const st
         const struct load *load = &loads->load[b];
         for (int64_t q = 0; load->boundary->kind == BOUNDARY_VELOCITY && q < load->n; q++)
             for (int d = 0; d < s->balance.dim; d++)
-                if (particle_at[load->particle[q]] >= 0 && load->boundary->components >> d & 1)
+                if (particle_at[load->particle[q]] >= 0 && load->prescribes[q] >> d & 1)
                     component_hold(s, particle_at[load->particle[q]], d, b);
     }
     for (int64_t q = 0; mesh->points > 0 && q < walls->n; q++) {
         const struct held *h = &walls->held[q];
         const bool drives = loads->load[h->load].boundary->kind == BOUNDARY_VELOCITY;
         const int32_t k = node_of_mesh[h->node];
-        if (k < 0 || (drives && s->load[k * DIM_MAX + h->component] > h->load)) continue;
-        component_hold(s, k, h->component, drives ? h->load : -1);
+        if (k >= 0 && !h->overruled) component_hold(s, k, h->component, drives ? h->load : -1);
     }
 }
 
