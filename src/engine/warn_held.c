@@ -64,9 +64,10 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
             used += snprintf(axes + used, sizeof axes - (size_t)used, "%s%c", used ? "," : "", "xyz"[d]);
     warnings_add_if_new(
         to,
-        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s: %s, the later one, "
-        "moves them; list the one last that shall move them, or give each a face or region of its own",
-        a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s", b->boundary->name);
+        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s: the later one, %s, "
+        "moves %s; change their order, or give each a face or region of its own",
+        a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s", b->boundary->name,
+        common == 1 ? "it" : "them");
 }
 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,

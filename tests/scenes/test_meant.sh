@@ -477,10 +477,10 @@ says "a region in m" '^warning: boundary a holds all 400 particles, so nothing c
     -s 'boundary=[{name: a, fixed: all, region: {box: {from: [0, 0], to: [20, 1]}}}]'
 silent "a region in mm" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: all, region: {box: {from: [0, 0], to: [20 mm, 1 mm]}}}'
 # The layer behind a face is three particles deep.
-says "two supports of a face" '^warning: boundaries a and b prescribe different motions along y of the same 60 particles: b, the later one, moves them; ' "$plate" \
+says "two supports of a face" '^warning: boundaries a and b prescribe different motions along y of the same 60 particles: the later one, b, moves them; ' "$plate" \
     -s 'boundary.a={name: a, fixed: all, face: y+}'
 # Where two faces meet, the order of the supports decides which of them moves the edge.
-says "two supports that share an edge" '^warning: boundaries a and b prescribe different motions along y of the same 9 particles: b, the later one, moves them; ' \
+says "two supports that share an edge" '^warning: boundaries a and b prescribe different motions along y of the same 9 particles: the later one, b, moves them; ' \
     "$plate" -s 'boundary.a={name: a, fixed: all, face: x-}'
 silent "two supports of different components" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: [x], face: y+}' \
     -s 'boundary.b={name: b, velocity: [free, 0.5 m/s], face: y+}'
