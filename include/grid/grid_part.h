@@ -48,6 +48,9 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
 void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
                                const struct scene *s, enum coupling coupling);
 
+/* Returns by how much the shape function of an unstretched material point extends beyond the nodes of its cell [m]. */
+real grid_shape_reach_beyond_cell(const struct scene *s);
+
 /* Computes the position of one node of the background grid, from which all others follow, into `node_position`, dim
  * components [m]. body_corner: lower corner of the first body [m]; lattice_site: position of one particle of its
  * lattice [m]; midway_between_particles: true to place nodes midway between particles. */

@@ -51,8 +51,7 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
-/* Returns by how much the shape function of a material point extends beyond the nodes of its cell [m]. */
-static real shape_reach(const struct scene *s)
+real grid_shape_reach_beyond_cell(const struct scene *s)
 {
     const real cell = s->cell * s->spacing;
     return s->shape == SHAPE_LINEAR      ? 0
@@ -95,7 +94,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     grid_contact_free(&mpm->contact);
     mpm->contact = (struct grid_contact){.friction = s->contact_friction,
                                          .spacing = s->spacing,
-                                         .half_width = shape_reach(s),
+                                         .half_width = grid_shape_reach_beyond_cell(s),
                                          .smallest_mass = GRID_MASS_CONTACT * full,
                                          .began = NAN,
                                          .ended = NAN};

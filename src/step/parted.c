@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "data/grid.h"
+#include "grid/grid_part.h"
 
 /* Equivalent plastic strain below which pairs of neighbouring points are not compared [1]: a stretch by 2 % separates
  * no points. */
@@ -55,7 +55,7 @@ static void pairs_make(struct point_pairs *pairs, const struct cells *cells, con
 
 /* The set of the cells that hold material points, as a hash table with open addressing. */
 struct held_cells {
-    struct grid g; /* size of the cells and corner of one of them; no nodes */
+    struct grid g; /* size of the cells and corner of one of them, as in the grid of the points; no nodes */
     uint64_t mask; /* number of slots, a power of 2, less 1 */
     uint64_t *key; /* of a cell in each slot, 0: none */
 };
@@ -71,12 +71,11 @@ static uint64_t cell_slot(const struct held_cells *h, const real *x, uint64_t *k
     return slot & h->mask;
 }
 
-/* Fills the hash table h with all cells, as large as those of the grid, that contain points of p. Release h->key with
- * memory_free. */
-static void held_cells_make(struct held_cells *h, const struct particles *p, const struct scene *s)
+/* Fills the hash table h with all cells of grid g that contain points of p. Release h->key with memory_free. */
+static void held_cells_make(struct held_cells *h, const struct particles *p, const struct grid *g)
 {
-    *h = (struct held_cells){.g = {.dim = p->dim, .h = s->cell * s->spacing}, .mask = 1};
-    for (int d = 0; d < p->dim; d++) h->g.anchor[d] = p->X[d][0] - 0.5 * s->spacing;
+    *h = (struct held_cells){.g = {.dim = p->dim, .h = g->h}, .mask = 1};
+    for (int d = 0; d < p->dim; d++) h->g.anchor[d] = g->anchor[d];
     while ((int64_t)h->mask < 2 * p->n_free) h->mask = 2 * h->mask + 1;
     h->key = NEW("step.held_cells", (int64_t)h->mask + 1, uint64_t);
     for (int64_t k = 0; k < p->n_free; k++) {
@@ -88,44 +87,63 @@ static void held_cells_make(struct held_cells *h, const struct particles *p, con
     }
 }
 
-/* Counts of pairs of neighbouring points at one time. parted: pairs with an empty cell between them; pulled: pairs
- * stretched beyond PULLED under tension; stretch, x: largest stretch [1] of the parted pairs, or of the pulled ones if
- * none is parted, and its first coordinate [m]. */
-struct pair_counts {
-    int64_t parted, pulled;
-    real stretch, x;
+/* A pair of points that is stretched: the factor on its distance [1] and the position of its middle [m]. */
+struct stretched_pair {
+    real stretch, middle[DIM_MAX];
 };
 
-/* Returns the present distance of two material points over their reference distance [1]. middle[dim]: receives the
- * position midway between them [m]; *axis: receives the axis along which they are farthest apart. If the ratio is below
- * PARTED_LEAST, returns 0 and stores nothing. */
-static real pair_stretch(const struct particles *p, const struct point_pair *pair, real *middle, int *axis)
+/* Counts of pairs of neighbouring points at one time. parted: pairs with a gap between them; pulled: pairs stretched
+ * beyond PULLED under tension; farthest: the most stretched of the parted pairs, or of the pulled ones if none is
+ * parted. */
+struct pair_counts {
+    int64_t parted, pulled;
+    struct stretched_pair farthest;
+};
+
+/* Computes in *stretched the present distance of two material points over their reference distance [1] and the position
+ * midway between them. *axis: receives the axis along which they are farthest apart. Returns false, and stores nothing,
+ * if the ratio is below PARTED_LEAST. */
+static bool pair_is_stretched(const struct particles *p, const struct point_pair *pair,
+                              struct stretched_pair *stretched, int *axis)
 {
     const int32_t i = pair->a, j = pair->b;
     real now = 0, before = 0, most = -1;
     for (int d = 0; d < p->dim; d++) now += square(p->x[d][j] - p->x[d][i]), before += square(p->X[d][j] - p->X[d][i]);
-    if (now < square(PARTED_LEAST) * before) return 0;
+    if (now < square(PARTED_LEAST) * before) return false;
     for (int d = 0; d < p->dim; d++) {
         const real apart = square(p->x[d][j] - p->x[d][i]);
-        middle[d] = 0.5 * (p->x[d][i] + p->x[d][j]);
+        stretched->middle[d] = 0.5 * (p->x[d][i] + p->x[d][j]);
         if (apart > most) most = apart, *axis = d;
     }
-    return sqrt(now / before);
+    stretched->stretch = sqrt(now / before);
+    return true;
 }
 
-/* Returns true if there is a gap between two points: the grid cell at the position middle[dim] [m] contains no points,
- * nor do the cells next to it along the axes other than `axis`, along which the points are apart. A single empty cell
- * is no gap, since flowing points fill it again. Overwrites middle. */
-static bool gap_at(const struct held_cells *h, real *middle, int axis)
+/* Returns true if the shape functions of two material points have at most one layer of nodes in common across `axis`:
+ * their distance along it is greater than a cell and what the functions extend beyond the cells of the points. */
+static bool pair_shares_few_nodes(const struct particles *p, const struct point_pair *pair, int axis,
+                                  const struct scene *s)
 {
+    const real cell = s->cell * s->spacing, reach = grid_shape_reach_beyond_cell(s);
+    real shared = cell;
+    for (int side = 0; side < 2; side++)
+        shared += p->stretch[axis] ? real_min(reach * p->stretch[axis][side ? pair->b : pair->a], cell) : reach;
+    return fabs(p->x[axis][pair->b] - p->x[axis][pair->a]) > shared;
+}
+
+/* Returns true if the grid cell at position X[dim] [m] contains no points, nor do the cells next to it along the axes
+ * other than `axis`. A single empty cell is no gap, since flowing points fill it again. */
+static bool cells_are_empty(const struct held_cells *h, const real *X, int axis)
+{
+    real at[DIM_MAX];
     uint64_t key;
-    if (h->key[cell_slot(h, middle, &key)] != 0) return false;
+    for (int d = 0; d < h->g.dim; d++) at[d] = X[d];
+    if (h->key[cell_slot(h, at, &key)] != 0) return false;
     for (int d = 0; d < h->g.dim; d++)
         for (int side = -1; side <= 1 && d != axis; side += 2) {
-            const real centre = middle[d];
-            middle[d] += side * h->g.h;
-            const bool held = h->key[cell_slot(h, middle, &key)] != 0;
-            middle[d] = centre;
+            at[d] = X[d] + side * h->g.h;
+            const bool held = h->key[cell_slot(h, at, &key)] != 0;
+            at[d] = X[d];
             if (held) return false;
         }
     return true;
@@ -139,33 +157,35 @@ static bool in_tension(const struct particles *p, int64_t i)
     return sum > 0;
 }
 
-/* Counts the pairs that have come apart, with empty cells between them, and those whose distance under tension is at
- * least `far` times the reference one. s: scene, for the size of the cells. */
-static struct pair_counts pairs_count(const struct point_pairs *pairs, const struct particles *p, const struct scene *s,
-                                      real far)
+/* Counts the pairs that have come apart, with empty cells between them and at most one common layer of nodes, and those
+ * whose distance under tension is at least `far` times the reference one. g: grid of the points; s: scene, for the
+ * shape functions. */
+static struct pair_counts pairs_count(const struct point_pairs *pairs, const struct particles *p, const struct grid *g,
+                                      const struct scene *s, real far)
 {
     struct held_cells held = {.key = NULL}; /* made for the first pair that may be parted: most samples have none */
     struct pair_counts c = {0};
-    real pulled_most = 0, pulled_x = 0;
+    struct stretched_pair pulled_most = {0};
     for (int64_t k = 0; k < pairs->n; k++) {
-        real middle[DIM_MAX];
+        struct stretched_pair now;
+        const struct point_pair *pair = &pairs->pair[k];
         int axis = 0;
-        const real stretch = pair_stretch(p, &pairs->pair[k], middle, &axis);
-        if (stretch < PARTED_LEAST) continue;
-        const bool pulled = stretch >= far && in_tension(p, pairs->pair[k].a) && in_tension(p, pairs->pair[k].b);
-        if (pulled && stretch > pulled_most) pulled_most = stretch, pulled_x = middle[0];
+        if (!pair_is_stretched(p, pair, &now, &axis)) continue;
+        const bool pulled = now.stretch >= far && in_tension(p, pair->a) && in_tension(p, pair->b);
+        if (pulled && now.stretch > pulled_most.stretch) pulled_most = now;
         c.pulled += pulled;
-        if (!held.key) held_cells_make(&held, p, s);
-        if (!gap_at(&held, middle, axis)) continue;
-        if (stretch > c.stretch) c.stretch = stretch, c.x = middle[0];
+        if (!pair_shares_few_nodes(p, pair, axis, s)) continue;
+        if (!held.key) held_cells_make(&held, p, g);
+        if (!cells_are_empty(&held, now.middle, axis)) continue;
+        if (now.stretch > c.farthest.stretch) c.farthest = now;
         c.parted++;
     }
-    if (c.parted == 0) c.stretch = pulled_most, c.x = pulled_x;
+    if (c.parted == 0) c.farthest = pulled_most;
     memory_free(held.key);
     return c;
 }
 
-/* Prints a warning that c->parted of n pairs of points have empty cells between them or, if there are none, that
+/* Prints a warning that c->parted of n pairs of points have gaps between them or, if there are none, that
  * c->pulled of them are stretched too far for the shape function of scene s. t: current time [s]. */
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
@@ -179,19 +199,20 @@ static void warn_of_parted(const struct scene *s, const struct pair_counts *c, i
                  (long long)c->pulled, (long long)n, w->pulled, w->too_little);
     else
         snprintf(what, sizeof what,
-                 "between %lld of %lld pairs of neighbouring points the cells of the grid are empty, so nothing holds "
-                 "them together",
+                 "between %lld of %lld pairs of neighbouring points the cells of the grid are empty, so that little or "
+                 "nothing holds them together",
                  (long long)c->parted, (long long)n);
     snprintf(text, sizeof text,
-             "metal %s at t = %.3g s: %s, %.2g times as far as at the start near x = %.4g m; use %smpm.frame: "
-             "reference up to plastic strains of 0.05%s; if this is intended, add accept: [strain]",
-             state, t, what, c->stretch, c->x, s->shape == SHAPE_CPGIMP ? "" : "mpm.shape: cpgimp, or ",
+             "metal %s at t = %.3g s: %s, %.2g times as far as at the start near (%s) m; use %smpm.frame: reference "
+             "up to plastic strains of 0.05%s; if this is intended, add accept: [strain]",
+             state, t, what, c->farthest.stretch, position_text(c->farthest.middle, s->dim, 4).text,
+             s->shape == SHAPE_CPGIMP ? "" : "mpm.shape: cpgimp, or ",
              c->parted > 0 ? ", and pull it by wider parts that do not yield" : "");
     warnings_add_and_print(to, text);
 }
 
 bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
-                                     const struct scene *s, real t, struct warnings *warning_list)
+                                     const struct grid *g, const struct scene *s, real t, struct warnings *warning_list)
 {
     real most = 0;
     const int part = 1 + (int)(PARTS_OF_DURATION * t / s->duration * (1 + 1e-9));
@@ -202,7 +223,7 @@ bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct par
     if (!(most > FLOWED_LEAST)) return false;
     if (!pairs->made) pairs_make(pairs, cells, p, s);
     const struct weak_shape *w = shape_properties_if_weak_in_tension(s->shape);
-    const struct pair_counts c = pairs_count(pairs, p, s, w ? w->pulled : INFINITY);
+    const struct pair_counts c = pairs_count(pairs, p, g, s, w ? w->pulled : INFINITY);
     const bool weak = !pairs->pulled && w && (real)c.pulled > w->share * (real)pairs->n;
     if (c.parted == 0 && !weak) return false;
     warn_of_parted(s, &c, pairs->n, t, warning_list);

@@ -77,8 +77,10 @@ holds "metal: gimp is said to be weak" grep -q 'metal pulled with mpm.shape: gim
 "$cleave" run $metal -q -o "$work/little" -s mpm.shape=gimp -s duration=0.5ms 2>"$work/little.err" # a stretch of 1.25
 is "metal: of little stretch nothing is said" "$(cat "$work/little.err")" ""
 calm "$work/foot" tests/scenes/claims/short_bar.yaml -s time.safety=0.5 -s output.samples=400 # the foot of a bar spreads, and is not pulled
+sed '/intersect:/d; /name: left/d; /name: front/d' inputs/taylor_bar.yaml >"$work/whole_taylor.yaml" # hoops of its foot are stretched by 2.4
+calm "$work/hoops" "$work/whole_taylor.yaml" -s output.frames=0 -s duration=40us
 "$cleave" run "$work/bar.yaml" -q -o "$work/apart" 2>"$work/apart.err"
-holds "metal: that it has come apart is said" grep -q 'metal has separated without fracture at t = .* pairs .*use mpm.shape: cpgimp' "$work/apart.err"
+holds "metal: that it has come apart is said" grep -q 'metal has separated without fracture at t = .* pairs .* near (0.03.*, 0.0.*) m; use mpm.shape: cpgimp' "$work/apart.err"
 is "metal: said once" "$(grep -c 'has separated without fracture' "$work/apart.err")" 1
 "$cleave" run "$work/bar.yaml" -q -o "$work/meant" -s accept=[strain] 2>"$work/meant.err"
 is "metal: accepted" "$(cat "$work/meant.err")" ""
