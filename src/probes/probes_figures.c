@@ -381,7 +381,7 @@ static void figures_exact(const struct emitter *e)
 
 static void figures_sif(const struct emitter *e)
 {
-    for (int k = 0; k < SIF_FIGURES; k++) probes_figures_put(e, sif_figure[k].name, e->q->memory.factors[k]);
+    for (int k = 0; k < SIF_FIGURES; k++) probes_figures_put(e, sif_figure[k].name, sif_probe_result(e->q, k));
 }
 
 static void figures_growth(const struct emitter *e)

@@ -26,9 +26,10 @@ struct probe_memory {
     int64_t force_max_step, first_step; /* load steps of the largest |F| (REACTION) and of the first cut (BREAK) */
     int64_t body;                       /* SPALL: number of the broken bar */
     real trail[2][2];                   /* SIF: previous positions of the tip, for its direction [m] */
-    real factors[4];           /* SIF: K_I, K_II [Pa m^(1/2)], J [J/m^2], contour_spread [1] at the last sample */
-    real along[2];             /* SIF: direction of the tip at the last sample */
-    real time;                 /* SIF: time of the factors [s] */
+    real factors[4];    /* SIF: K_I, K_II [Pa m^(1/2)], J [J/m^2], contour_spread [1] at the last sample */
+    real along[2];      /* SIF: direction of the tip at the last sample */
+    real time;          /* SIF: time of the factors [s] */
+    int64_t grew, said; /* SIF: bonds have broken at the tip; the warning of factors without meaning is printed */
     struct rigid_memory rigid; /* RIGID */
 };
 
@@ -211,6 +212,18 @@ void sif_probe_store_motion_before_step(struct probe *q, const struct observed_r
 /* Computes K_I, K_II, J and their spread between the integration contours of a SIF probe at the time of the sample, and
  * stores them in q->memory.factors. velocity_time: time of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
+
+/* Returns true if the factors of SIF probe q at its last sample are results: there are some, and contour_spread is at
+ * most 0.2. */
+bool sif_probe_factors_are_meaningful(const struct probe *q);
+
+/* Returns result `figure` of SIF probe q at its last sample, in the order of sif_figure: NAN for K_I, K_II and J that
+ * are not meaningful. */
+static inline real sif_probe_result(const struct probe *q, int figure)
+{
+    const bool valid = figure == SIF_FIGURES - 1 || sif_probe_factors_are_meaningful(q);
+    return valid ? q->memory.factors[figure] : NAN;
+}
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
 

@@ -12,6 +12,7 @@
 #define STEP_BACK 8.0            /* the direction of a moving tip is that of its last 8 to 16 spacings */
 #define SAME_TIP 1.0             /* distance within which two tips are the same [spacings] */
 #define FASTEST 0.95             /* largest speed of a tip [Rayleigh speeds] */
+#define SPREAD_MOST 0.2          /* largest contour_spread with which factors are results [1] */
 #define OPEN_ANGLE (170.0 / 180) /* share of the ring that must be in the body: crack faces may be open */
 
 static const real pi = 3.14159265358979323846;
@@ -379,12 +380,13 @@ void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_
     struct sif found[SIF_CONTOURS_MAX + 1];
     real position[2];
     const bool grew = probes_sif_follow(q, o);
+    q->memory.grew = grew;
     const bool loaded = find_body_force(w, o);
     if (!moves) keep_displacement(w, p), w->tip.speed = 0;
     if (moves) find_inertia(w, p, velocity_time);
     w->kept = false;
     for (int k = 0; k < SIF_FIGURES; k++) q->memory.factors[k] = NAN;
-    if ((w->tip.speed > 0 || (grew && !moves)) && ring_leaves(&w->tip, w->reach, o, position)) return;
+    if ((w->tip.speed > 0 || grew) && ring_leaves(&w->tip, w->reach, o, position)) return;
     for (int d = 0; d < 2; d++) w->rule.tip[d] = w->tip.place[d];
     struct sif_motion m = {.displacement = {w->u[0], w->u[1]}, .stress = {w->stress[0], w->stress[1], w->stress[2]}};
     for (int d = 0; d < 2 && loaded; d++) m.body[d] = w->body[d];
@@ -395,6 +397,41 @@ void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_
     memcpy(q->memory.factors, factors, sizeof factors);
     memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
     q->memory.time = o->t;
+}
+
+bool sif_probe_factors_are_meaningful(const struct probe *q)
+{
+    const real *factors = q->memory.factors;
+    return !isnan(factors[0]) && !(factors[SIF_FIGURES - 1] > SPREAD_MOST);
+}
+
+/* Composes the warning that probe q has no stress-intensity factors at its last sample, and why. t: time of the sample
+ * [s]. */
+static void describe_meaningless_factors(const struct probe *q, real t, char *text, size_t size)
+{
+    char why[160] = "its ring leaves the body";
+    if (!isnan(q->memory.factors[0]))
+        snprintf(why, sizeof why,
+                 "its contours differ by %.3g %% (contour_spread), more than %.3g %%, as where a crack "
+                 "branches or kinks within them",
+                 100 * q->memory.factors[SIF_FIGURES - 1], 100 * SPREAD_MOST);
+    snprintf(text, size,
+             "probe %s: K_I, K_II and J have no value at t = %.4g s and wherever this happens again: %s; a smaller "
+             "probes.sif.outer, now %.3g m, may help",
+             q->request.name, t, why, q->sif->contour[0].outer);
+}
+
+void probes_warn_of_meaningless_sif(struct probes *s, bool in_equilibrium, real t, struct warnings *warning_list)
+{
+    for (int k = 0; k < s->n; k++) {
+        struct probe *q = &s->probe[k];
+        char text[480];
+        if (q->request.kind != PROBE_SIF || q->memory.said || sif_probe_factors_are_meaningful(q)) continue;
+        if (!q->memory.grew && !in_equilibrium) continue;
+        q->memory.said = 1;
+        describe_meaningless_factors(q, t, text, sizeof text);
+        warnings_add_and_print(warning_list, text);
+    }
 }
 
 bool probes_locate_sif_contour(const struct probes *s, int k, const struct observed_run *o, real tip_position[2],

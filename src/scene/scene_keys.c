@@ -457,7 +457,11 @@ const struct key keys[] = {
     KEY("probes.sif.outer", KEY_REAL, UNIT_LENGTH, AT(probe_request, outer), ABOVE(0),
         "(the largest of contours, or 20 spacings)", "radius at which the weight reaches 0"),
     KEY("probes.sif.contours", KEY_SERIES, UNIT_LENGTH, AT(probe_request, contours), ABOVE(0),
-        "(0.6, 0.8 and 1 times outer)", "outer radii compared for contour_spread, inner in proportion; ascending"),
+        "(0.6, 0.8 and 1 times outer)",
+        "outer radii compared for contour_spread, the largest difference of K_I or K_II over |K| or of J over its "
+        "mean: "
+        "K_I, K_II and J have no value where it is above 0.2, as before waves arrive or where a crack branches within "
+        "them; inner in proportion; ascending"),
     KEY("probes.sif.weight", KEY_CHOICE, UNIT_NONE, AT(probe_request, weight), ANY, "quintic",
         "from 1 to 0 between the radii: 1 - 10 z^3 + 15 z^4 - 6 z^5, 1 - 3 z^2 + 2 z^3, or 1 - z",
         .words = "quintic|cubic|linear"),

@@ -258,6 +258,7 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     if (wants_motion(e->scene)) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     struct observed_run o = observed_run_view_of(e);
     probes_complete_sample_after_step(&e->probing->probes, &o, now);
+    probes_warn_of_meaningless_sif(&e->probing->probes, !scene_is_dynamic(e->scene), o.t, &e->warnings);
     if (scene_is_dynamic(e->scene)) {
         momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
         momentum_at(sampling, now, e->clock.t, e->part.dim, e->diagnostics->now.momentum);

@@ -226,6 +226,22 @@ static void tip_in_motion(void **state)
     tip->place[0] = 60; /* 12 from the edge */
     probes_complete_sample_after_step(&s, &p.o, &(struct velocity_time){p.o.t, 1});
     assert_true(isnan(value_of(&s, "sif.K_I")));
+    p.tips.growth[12 * TIPS_MAX] = 0; /* the tip has come to rest there */
+    p.tips.samples = 0;
+    probes_complete_sample_after_step(&s, &p.o, &(struct velocity_time){p.o.t, 1});
+    assert_true(isnan(value_of(&s, "sif.K_I")));
+    struct warnings said = {.silent = true};
+    struct probe *contours_differ = &again.probe[0];
+    contours_differ->memory.factors[3] = 0.21;
+    for (int time = 0; time < 2; time++) {
+        probes_warn_of_meaningless_sif(&s, false, p.o.t, &said);
+        probes_warn_of_meaningless_sif(&again, false, p.o.t, &said);
+    }
+    assert_true(isnan(sif_probe_result(contours_differ, 0)) && sif_probe_result(contours_differ, 3) == 0.21);
+    assert_int_equal(said.n, 2);
+    assert_non_null(strstr(said.text[0], "its ring leaves the body"));
+    assert_non_null(strstr(said.text[1], "its contours differ by 21 % (contour_spread), more than 20 %"));
+    warnings_free(&said);
     probes_free(&again);
     probes_free(&s);
     plate_free(&p);
