@@ -33,6 +33,9 @@
 #define REMNANT 0.3    /* share of the largest stretch ratio within which bonds break at the end of SIF-driven fronts */
 #define DUE_ERROR 2e-3 /* relative error of the load size of an increment */
 enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
+/* Number of spacings across the section of a bar in space: line, which parts at once. With the default load steps of a
+ * quarter spacing its largest load is right to 1 %. */
+#define SPACINGS_OF_BAR 25
 
 /* ---- area of a crack increment ----------------------------------------------------------------------------------- */
 
@@ -79,6 +82,7 @@ static real increment_area(const struct scene *s, const struct crack_tips *t, co
 real crack_area_of_growth_by_one_spacing(const struct run *e)
 {
     const struct crack_tips *t = &e->fracture->tips;
+    if (e->part.dim == 1) return scene_section_or_thickness(e->scene) / SPACINGS_OF_BAR;
     return increment_area(e->scene, t, &e->source, front_length(t, &e->source, &e->part)) / INCREMENT_SPACINGS;
 }
 

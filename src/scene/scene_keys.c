@@ -95,8 +95,8 @@ const struct key keys[] = {
     KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
         "energy of the bonds of one crack increment; auto: that of an increment of two spacings through the material "
         "or interface that it cuts; with bonds that soften: energy that a load step dissipates; auto: that of a "
-        "quarter "
-        "spacing of crack, in space times the shortest side of the body",
+        "quarter spacing of crack, in space times the shortest side of the body, in a line of a hundredth of its "
+        "section",
         .words = "auto", .word_value = 0),
     KEY("steps.from", KEY_POINT, UNIT_LENGTH, AT(scene, steps.from), ANY, "(required with control opening)",
         "first of the two points between which the opening is measured: the particle nearest to it",

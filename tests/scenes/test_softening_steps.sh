@@ -97,6 +97,27 @@ holds "a large energy" grep -q 'a crack that grows by 2.0[0-9] spacings, so the 
 "$cleave" check "$work/notch.yaml" --no-trial -s steps.energy=0.25uJ >"$work/said" 2>&1
 holds "half a spacing" sh -c "! grep -q 'spacings of new crack' '$work/said'"
 
+# A bar in a line, which parts at once: by default in a hundred steps. Its largest load is 300 N within 1 %.
+cat >"$work/bar.yaml" <<'END'
+space: line
+section: 1 cm^2
+duration: 1 s
+method: pd
+solver: static
+steps: {number: 200, control: energy}
+material: {young: 30 GPa, density: 2400, tensile_strength: 3 MPa, energy_release_rate: 100 J/m^2}
+body: {box: {from: [0], to: [60 mm]}}
+particles: {spacing: 5 mm}
+boundary:
+  - {name: l, fixed: all, face: x-}
+  - {name: r, displacement: [0.2 mm], face: x+, time: {ramp: {until: 1 s}}}
+probes: [{reaction: {boundary: r}}]
+output: {frames: 0}
+END
+start bar "$work/bar.yaml"; wait
+between "bar: load" "$(figure "$work/bar" probes.reaction.force_max)" 297 303
+between "bar: energy" "$(figure "$work/bar" energy.balance_error)" -6e-3 6e-3
+
 # What check prints.
 "$cleave" check "$work/notch.yaml" --no-trial >"$work/said" 2>&1
 holds "check" grep -q 'cracks  *grow where bonds soften; in each load step they dissipate steps.energy' "$work/said"
