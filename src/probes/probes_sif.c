@@ -7,6 +7,7 @@
 #include "probes_parts.h"
 
 #define OUTER 20.0               /* default outer radius of a contour [spacings] */
+#define OUTER_LEAST 10.0         /* where the body or another tip is nearer, it is reduced to no less [spacings] */
 #define CORE 1.5                 /* default radius left out of the inertial integral (sif.h) [horizons] */
 #define NARROWEST 3.0            /* least width of the ring of a contour [spacings] */
 #define STEP_BACK 8.0            /* the direction of a moving tip is that of its last 8 to 16 spacings */
@@ -42,21 +43,6 @@ struct sif_tracked {
 static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
-
-/* Sets the integration contours of a SIF probe: contour[0], from which the results are computed, then those with which
- * it is compared. The latter have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of contour[0]. Sets
- * w->reach to the largest outer radius. spacing: lattice spacing [m]. */
-static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
-{
-    const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
-    const struct number_list *list = &r->contours;
-    w->contour[w->contours++] = (struct contour){inner, outer};
-    for (int k = 0; k < (list->n > 0 ? list->n : 3); k++) {
-        const real radius = list->n > 0 ? list->value[k] : (0.6 + 0.2 * k) * outer;
-        w->contour[w->contours++] = (struct contour){radius * inner / outer, radius};
-    }
-    for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
-}
 
 /* Returns the index of the crack tip of the run that request r refers to: the tip whose origin is nearest to its
  * position `at`, within SAME_TIP spacings, or the first tip if r has no `at`. Returns -1 if there is none. */
@@ -165,6 +151,47 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
+/* Returns a crack tip of the run, other than that of the probe, whose distance from it is less than `radius` [m], or
+ * NULL if there is none. */
+static const struct crack_tip *other_tip_within(const struct sif_tracked *w, real radius, const struct observed_run *o)
+{
+    for (int k = 0; o->tips && k < o->tips->n; k++) {
+        const real *other = o->tips->tip[k].origin;
+        if (k != w->follows && hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]) < radius)
+            return &o->tips->tip[k];
+    }
+    return NULL;
+}
+
+/* Returns the outer radius of the contour of a SIF probe whose request r gives none: OUTER spacings or, if r gives no
+ * other radius either, the first of 0.9, 0.8 .. 0.5 times it that stays in the body and contains no other tip [m]. */
+static real default_outer_radius(const struct sif_tracked *w, const struct probe_request *r,
+                                 const struct observed_run *o)
+{
+    const real most = OUTER * o->spacing;
+    real beyond[2];
+    if (given(r->inner) || r->contours.n > 0) return most;
+    for (real radius = most; radius >= (OUTER_LEAST - 1e-9) * o->spacing; radius -= 0.1 * most)
+        if (!ring_leaves(&w->tip, radius, o, beyond) && !other_tip_within(w, radius, o)) return radius;
+    return most;
+}
+
+/* Sets the integration contours of a SIF probe: contour[0], from which the results are computed, then those with which
+ * it is compared. The latter have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of contour[0]. Sets
+ * w->reach to the largest outer radius. */
+static void make_contours(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
+{
+    const real outer = given(r->outer) ? r->outer : default_outer_radius(w, r, o),
+               inner = given(r->inner) ? r->inner : 0.5 * outer;
+    const struct number_list *list = &r->contours;
+    w->contour[w->contours++] = (struct contour){inner, outer};
+    for (int k = 0; k < (list->n > 0 ? list->n : 3); k++) {
+        const real radius = list->n > 0 ? list->value[k] : (0.6 + 0.2 * k) * outer;
+        w->contour[w->contours++] = (struct contour){radius * inner / outer, radius};
+    }
+    for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
+}
+
 /* Returns REFUSED with a message: the largest contour leaves the body at position[2] [m]. The message proposes an
  * outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the probe. */
 static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed_run *o,
@@ -195,16 +222,13 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
                               r->name, c->inner, c->outer, NARROWEST, w->reach * NARROWEST * o->spacing / narrowest);
     }
     if (ring_leaves(&w->tip, w->reach, o, position)) return refuse_leaving(w, r->name, o, position);
-    for (int k = 0; o->tips && k < o->tips->n; k++) {
-        const real *other = o->tips->tip[k].origin;
-        const real distance = hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]);
-        if (k != w->follows && distance < w->reach)
-            return status_set(REFUSED,
-                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; use "
-                              "sif: {outer: %.3g m}, or less",
-                              r->name, other[0], other[1], w->reach, 0.99 * distance);
-    }
-    return OK;
+    const struct crack_tip *tip = other_tip_within(w, w->reach, o);
+    if (!tip) return OK;
+    const real *other = tip->origin, distance = hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]);
+    return status_set(REFUSED,
+                      "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; use "
+                      "sif: {outer: %.3g m}, or less",
+                      r->name, other[0], other[1], w->reach, 0.99 * distance);
 }
 
 /* Stores body number and elastic constants of the material around the tip. Returns REFUSED, with a message, if no
@@ -239,8 +263,8 @@ status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_ru
     if (o->part->dim != 2)
         return status_set(REFUSED, "probe \"%s\": it needs space: plane stress or plane strain; remove it", r->name);
     struct sif_tracked *w = q->sif = NEW("sif", 1, struct sif_tracked);
-    make_contours(w, r, o->spacing);
     TRY(find_tip(w, r, o));
+    make_contours(w, r, o);
     TRY(find_medium(w, r, o));
     TRY(check_ring(w, r, o));
     make_cracks(w, o);

@@ -455,7 +455,9 @@ const struct key keys[] = {
     KEY("probes.sif.inner", KEY_REAL, UNIT_LENGTH, AT(probe_request, inner), ABOVE(0), "(half of outer)",
         "radius within which the weight is 1"),
     KEY("probes.sif.outer", KEY_REAL, UNIT_LENGTH, AT(probe_request, outer), ABOVE(0),
-        "(the largest of contours, or 20 spacings)", "radius at which the weight reaches 0"),
+        "(the largest of contours, or 20 spacings)",
+        "radius at which the weight reaches 0; the default is at least 10 spacings where the body or another tip's "
+        "distance leaves no more"),
     KEY("probes.sif.contours", KEY_SERIES, UNIT_LENGTH, AT(probe_request, contours), ABOVE(0),
         "(0.6, 0.8 and 1 times outer)",
         "outer radii compared for contour_spread, the largest difference of K_I or K_II over |K| or of J over its "

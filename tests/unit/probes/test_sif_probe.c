@@ -178,6 +178,14 @@ static void bad_requests_are_refused(void **state)
     refused(&corner, &(struct probe_request){.outer = 20}, "; use sif: {outer: 8 m}, or less");
     refused(&corner, &(struct probe_request){.inner = 7.3}, "the ring of radius 20 m");
     plate_free(&corner);
+    plate_make(&corner, 1, (const real[]){13, 30}); /* the default radius of 20 is reduced until the ring fits */
+    struct probes fitted;
+    real tip[2], radius_fitted;
+    assert_ok(probes_make(&fitted, &(struct probe_request){.name = "k", .kind = PROBE_SIF}, 1, &corner.o));
+    assert_true(probes_locate_sif_contour(&fitted, 0, &corner.o, tip, &radius_fitted));
+    assert_close(radius_fitted, 12, 1e-12);
+    probes_free(&fitted);
+    plate_free(&corner);
     plate_free(&two);
     plate_free(&p);
 }
