@@ -13,6 +13,7 @@ struct series {
     const char *pictures; /* folder of the pictures */
     bool bar;             /* the run has one dimension */
     bool equilibrium;     /* the run computes one equilibrium */
+    double spacing;       /* of the particles; 0: unknown [m] */
 };
 
 /* Returns the largest absolute value in the column with index `column_index` of `history`; 0 if the column has no
@@ -119,11 +120,12 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
 /* Returns true if the run in `folder` consists of load steps, not of steps in time. */
 bool run_has_load_steps(const char *folder);
 
-/* Draws the force against the displacement of each support and rigid body that carries a force, with the largest force
- * marked, to the file `sheet`. title: heading of the picture; history: history of the run. If no support or body
+/* Draws the force over the displacement of each support and rigid body that carries a force, with the largest force
+ * marked, to the file `sheet`: the components along which it is driven. title: heading of the picture; history: history
+ * of the run; spacing: of the particles, by which round-off is told from motion [m], 0: unknown. If no support or body
  * carries a force or moves, prints this instead of drawing, and names the probe that would record it. Returns FAILED if
  * gnuplot fails. */
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history);
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, double spacing);
 
 /* Draws, for a run with load steps, the energy release rate against the new crack area (R-curve) to the file `sheet`,
  * with lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture;

@@ -260,7 +260,7 @@ static status draw_curves(const struct plot_request *r, const char *title, const
     TRY(sif_curves_draw(title, s));
     TRY(crack_paths_draw(r->folder, title, s));
     TRY(s->equilibrium ? report_picture_not_drawn(load.text, "the run has one equilibrium; history.csv has its forces")
-                       : load_displacement_draw((struct sheet){load.text, r->format}, title, s->h));
+                       : load_displacement_draw((struct sheet){load.text, r->format}, title, s->h, s->spacing));
     return in_steps ? r_curve_draw((struct sheet){r_curve.text, r->format}, r->folder, title, s->h) : OK;
 }
 
@@ -276,6 +276,7 @@ status history_curves_draw(const struct plot_request *request, const char *title
                        .format = request->format,
                        .pictures = request->pictures,
                        .bar = scene && scene->dim == 1,
+                       .spacing = scene ? scene->spacing : 0,
                        .equilibrium = scene && scene_is_single_equilibrium(scene)};
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {

@@ -9,11 +9,13 @@
 #include "curves_parts.h"
 #include "scene/scene_read.h"
 
-/* The axis of displacements ends where the force stays below this fraction of its largest value: afterwards the broken
- * body only moves apart. */
+/* After the last force above this fraction of its largest value the broken body only moves apart. */
 #define FORCE_LEFT 0.01
-#define LINE_WIDE 0.002 /* width of a line, relative to the length of an axis */
-enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3, POINTS_SHOWN = 200 };
+#define DRIVEN 0.02     /* least component of a displacement along which a body is driven, as a share of its length */
+#define ROUND_OFF 1e-9  /* displacements below this number of spacings are round-off */
+#define REST_SHOWN 3    /* motion without force is shown up to this multiple of that with force */
+#define LINE_WIDE 0.002 /* width of a line over the length of an axis */
+enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3, POINTS_SHOWN = 200, LABEL_ROOM = 256 };
 
 bool run_has_load_steps(const char *folder)
 {
@@ -24,75 +26,100 @@ bool run_has_load_steps(const char *folder)
     return in_steps;
 }
 
-/* Writes the gnuplot command for the tics of a horizontal axis from 0 to `high`, so far apart that their numbers do not
- * touch. l: layout of the picture. */
-static void write_horizontal_tics(FILE *to, const struct curves_layout *l, double high)
+/* Writes the gnuplot command for the tics of a horizontal axis from `low` to `high`, so far apart that their numbers do
+ * not touch. l: layout of the picture. */
+static void write_horizontal_tics(FILE *to, const struct curves_layout *l, double low, double high)
 {
-    const double letters = 2 + fmax(floor(log10(high)), 0); /* of the longest number, with a space */
+    const double most = fmax(fabs(low), fabs(high));
+    const double letters = 2 + (low < 0) + fmax(floor(log10(most)), 0); /* of the longest number, with a space */
     const double pixels = l->width - l->left - l->right;
-    fprintf(to, "set xtics %.9g\n", tic_distance(high, pixels, 12 + 11 * letters));
+    fprintf(to, "set xtics %.9g\n", tic_distance(high - low, pixels, 12 + 11 * letters));
 }
 
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
 
-/* Indices column[n] of the columns of the history with the components of a vector, for example NAME.force_x; n is 0 if
- * the history has no such columns. since: the vector is the difference of the values from those in the first row. */
-struct components {
-    int n, column[3];
-    bool since;
+/* One component of a vector quantity in a history, for example NAME.force_x, and the sign with which it is drawn. */
+struct component {
+    int column, axis; /* index of the column; axis of the component, 0 .. 2 for x y z */
+    double from;      /* the quantity is the difference of the values of the column from this one */
+    double sign;      /* -1 or 1 */
 };
 
-/* Returns the columns of the components of a vector quantity of a probe or rigid body; n = 0 if there are none. The
- * name of such a column is `probe`, `by` and `quantity` joined, followed by the axis: for example NAME.force_x for the
- * probe NAME, "." and "force_". */
-static struct components components_of(const struct history *h, const char *probe, const char *by, const char *quantity)
+/* The components of a vector quantity in a history, of[n]; n is 0 if the history does not have it. */
+struct components {
+    int n;
+    struct component of[3];
+};
+
+/* Returns the components of a vector quantity of a probe or rigid body; n = 0 if there are none. The name of such a
+ * column is `probe`, `by` and `quantity` joined, followed by the axis: for example NAME.force_x for the probe NAME, "."
+ * and "force_". since: the quantity is the difference of the values from those in the first row. */
+static struct components components_of(const struct history *h, const char *probe, const char *by, const char *quantity,
+                                       bool since)
 {
     struct components c = {0};
     for (int d = 0; d < 3; d++) {
         char name[3 * NAME_MAX_LENGTH];
         snprintf(name, sizeof name, "%.63s%s%.63s%c", probe, by, quantity, 'x' + d);
         const int column = history_find_column(h, name);
-        if (column >= 0) c.column[c.n++] = column;
+        if (column < 0) continue;
+        c.of[c.n++] = (struct component){column, d, since ? history_value_at(h, 0, column) : 0, 1};
     }
     return c;
 }
 
-static double length_at(const struct history *h, int64_t row, const struct components *c)
+static double component_at(const struct history *h, int64_t row, const struct component *c)
 {
-    double sum = 0;
-    for (int d = 0; d < c->n; d++)
-        sum += square(history_value_at(h, row, c->column[d]) - (c->since ? history_value_at(h, 0, c->column[d]) : 0));
-    return sqrt(sum);
+    return c->sign * (history_value_at(h, row, c->column) - c->from);
 }
 
-static double longest_of(const struct history *h, const struct components *c)
+/* Returns the row of the history in which the magnitude of a component is largest. */
+static int64_t peak_of(const struct history *h, const struct component *c)
 {
-    double most = 0;
-    for (int64_t i = 0; i < h->rows; i++) most = fmax(most, length_at(h, i, c));
-    return most;
+    int64_t at = 0;
+    for (int64_t i = 1; i < h->rows; i++)
+        if (fabs(component_at(h, i, c)) > fabs(component_at(h, at, c))) at = i;
+    return at;
 }
 
-/* A curve: force and displacement of a support or rigid body. A support at rest has no displacement (n = 0). */
+static double largest_of(const struct history *h, const struct component *c)
+{
+    return fabs(component_at(h, peak_of(h, c), c));
+}
+
+/* Returns the component with the largest magnitude in any row; c->n must not be 0. */
+static struct component main_component(const struct history *h, const struct components *c)
+{
+    int best = 0;
+    for (int d = 1; d < c->n; d++)
+        if (largest_of(h, &c->of[d]) > largest_of(h, &c->of[best])) best = d;
+    return c->of[best];
+}
+
+/* Returns the sign of a component where it first exceeds the share DRIVEN of its largest magnitude. */
+static double first_sign(const struct history *h, const struct component *c)
+{
+    const double least = DRIVEN * largest_of(h, c);
+    for (int64_t i = 0; i < h->rows; i++)
+        if (fabs(component_at(h, i, c)) > least) return component_at(h, i, c) < 0 ? -1 : 1;
+    return 1;
+}
+
+/* A curve: one component of the force and of the displacement of a support or rigid body. */
 struct reaction {
     char name[NAME_MAX_LENGTH];
-    struct components force, displacement;
+    bool rigid; /* the force is that on a rigid body, else that of a support on the body */
+    struct component force, displacement;
     int64_t peak; /* row of the largest force */
 };
 struct reactions {
     int n;
+    bool moving; /* a support or rigid body moves */
     struct reaction of[REACTIONS_SHOWN];
-    char over[NAME_MAX_LENGTH]; /* point probe whose displacement all curves use; "": each curve uses its own */
-    double force, displacement; /* largest force [N]; largest displacement while there is a force [m] */
+    char over[NAME_MAX_LENGTH];             /* point probe whose displacement all curves use; "": each its own */
+    struct value_range force, displacement; /* ends of the axes [N] [m], 0 included */
+    double dropped; /* displacement without force up to which the history goes beyond the axis [m]; 0: none */
 };
-
-/* Returns the row of the history h in which the magnitude of the force with the components `force` is largest. */
-static int64_t peak_of(const struct history *h, const struct components *force)
-{
-    int64_t at = 0;
-    for (int64_t i = 1; i < h->rows; i++)
-        if (length_at(h, i, force) > length_at(h, at, force)) at = i;
-    return at;
-}
 
 /* Finds the first column, from column `from` on, whose name is the name of a probe followed by `quantity`. Returns its
  * index and stores the name of the probe in `name`. Returns -1 if there is none. */
@@ -109,61 +136,128 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Appends to r the curves of force against displacement of the rigid bodies that carry a force and move. If `resting`
- * is true, also appends those of bodies that carry a force and do not move. Returns true if one of the appended bodies
- * moves. */
-static bool reactions_add_rigids(struct reactions *r, const struct history *h, bool resting)
+static void reaction_append(struct reactions *r, const struct history *h, const char *name, bool rigid,
+                            const struct component *force, const struct component *displacement)
 {
-    char name[NAME_MAX_LENGTH];
-    bool moving = false;
-    for (int k = 0; (k = probe_from(h, k, "_force_x", name)) >= 0 && r->n < REACTIONS_SHOWN; k++) {
-        struct reaction a = {.force = components_of(h, name, "_", "force_"),
-                             .displacement = components_of(h, name, "_", "")};
-        a.displacement.since = true;
-        const bool moves = longest_of(h, &a.displacement) > 0;
-        if (a.displacement.n == 0 || !(longest_of(h, &a.force) > 0) || !(moves || resting)) continue;
-        moving |= moves;
-        memcpy(a.name, name, sizeof name);
-        a.peak = peak_of(h, &a.force);
-        r->of[r->n++] = a;
-    }
-    return moving;
+    if (r->n == REACTIONS_SHOWN) return;
+    struct reaction *a = &r->of[r->n++];
+    *a = (struct reaction){.rigid = rigid, .force = *force, .displacement = *displacement, .peak = peak_of(h, force)};
+    snprintf(a->name, sizeof a->name, "%s", name);
 }
 
-/* Finds the curves of force against displacement: those of supports that move, and of rigid bodies that move under a
- * force. If none moves, uses all supports and rigid bodies with a force, against the displacement of the first point
- * probe that moves. Stores in *r the curves, the largest force, and the largest displacement while there is a force. */
-static void reactions_find(struct reactions *r, const struct history *h)
+/* Appends to r the curves of a support or rigid body: one for each component along which it is driven. A body that
+ * moves by `still` [m] or less is appended only if `resting` is true: the largest component of its force, without a
+ * displacement. Nothing is appended if there is no force. */
+static void reactions_add(struct reactions *r, const struct history *h, const char *name, bool rigid, double still,
+                          bool resting)
+{
+    const struct components force = components_of(h, name, rigid ? "_" : ".", "force_", false);
+    const struct components displacement =
+        components_of(h, name, rigid ? "_" : ".", rigid ? "" : "displacement_", rigid);
+    if (force.n == 0 || (rigid && displacement.n == 0)) return;
+    const struct component most = main_component(h, &force);
+    if (!(largest_of(h, &most) > 0)) return;
+    double length = 0;
+    for (int d = 0; d < displacement.n; d++) length = fmax(length, largest_of(h, &displacement.of[d]));
+    if (length > still) {
+        r->moving = true;
+        for (int d = 0; d < displacement.n && d < force.n; d++)
+            if (largest_of(h, &displacement.of[d]) >= DRIVEN * length)
+                reaction_append(r, h, name, rigid, &force.of[d], &displacement.of[d]);
+    } else if (resting) {
+        reaction_append(r, h, name, rigid, &most, &most);
+    }
+}
+
+/* Finds the point probe that moves, and makes the largest component of its displacement that of all curves. Removes all
+ * curves if there is no such probe. */
+static void reactions_use_point(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
-    bool moving = false;
-    *r = (struct reactions){0};
-    for (int pass = 0; pass < 2 && r->n == 0; pass++) {
-        moving |= reactions_add_rigids(r, h, pass > 0);
-        for (int k = 0; (k = probe_from(h, k, ".force_x", name)) >= 0 && r->n < REACTIONS_SHOWN; k++) {
-            struct reaction a = {.force = components_of(h, name, ".", "force_"),
-                                 .displacement = components_of(h, name, ".", "displacement_")};
-            const bool moves = longest_of(h, &a.displacement) > 0;
-            moving |= moves;
-            if (!(longest_of(h, &a.force) > 0) || (pass == 0 && !moves)) continue;
-            memcpy(a.name, name, sizeof name);
-            a.peak = peak_of(h, &a.force);
-            r->of[r->n++] = a;
-        }
-    }
-    for (int k = 0; !moving && (k = probe_from(h, k, ".displacement_x", name)) >= 0 && !r->over[0]; k++) {
-        const struct components displacement = components_of(h, name, ".", "displacement_");
-        if (!(longest_of(h, &displacement) > 0)) continue;
+    for (int k = 0; (k = probe_from(h, k, ".displacement_x", name)) >= 0 && !r->over[0]; k++) {
+        const struct components all = components_of(h, name, ".", "displacement_", false);
+        const struct component displacement = main_component(h, &all);
+        if (!(largest_of(h, &displacement) > 0)) continue;
         memcpy(r->over, name, sizeof name);
         for (int m = 0; m < r->n; m++) r->of[m].displacement = displacement;
     }
+}
+
+/* Returns true if all curves show components along one axis, of forces or of displacements. */
+static bool one_axis(const struct reactions *r, bool force)
+{
+    bool one = true;
+    for (int m = 1; m < r->n; m++)
+        one &= force ? r->of[m].force.axis == r->of[0].force.axis
+                     : r->of[m].displacement.axis == r->of[0].displacement.axis;
+    return one;
+}
+
+/* Chooses signs such that curves begin in the first quadrant. The force on a rigid body is opposite to that of a
+ * support, which acts along the motion. Curves along several axes keep the signs of the history, and their names get
+ * their axis. */
+static void reactions_choose_signs(struct reactions *r, const struct history *h)
+{
+    const bool one = one_axis(r, true) && one_axis(r, false);
     for (int m = 0; m < r->n; m++) {
-        const double most = longest_of(h, &r->of[m].force);
-        r->force = fmax(r->force, most);
-        for (int64_t i = 0; i < h->rows; i++)
-            if (length_at(h, i, &r->of[m].force) > FORCE_LEFT * most)
-                r->displacement = fmax(r->displacement, length_at(h, i, &r->of[m].displacement));
+        struct reaction *a = &r->of[m];
+        if (one) {
+            a->displacement.sign = first_sign(h, &a->displacement);
+            a->force.sign = r->over[0] ? first_sign(h, &a->force)
+                            : a->rigid ? -a->displacement.sign
+                                       : a->displacement.sign;
+        } else {
+            const size_t length = strlen(a->name);
+            if (length + 3 <= sizeof a->name) snprintf(a->name + length, 3, " %c", 'x' + a->force.axis);
+        }
     }
+}
+
+static void range_extend(struct value_range *range, double value)
+{
+    range->low = fmin(range->low, value), range->high = fmax(range->high, value);
+}
+
+/* Computes the ends of the axes. Motion after the force has ended is left out where it would fill most of the axis. */
+static void reactions_set_ranges(struct reactions *r, const struct history *h)
+{
+    struct value_range whole = {0, 0};
+    r->force = r->displacement = (struct value_range){0, 0};
+    for (int m = 0; m < r->n; m++) {
+        const struct reaction *a = &r->of[m];
+        int64_t last = 0;
+        for (int64_t i = 0; i < h->rows; i++)
+            if (fabs(component_at(h, i, &a->force)) > FORCE_LEFT * largest_of(h, &a->force)) last = i;
+        for (int64_t i = 0; i < h->rows; i++) {
+            const double metre = component_at(h, i, &a->displacement);
+            range_extend(&r->force, component_at(h, i, &a->force));
+            range_extend(&whole, metre);
+            if (i <= last + 1) range_extend(&r->displacement, metre);
+        }
+    }
+    if (whole.high - whole.low <= REST_SHOWN * (r->displacement.high - r->displacement.low))
+        r->displacement = whole;
+    else
+        r->dropped = whole.high > r->displacement.high ? whole.high : whole.low;
+}
+
+/* Finds the curves of force over displacement: those of supports that move, and of rigid bodies that move under a
+ * force. If none moves, uses all supports and rigid bodies with a force, over the displacement of the first point probe
+ * that moves. still: largest displacement that is round-off [m]. Stores in *r the curves and the ends of the axes. */
+static void reactions_find(struct reactions *r, const struct history *h, double still)
+{
+    char name[NAME_MAX_LENGTH];
+    *r = (struct reactions){0};
+    for (int pass = 0; pass < 2 && r->n == 0; pass++) {
+        for (int k = 0; (k = probe_from(h, k, "_force_x", name)) >= 0; k++)
+            reactions_add(r, h, name, true, still, pass > 0);
+        for (int k = 0; (k = probe_from(h, k, ".force_x", name)) >= 0; k++)
+            reactions_add(r, h, name, false, still, pass > 0);
+    }
+    if (!r->moving) reactions_use_point(r, h);
+    if (!r->moving && !r->over[0]) return;
+    reactions_choose_signs(r, h);
+    reactions_set_ranges(r, h);
 }
 
 /* Returns true if the curves a and b (force against displacement) are nowhere further apart than the width of a line.
@@ -172,9 +266,11 @@ static bool curves_coincide(const struct reactions *r, const struct history *h, 
                             const struct reaction *b)
 {
     for (int64_t i = 0; i < h->rows; i++) {
-        const double newton = length_at(h, i, &a->force) - length_at(h, i, &b->force);
-        const double metre = length_at(h, i, &a->displacement) - length_at(h, i, &b->displacement);
-        if (!(fabs(newton) <= LINE_WIDE * r->force && fabs(metre) <= LINE_WIDE * r->displacement)) return false;
+        const double newton = component_at(h, i, &a->force) - component_at(h, i, &b->force);
+        const double metre = component_at(h, i, &a->displacement) - component_at(h, i, &b->displacement);
+        if (!(fabs(newton) <= LINE_WIDE * (r->force.high - r->force.low) &&
+              fabs(metre) <= LINE_WIDE * (r->displacement.high - r->displacement.low)))
+            return false;
     }
     return true;
 }
@@ -205,8 +301,8 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     for (int m = 0; m < r->n; m++) {
         fprintf(to, "$f%d << EOD\n", m);
         for (int64_t i = 0; i < h->rows; i++)
-            fprintf(to, "%.9g %.9g\n", length_at(h, i, &r->of[m].displacement) / metre.factor,
-                    length_at(h, i, &r->of[m].force) / newton.factor);
+            fprintf(to, "%.9g %.9g\n", component_at(h, i, &r->of[m].displacement) / metre.factor,
+                    component_at(h, i, &r->of[m].force) / newton.factor);
         fputs("EOD\n", to);
     }
 }
@@ -222,8 +318,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
         fprintf(to, "%s$f%d with %s lw 2 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
                 h->rows > POINTS_SHOWN ? "lines" : "linespoints pt 7 ps 0.5", curve_colour[m]);
         gnuplot_write_quoted_string(to, a->name);
-        snprintf(text, sizeof text, "%.4g %s at %.4g %s", length_at(h, a->peak, &a->force) / newton.factor, newton.name,
-                 length_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
+        snprintf(text, sizeof text, "%.4g %s at %.4g %s", component_at(h, a->peak, &a->force) / newton.factor,
+                 newton.name, component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
         fprintf(to, ", $f%d every ::%lld::%lld with points pt 6 ps 2 lw 2 lc rgb '%s' title ", m, (long long)a->peak,
                 (long long)a->peak, curve_colour[CURVE_COLOURS - 1]);
         gnuplot_write_quoted_string(to, text);
@@ -241,14 +337,58 @@ static status say_missing_load(const char *path, const struct reactions *r)
     return report_picture_not_drawn(path, "neither a support nor a rigid body has a force");
 }
 
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history)
+/* Writes the label of an axis of forces or displacements to `text`: `what`, and the direction if all curves have one.
+ * u: unit of the axis. */
+static void write_axis_label(char text[LABEL_ROOM], const struct reactions *r, bool force, const struct unit *u)
+{
+    bool same = true;
+    char direction[8] = "";
+    const struct component *first = force ? &r->of[0].force : &r->of[0].displacement;
+    for (int m = 1; m < r->n; m++) same &= (force ? &r->of[m].force : &r->of[m].displacement)->sign == first->sign;
+    if (one_axis(r, force))
+        snprintf(direction, sizeof direction, " %s%c", !same ? "±" : first->sign < 0 ? "−" : "", 'x' + first->axis);
+    if (force)
+        snprintf(text, LABEL_ROOM, "force%s [%s]", direction, u->name);
+    else
+        snprintf(text, LABEL_ROOM, "displacement%s%s%.63s [%s]", direction, r->over[0] ? " of " : "", r->over, u->name);
+    const size_t length = strlen(text);
+    if (!force && r->dropped != 0)
+        snprintf(text + length, LABEL_ROOM - length, ", without force up to %.3g %s", r->dropped / u->factor, u->name);
+}
+
+/* Writes the gnuplot commands for the axes of the curves r. */
+static void reactions_write_axes(FILE *to, const struct curves_layout *l, const struct reactions *r, struct unit newton,
+                                 struct unit metre)
+{
+    const struct value_range f = r->force, u = r->displacement;
+    const double wide = 0.08 * (u.high - u.low), tall = 0.08 * (f.high - f.low);
+    const double left = (u.low < 0 ? u.low - wide : 0) / metre.factor, right = (u.high + wide) / metre.factor,
+                 bottom = (f.low < 0 ? f.low - tall : 0) / newton.factor, top = (f.high + tall) / newton.factor;
+    char label[LABEL_ROOM];
+    write_horizontal_tics(to, l, left, right);
+    curves_write_tics(to, "y", f.low / newton.factor, f.high / newton.factor, curves_layout_height_of_all_panels(l));
+    fprintf(to,
+            "set zeroaxis lt 1 lw 0.8 lc rgb '#999999'\nset xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\nset ylabel ",
+            left, right, bottom, top > bottom ? top : 1);
+    write_axis_label(label, r, true, &newton);
+    gnuplot_write_quoted_string(to, label);
+    fputs("\nset xlabel ", to);
+    write_axis_label(label, r, false, &metre);
+    gnuplot_write_quoted_string(to, label);
+    putc('\n', to);
+}
+
+static double largest_end(struct value_range range) { return fmax(fabs(range.low), fabs(range.high)); }
+
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, double spacing)
 {
     struct reactions r;
     struct gnuplot g;
-    reactions_find(&r, history);
-    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r);
+    reactions_find(&r, history, ROUND_OFF * spacing);
+    if (!(r.n > 0 && r.displacement.high > r.displacement.low)) return say_missing_load(sheet.path, &r);
     reactions_join(&r, history);
-    const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
+    const struct unit newton = unit_for_largest_value(largest_end(r.force), "N"),
+                      metre = unit_for_length(largest_end(r.displacement));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, history, &r, newton, metre);
     size_t longest = 24; /* 123.4 kN at 123.4 mm */
@@ -256,14 +396,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     curves_write_title(&g, title, "load and displacement");
     const struct curves_layout l = curves_layout_make(&g, 2 * r.n, longest, false);
     curves_write_margins_and_key(g.to, &l);
-    write_horizontal_tics(g.to, &l, 1.15 * r.displacement / metre.factor);
-    curves_write_tics(g.to, "y", 0, r.force / newton.factor, curves_layout_height_of_all_panels(&l));
-    fprintf(g.to, "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
-            1.15 * r.displacement / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
-    char label[3 * NAME_MAX_LENGTH];
-    snprintf(label, sizeof label, "displacement%s%.63s [%s]", r.over[0] ? " of " : "", r.over, metre.name);
-    gnuplot_write_quoted_string(g.to, label);
-    putc('\n', g.to);
+    reactions_write_axes(g.to, &l, &r, newton, metre);
     reactions_plot(g.to, history, &r, newton, metre);
     return gnuplot_close(&g);
 }
@@ -338,7 +471,7 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
             "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack "
             "area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
-    write_horizontal_tics(g.to, &l, 1.03 * grown / square.factor);
+    write_horizontal_tics(g.to, &l, 0, 1.03 * grown / square.factor);
     curves_write_tics(g.to, "y", 0, top / joule.factor, curves_layout_height_of_all_panels(&l));
     release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);

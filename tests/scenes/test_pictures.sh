@@ -479,6 +479,24 @@ END
 holds "two curves that coincide are one: $(cat err)" grep -a -q "title 'probe, up'" all
 is "their peak and the other's" "$(grep -a -o "title '[0-9.]* N at 20 µm'" all | tr '\n' ' ')" "title '900 N at 20 µm' title '700 N at 20 µm' "
 
+# Signed components along which a body is driven: a loop goes round the origin; the part that moves without force ends the axis.
+mkdir signed
+cat >signed/history.csv <<'END'
+time [s],step,load_time [s],up.force_x [N],up.force_y [N],up.displacement_x [m],up.displacement_y [m],base.force_x [N],base.force_y [N],base.displacement_x [m],base.displacement_y [m]
+0,0,0,0,0,0,0,0,0,0,0
+1,1,1,3,-400,0,-1e-5,5,1,1e-24,0
+2,2,2,-3,300,0,1e-5,-5,1,-1e-24,0
+3,3,3,0,0,0,2e-5,0,0,0,0
+4,4,4,0,0,0,2e-4,0,0,0,0
+END
+cp strip.yaml signed/scene.yaml
+: >all
+"$cleave" plot signed $small -o signed/ >out 2>err
+holds "components are named: $(cat err)" grep -a -q "^set ylabel 'force −y \[N\]'" all
+holds "motion without force is named" grep -a -q "^set xlabel 'displacement −y \[µm\], without force up to -200 µm'" all
+holds "a curve that is signed" grep -a -q "^-10 -300$" all
+holds "round-off is no motion" sh -c "! grep -a -q \"title 'base\" all"
+
 # Numbers of five digits below the axis of a column of a journal do not touch: tics every 5000 mm^2.
 mkdir grown
 cat >grown/history.csv <<'END'
