@@ -216,8 +216,9 @@ struct output_frame {
     int dim;
     real t; /* time [s] */
     int64_t step;
-    /* reference position, displacement [m], velocity [m/s], damage [1] */
-    float *X[DIM_MAX], *u[DIM_MAX], *v[DIM_MAX], *damage;
+    real *X[DIM_MAX]; /* reference position [m]; in double precision for bodies far from the origin */
+    /* displacement [m], velocity [m/s], damage [1] */
+    float *u[DIM_MAX], *v[DIM_MAX], *damage;
     float *stress[SYM_MAX]; /* stress [Pa], component order of struct particles; in 2D zz is last */
     uint8_t *kind, *material, *body;
     int32_t *id;

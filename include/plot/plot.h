@@ -210,10 +210,10 @@ struct rigid_shown {
  * [n]. */
 struct plotted_particles {
     int64_t n;
-    float *position[DIM_MAX]; /* current position along the axes of the map [m]; position[2], towards the viewer, is
-                               * NULL for a flat map */
-    float *reference[2];      /* reference position along the axes of the map [m]; NULL: unknown */
-    float *damage;            /* [1] */
+    double *position[DIM_MAX]; /* current position along the axes of the map [m]; position[2], towards the viewer, is
+                                * NULL for a flat map */
+    double *reference[2];      /* reference position along the axes of the map [m]; NULL: unknown */
+    float *damage;             /* [1] */
     uint8_t *kind;
     int32_t *fragment;     /* NULL: unknown */
     int32_t fragments;     /* number of fragments: largest index + 1 */

@@ -186,6 +186,18 @@ static void print_time_apart(const struct pair *p, const struct output_frame *a,
                lammps[0] ? "B" : "A");
 }
 
+/* Returns the largest distance between the reference positions of particles of the same number in two frames [m]. */
+static double largest_start_distance(const struct output_frame *a, const struct output_frame *b)
+{
+    double largest = 0;
+    for (int64_t i = 0; i < a->n; i++) {
+        double apart = 0;
+        for (int d = 0; d < a->dim; d++) apart += square(a->X[d][i] - b->X[d][i]);
+        largest = fmax(largest, sqrt(apart));
+    }
+    return largest;
+}
+
 /* Compares the frames a and b of the two runs particle by particle and prints the differences, or the reason why they
  * cannot be compared. */
 static void compare_particles(struct pair *p, const struct output_frame *a, const struct output_frame *b)
@@ -201,11 +213,11 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
         printf("fields are not compared: %s\n", why);
         return;
     }
-    struct difference start = field_difference(a->X, b->X, a->dim, a->n);
-    if (start.largest > 1e-4 * p->spacing)
+    const double start = largest_start_distance(a, b);
+    if (start > 1e-4 * p->spacing)
         printf("particles of the same number have initial positions in the two runs that are up to %.4g m (%.3g "
                "spacings) apart\n",
-               start.largest, start.largest / p->spacing);
+               start, start / p->spacing);
     print_fields(a, b);
 }
 

@@ -106,10 +106,10 @@ static void frame_fill(struct output_frame *f, const struct lammps_frame *from, 
 {
     f->n = from->n, f->step = from->step, f->dim = lies_in_plane(c) ? 2 : 3;
     for (int d = 0; d < f->dim; d++) {
-        f->X[d] = NEW("frame.X", f->n, float), f->u[d] = NEW("frame.u", f->n, float);
+        f->X[d] = NEW("frame.X", f->n, real), f->u[d] = NEW("frame.u", f->n, float);
         f->v[d] = NEW("frame.v", f->n, float);
         for (int64_t i = 0; i < f->n; i++) {
-            f->X[d][i] = (float)check_at(c, i, c->X[d]), f->v[d][i] = (float)from->v[d][i];
+            f->X[d][i] = check_at(c, i, c->X[d]), f->v[d][i] = (float)from->v[d][i];
             f->u[d][i] = (float)(from->x[d][i] - check_at(c, i, c->X[d]));
         }
     }

@@ -32,6 +32,19 @@ static void read_columns(struct hdf *h, const char *name, int64_t n, int columns
     memory_free(data);
 }
 
+/* Reads the reference positions of n particles in `dim` dimensions into new arrays X[dim][n] [m], which the caller
+ * releases. */
+static void read_reference(struct hdf *h, int64_t n, int dim, real **X)
+{
+    double *data = NEW("frame.columns", n * dim, double);
+    hdf_read_rows(h, "/Cleave/reference", HDF_F64, n * dim, data);
+    for (int d = 0; d < dim; d++) {
+        X[d] = NEW("frame.field", n, real);
+        for (int64_t i = 0; i < n; i++) X[d][i] = data[i * dim + d];
+    }
+    memory_free(data);
+}
+
 static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int64_t n)
 {
     void *data = memory_new("frame.list", n, hdf_type_size(type));
@@ -45,7 +58,7 @@ static void read_fields(struct output_frame *f, struct hdf *h)
 {
     static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
     int dim = f->dim;
-    read_columns(h, "/Cleave/reference", f->n, dim, dim, plain, f->X);
+    read_reference(h, f->n, dim, f->X);
     read_columns(h, "/VTKHDF/PointData/displacement", f->n, 3, dim, plain, f->u);
     read_columns(h, "/VTKHDF/PointData/velocity", f->n, 3, dim, plain, f->v);
     read_columns(h, "/VTKHDF/PointData/stress", f->n, 6, frame_stress_component_count(dim), dim == 2 ? plane : plain,

@@ -33,7 +33,7 @@ static double near_distance(const struct output_frame *f, int64_t i)
     for (int k = 0; k < f->dim; k++) nearest[k] = INFINITY;
     for (int64_t j = 0; j < f->n; j++) {
         double r2 = j == i ? INFINITY : 0;
-        for (int d = 0; d < f->dim; d++) r2 += square((double)f->X[d][j] - f->X[d][i]);
+        for (int d = 0; d < f->dim; d++) r2 += square(f->X[d][j] - f->X[d][i]);
         for (int k = 0; k < f->dim; k++) { /* insert in ascending order */
             if (r2 >= nearest[k]) continue;
             double passed = nearest[k];
@@ -68,11 +68,11 @@ double frame_particle_spacing(const struct output_frame *f)
 
 /* Returns true if the direction from particle i to its nearest neighbour is within 8 degrees of an axis of the map.
  * X[2][n]: reference positions of n particles along the axes of the map [m]. */
-static bool lies_along(float *const *X, int64_t n, int64_t i)
+static bool lies_along(double *const *X, int64_t n, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
     for (int64_t j = 0; j < n; j++) {
-        double a = fabs((double)X[0][j] - X[0][i]), b = fabs((double)X[1][j] - X[1][i]);
+        double a = fabs(X[0][j] - X[0][i]), b = fabs(X[1][j] - X[1][i]);
         if (j == i || a * a + b * b >= best) continue;
         best = a * a + b * b;
         along = fmax(a, b);
@@ -83,7 +83,7 @@ static bool lies_along(float *const *X, int64_t n, int64_t i)
 
 /* Returns true if n particles appear to be on a lattice along the axes of the map: for 90 % of a sample the nearest
  * neighbour is along an axis. X[2][n]: reference positions along the axes of the map [m]. */
-static bool is_aligned(float *const *X, int64_t n)
+static bool is_aligned(double *const *X, int64_t n)
 {
     int64_t samples = sample_count(n), along = 0;
     for (int64_t k = 0; k < samples; k++) along += lies_along(X, n, k * n / samples);
@@ -111,7 +111,7 @@ static int thinnest_direction(const struct output_frame *f)
     for (int d = 0; d < 3; d++) {
         double from, to;
         frame_extent(f, d, &from, &to);
-        if (to - from > thinnest * (1 + 1e-5)) continue; /* tolerance: positions are in single precision */
+        if (to - from > thinnest * (1 + 1e-5)) continue; /* tolerance: round-off */
         thinnest = to - from;
         normal = d;
     }
@@ -201,7 +201,7 @@ struct camera camera_along_axis(int axis, int side)
  * factor on displacements [1]. */
 static void place_now(const struct output_frame *f, int64_t i, double magnify, double *x)
 {
-    for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + magnify * f->u[d][i] : 0;
+    for (int d = 0; d < 3; d++) x[d] = d < f->dim ? f->X[d][i] + magnify * f->u[d][i] : 0;
 }
 
 static double along(const double *direction, const double *x)
@@ -219,9 +219,9 @@ static void cloud_place(struct plotted_particles *c, const struct output_frame *
     for (int d = 0; d < 3; d++) X[d] = d < f->dim ? f->X[d][i] : 0;
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
     for (int a = 0; a < 3; a++)
-        if (c->position[a]) c->position[a][k] = (float)along(axis[a], x);
+        if (c->position[a]) c->position[a][k] = along(axis[a], x);
     for (int a = 0; a < 2; a++) {
-        c->reference[a][k] = (float)along(axis[a], X);
+        c->reference[a][k] = along(axis[a], X);
         c->from[a] = fmin(c->from[a], along(axis[a], X));
         c->to[a] = fmax(c->to[a], along(axis[a], X));
     }
@@ -231,7 +231,7 @@ static void cloud_allocate(struct plotted_particles *c, const struct output_fram
                            const struct projection *projection)
 {
     for (int k = 0; k < (f->dim == 3 && projection->outside ? 3 : 2); k++)
-        c->position[k] = NEW("plot.position", f->n, float);
+        c->position[k] = NEW("plot.position", f->n, double);
     c->damage = NEW("plot.damage", f->n, float);
     c->kind = NEW("plot.kind", f->n, uint8_t);
     if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
@@ -269,7 +269,7 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
                                     .to = {-INFINITY, -INFINITY}};
     cloud_axes(c, f, projection);
     cloud_allocate(c, f, projection);
-    for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, float);
+    for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, double);
     c->gradient = deformation_gradients_fit_to_displacements(f, c->spacing, c->magnify, projection->scene);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;

@@ -10,19 +10,28 @@ enum { SAMPLE_MOST = 100000 }; /* number of values of which quantiles are comput
 
 static int plot_view_ascending(const void *a, const void *b)
 {
-    const float x = *(const float *)a, y = *(const float *)b;
+    const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-/* Copies the finite values among value[n], at most SAMPLE_MOST of them evenly spaced by index, into sample[SAMPLE_MOST]
- * and sorts them in ascending order. Returns their number. */
-static int64_t sample_sorted(float *sample, const float *value, int64_t n)
+/* Copies the finite values among value[n], at most SAMPLE_MOST of them evenly spaced by index, into
+ * sample[SAMPLE_MOST]. Returns their number. */
+static int64_t sample_values(double *sample, const float *value, int64_t n)
 {
     const int64_t stride = n / SAMPLE_MOST + 1;
     int64_t kept = 0;
     for (int64_t i = 0; i < n; i += stride)
         if (isfinite(value[i])) sample[kept++] = value[i];
-    array_sort(sample, kept, sizeof *sample, plot_view_ascending);
+    return kept;
+}
+
+/* Copies finite positions among position[n] [m] as sample_values copies values. */
+static int64_t sample_positions(double *sample, const double *position, int64_t n)
+{
+    const int64_t stride = n / SAMPLE_MOST + 1;
+    int64_t kept = 0;
+    for (int64_t i = 0; i < n; i += stride)
+        if (isfinite(position[i])) sample[kept++] = position[i];
     return kept;
 }
 
@@ -30,17 +39,18 @@ struct span {
     double from, to;
 };
 
-/* Returns the range of value[n] without outliers: omits the largest and the smallest values, the share `share` of the
- * values at each end. Omits `few` values at each end instead, but at most 1/20 of all, if these are more. Values that
- * are not finite are ignored; returns an empty range if there are no others. sample[SAMPLE_MOST]: work array. */
-static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
+/* Returns the range of sample[kept] without outliers: omits the largest and the smallest values, the share `share` of
+ * the values at each end. Omits `few` values at each end instead, but at most 1/20 of all, if these are more. Returns
+ * an empty range if there are no values. Sorts the sample. */
+static struct span bulk_of(double *sample, int64_t kept, double share, int64_t few)
 {
-    const int64_t kept = sample_sorted(sample, value, n), part = (int64_t)(share * (double)(kept - 1));
+    array_sort(sample, kept, sizeof *sample, plot_view_ascending);
+    const int64_t part = (int64_t)(share * (double)(kept - 1));
     const int64_t least = few < kept / 20 ? few : kept / 20, k = part > least ? part : least;
     return kept ? (struct span){sample[k], sample[kept - 1 - k]} : (struct span){INFINITY, -INFINITY};
 }
 
-static struct span values_extent(const float *value, int64_t n)
+static struct span positions_extent(const double *value, int64_t n)
 {
     struct span s = {INFINITY, -INFINITY};
     for (int64_t i = 0; i < n; i++) s.from = fmin(s.from, value[i]), s.to = fmax(s.to, value[i]);
@@ -53,11 +63,11 @@ static struct span values_extent(const float *value, int64_t n)
 static struct span span_along(const struct plotted_particles *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
-    float *sample = NEW("plot.sample", SAMPLE_MOST, float);
+    double *sample = NEW("plot.sample", SAMPLE_MOST, double);
     struct span shown = {INFINITY, -INFINITY}, all = shown;
     for (int c = 0; c < clouds; c++) {
-        const struct span here = values_extent(cloud[c].position[k], cloud[c].n);
-        struct span bulk = bulk_of(sample, cloud[c].position[k], cloud[c].n, SHARE, 0);
+        const struct span here = positions_extent(cloud[c].position[k], cloud[c].n);
+        struct span bulk = bulk_of(sample, sample_positions(sample, cloud[c].position[k], cloud[c].n), SHARE, 0);
         const double beside = BESIDE * (bulk.to - bulk.from);
         all.from = fmin(all.from, here.from), all.to = fmax(all.to, here.to);
         shown.from = fmin(shown.from, fmin(bulk.from - beside, cloud[c].from[k]));
@@ -117,13 +127,13 @@ enum { EXTREMES_LEAST = 3 };
  * a body can be at rest or elastic. Of these a small share of outliers is omitted, and the result is limited to
  * HOT_TIMES the magnitude that the share HOT of them exceeds. Returns 0 if there are none. sample[SAMPLE_MOST]: work
  * array. */
-static double magnitude_of(float *sample, const struct plotted_particles *c, enum field_scale scale, double low)
+static double magnitude_of(double *sample, const struct plotted_particles *c, enum field_scale scale, double low)
 {
     const int64_t stride = c->n / SAMPLE_MOST + 1;
     int64_t n = 0;
     for (int64_t i = 0; i < c->n; i += stride) {
         const double w = scale == BOTH_SIGNS ? fabs(c->value[i]) : c->value[i] - low;
-        if (isfinite(w) && w > 0) sample[n++] = (float)w;
+        if (isfinite(w) && w > 0) sample[n++] = w;
     }
     if (n == 0) return 0;
     array_sort(sample, n, sizeof *sample, plot_view_ascending);
@@ -137,10 +147,11 @@ static double magnitude_of(float *sample, const struct plotted_particles *c, enu
 void view_set_field_and_colour_range(struct view *v, const struct plot_field *field,
                                      const struct plotted_particles *cloud, int frame_count)
 {
-    float *sample = NEW("plot.sample", SAMPLE_MOST, float);
+    double *sample = NEW("plot.sample", SAMPLE_MOST, double);
     double low = field->scale == FROM_LEAST ? INFINITY : 0, high = 0;
     for (int c = 0; c < frame_count && field->scale == FROM_LEAST; c++)
-        low = fmin(low, bulk_of(sample, cloud[c].value, cloud[c].n, EXTREME, EXTREMES_LEAST).from);
+        low =
+            fmin(low, bulk_of(sample, sample_values(sample, cloud[c].value, cloud[c].n), EXTREME, EXTREMES_LEAST).from);
     for (int c = 0; c < frame_count; c++) high = fmax(high, magnitude_of(sample, &cloud[c], field->scale, low));
     memory_free(sample);
     if (!isfinite(low)) low = 0;

@@ -51,7 +51,7 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
     for (int a = 0; a < 3; a++) {
         double sum = 0;
         for (int d = 0; d < dim; d++) sum += axis[a][d] * x[d];
-        if (c->position[a]) c->position[a][c->n] = (float)sum;
+        if (c->position[a]) c->position[a][c->n] = sum;
         if (a < 2) c->from[a] = fmin(c->from[a], sum), c->to[a] = fmax(c->to[a], sum);
     }
     c->size[c->n] = (float)size;
@@ -108,7 +108,7 @@ static void scene_cloud(struct plotted_particles *c, struct run *e, const struct
                                     .camera = s->dim == 3 ? *camera : camera_along_axis(2, 1),
                                     .from = {INFINITY, INFINITY},
                                     .to = {-INFINITY, -INFINITY}};
-    for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->position[a] = NEW("plot.position", room, float);
+    for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->position[a] = NEW("plot.position", room, double);
     c->damage = NEW("plot.damage", room, float);
     c->size = NEW("plot.size", room, float);
     c->colour = NEW("plot.colour", room, struct colour);

@@ -33,7 +33,7 @@ static void *copy_of(const void *from, int64_t n, size_t size)
 static bool set_is_of(const struct film_set *s, const struct output_frame *frame)
 {
     bool same = s->n == frame->n && !s->size == !frame->spacing;
-    for (int d = 0; same && d < frame->dim; d++) same = arrays_equal(s->X[d], frame->X[d], s->n, sizeof(float));
+    for (int d = 0; same && d < frame->dim; d++) same = arrays_equal(s->X[d], frame->X[d], s->n, sizeof(real));
     return same && (!s->size || arrays_equal(s->size, frame->spacing, s->n, sizeof(float)));
 }
 
@@ -41,7 +41,7 @@ static void set_make(struct film_set *s, const struct output_frame *frame)
 {
     const int64_t n = frame->n;
     *s = (struct film_set){.n = n};
-    for (int d = 0; d < frame->dim; d++) s->X[d] = copy_of(frame->X[d], n, sizeof(float));
+    for (int d = 0; d < frame->dim; d++) s->X[d] = copy_of(frame->X[d], n, sizeof(real));
     if (frame->spacing) s->size = copy_of(frame->spacing, n, sizeof(float));
     s->material = copy_of(frame->material, n, sizeof(uint8_t));
     s->body = copy_of(frame->body, n, sizeof(uint8_t));
@@ -203,15 +203,15 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     uint16_t *stored = NEW("report.stored", s->shown, uint16_t);
     int64_t n = 0;
     for (int64_t g = 0; g < s->groups; g++) {
-        for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) mean[g] += (double)s->X[d][s->member[k]];
+        for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) mean[g] += s->X[d][s->member[k]];
         mean[g] /= s->first[g + 1] - s->first[g];
         low = fmin(low, mean[g]), high = fmax(high, mean[g]);
     }
     for (int64_t g = 0; g < s->groups; g++)
         if (!s->hidden[g]) stored[n++] = (uint16_t)lround(high > low ? U16_MOST * (mean[g] - low) / (high - low) : 0);
     json_open(&p->json, NULL, '{');
-    json_write_rounded(&p->json, "low", low, JSON_TIMING);
-    json_write_rounded(&p->json, "high", high, JSON_TIMING);
+    json_write_rounded(&p->json, "low", low, JSON_EXACT);
+    json_write_rounded(&p->json, "high", high, JSON_EXACT);
     page_add_array(p, "of", PAGE_U16, stored, n);
     json_close(&p->json, '}');
     memory_free(stored), memory_free(mean);

@@ -24,7 +24,7 @@ struct film_field {
  * as one. */
 struct film_set {
     int64_t n;
-    float *X[DIM_MAX];        /* [n] reference positions [m] */
+    real *X[DIM_MAX];         /* [n] reference positions [m] */
     float *size;              /* [n] spacing [m]; NULL: that of the film */
     uint8_t *material, *body; /* [n] */
     bool *busy;               /* [n] damaged or yielded in some frame */

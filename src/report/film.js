@@ -307,7 +307,7 @@ function boxOf(frame, magnify) {
     const last = positionsOf(film, frame, magnify);
     for (let d = 0; d < film.dim; d++) {
         const range = (values) => {
-            const sorted = Float32Array.from(values).sort();
+            const sorted = Float64Array.from(values).sort();
             const beyond = film.dim === 1 ? 0 : Math.floor((magnify === 1 ? 0.01 : 0.001) * sorted.length);
             return [sorted[beyond], sorted[sorted.length - 1 - beyond]];
         };

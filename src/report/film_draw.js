@@ -12,7 +12,7 @@ function particlesOf(film, set) {
     if (set.ready) return set.ready;
     const X = set.X.map((axis) => {
         const of = arrayOf(axis.of);
-        return Float32Array.from(of, (v) => axis.low + (axis.high - axis.low) * v / 65535);
+        return Float64Array.from(of, (v) => axis.low + (axis.high - axis.low) * v / 65535);
     });
     const size = set.size ? arrayOf(set.size) : new Float32Array(set.n).fill(film.spacing);
     set.ready =
@@ -60,7 +60,7 @@ function parted(X, i, j, cracks) {
 function positionsOf(film, frame, magnify) {
     const set = particlesOf(film, film.sets[frame.set]);
     return set.X.map((X, d) => {
-        const u = arrayOf(frame.u[d]), scale = magnify * film.reach[d] / 32767, x = new Float32Array(set.n);
+        const u = arrayOf(frame.u[d]), scale = magnify * film.reach[d] / 32767, x = new Float64Array(set.n);
         for (let i = 0; i < set.n; i++) x[i] = X[i] + scale * u[i];
         return x;
     });

@@ -29,7 +29,7 @@ static uint64_t cell_key(const struct film_set *s, const struct film *f, const d
 {
     uint64_t key = (uint64_t)level;
     for (int d = 0; d < DIM_MAX; d++) {
-        const double along = d < f->dim ? floor(((double)s->X[d][i] - from[d]) / f->spacing + 0.25) : 0;
+        const double along = d < f->dim ? floor((s->X[d][i] - from[d]) / f->spacing + 0.25) : 0;
         key = key << KEY_BITS | ((uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level);
     }
     return key;

@@ -24,17 +24,17 @@ static void particles_box(const struct film *f, real *low, real *high)
 static void write_vector(struct page *p, const char *key, const real *value, int n)
 {
     json_open(&p->json, key, '[');
-    for (int k = 0; k < n; k++) json_write_rounded(&p->json, NULL, value[k], JSON_TIMING);
+    for (int k = 0; k < n; k++) json_write_rounded(&p->json, NULL, value[k], JSON_EXACT);
     json_close(&p->json, ']');
 }
 
-/* Writes a surface in `dim` dimensions to the page: its points [points][dim] and its faces [faces][corners], indices of
- * points, as arrays in single precision, in which the indices are exact. */
-static void write_surface(struct page *p, const struct rigid_surface *s, int dim)
+/* Writes a surface in `dim` dimensions to the page: its points [points][dim], relative to centre[dim] [m], and its
+ * faces [faces][corners], indices of points, as arrays in single precision, in which the indices are exact. */
+static void write_surface(struct page *p, const struct rigid_surface *s, const real *centre, int dim)
 {
     const int64_t corners = s->faces * s->corners;
     float *X = NEW("report.X", s->points * dim, float), *corner = NEW("report.corner", corners, float);
-    for (int64_t k = 0; k < s->points * dim; k++) X[k] = (float)s->X[k / dim * DIM_MAX + k % dim];
+    for (int64_t k = 0; k < s->points * dim; k++) X[k] = (float)(s->X[k / dim * DIM_MAX + k % dim] - centre[k % dim]);
     for (int64_t k = 0; k < corners; k++) corner[k] = (float)s->corner[k];
     json_write_integer(&p->json, "corners", s->corners);
     page_add_array(p, "X", PAGE_F32, X, s->points * dim);
@@ -58,7 +58,7 @@ void film_write_rigid_body_surfaces(struct page *p, const struct film *f)
             json_open(&p->json, NULL, '{');
             json_write_text(&p->json, "name", body->name);
             write_vector(p, "centre", at[b].centre, f->dim);
-            write_surface(p, &surface, f->dim);
+            write_surface(p, &surface, at[b].centre, f->dim);
             json_close(&p->json, '}');
             rigid_surface_free(&surface);
         }

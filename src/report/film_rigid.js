@@ -2,7 +2,7 @@
 
 const RIGID = [120, 120, 126], RIGID_BESIDE = 0.3;  // colour; share of the longest edge
 
-// Reads points and faces of a rigid body once.
+// Reads points, relative to the centre, and faces of a rigid body once.
 function rigidOf(body) {
     if (!body.ready) body.ready = {X: arrayOf(body.X), corner: arrayOf(body.corner)};
     return body.ready;
@@ -10,11 +10,11 @@ function rigidOf(body) {
 
 // Present positions of the points of a rigid body, displacements magnified: one array for each axis.
 function rigidPoints(body, at, magnify) {
-    const {X} = rigidOf(body), dim = film.dim, n = X.length / dim, x = at.x.map(() => new Float32Array(n));
+    const {X} = rigidOf(body), dim = film.dim, n = X.length / dim, x = at.x.map(() => new Float64Array(n));
     for (let k = 0; k < n; k++)
         for (let d = 0; d < dim; d++) {
             let sum = body.centre[d] + magnify * (at.x[d] - body.centre[d]);
-            for (let e = 0; e < dim; e++) sum += at.turn[d][e] * (X[k * dim + e] - body.centre[e]);
+            for (let e = 0; e < dim; e++) sum += at.turn[d][e] * X[k * dim + e];
             x[d][k] = sum;
         }
     return x;

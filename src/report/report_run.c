@@ -91,7 +91,7 @@ static void write_pre_cracks(struct page *p, const struct scene *s)
         json_open(&p->json, NULL, '[');
         for (int c = 0; c < s->crack[k].n; c++) {
             json_open(&p->json, NULL, '[');
-            for (int d = 0; d < s->dim; d++) json_write_rounded(&p->json, NULL, s->crack[k].corner[c][d], JSON_TIMING);
+            for (int d = 0; d < s->dim; d++) json_write_rounded(&p->json, NULL, s->crack[k].corner[c][d], JSON_EXACT);
             json_close(&p->json, ']');
         }
         json_close(&p->json, ']');

@@ -85,12 +85,12 @@ static void test_branching(void **state)
     enum { COLUMNS = 400, ROWS = 160 };
     const double spacing = 0.25e-3;
     struct output_frame f = {.n = (int64_t)COLUMNS * ROWS, .dim = 2};
-    for (int d = 0; d < 2; d++) f.X[d] = calloc((size_t)f.n, sizeof(float));
+    for (int d = 0; d < 2; d++) f.X[d] = calloc((size_t)f.n, sizeof(real));
     f.damage = calloc((size_t)f.n, sizeof(float));
     for (int64_t i = 0; i < f.n; i++) {
         const double x = ((double)(i % COLUMNS) + 0.5) * spacing, y = ((double)(i / COLUMNS) + 0.5) * spacing;
         const double off = x > 50e-3 ? (x - 50e-3) * tan(20 * M_PI / 180) : 0;
-        f.X[0][i] = (float)x, f.X[1][i] = (float)y;
+        f.X[0][i] = x, f.X[1][i] = y;
         f.damage[i] = fabs(fabs(y - 20e-3) - off) < spacing ? 0.5f : 0;
     }
     const struct branching b = branching_find_in_frame(&f, spacing);

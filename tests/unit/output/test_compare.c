@@ -287,7 +287,7 @@ static void runs_of_lammps_are_read(void **state)
         "ITEM: ATOMS id x y z vx vy vz c_damage \n1 2e-4 0 0 3 -5 0 0.25\n2 3e-3 9.2e-3 0 0 7 0 0.5\n");
     assert_int_equal(lammps_run_read_frame(&f, "lammps", 40), OK);
     assert_true(f.n == 2 && f.dim == 2 && f.step == 40 && fabs(f.t / 1e-6 - 1) < 1e-12);
-    assert_true(fabs(f.u[0][0] + 1.3e-3) < 1e-9 && fabs(f.u[1][1] - 2.2e-3) < 1e-9 && f.X[1][1] == 7e-3F);
+    assert_true(fabs(f.u[0][0] + 1.3e-3) < 1e-9 && fabs(f.u[1][1] - 2.2e-3) < 1e-9 && fabs(f.X[1][1] - 7e-3) < 1e-15);
     assert_true(f.v[1][0] == -5 && f.v[1][1] == 7);
     assert_true(fabs(f.damage[0] - 0.55) < 1e-6 && fabs(f.damage[1] - 0.5) < 1e-6);
     frame_free(&f);

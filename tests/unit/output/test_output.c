@@ -90,7 +90,7 @@ static void check_frame(const struct output_frame *f, const struct particles *p)
         int64_t i = p->n - 1 - k; /* ids are in reverse order */
         assert_int_equal(f->id[k], p->id[i]);
         for (int d = 0; d < p->dim; d++) {
-            assert_true(f->X[d][k] == (float)p->X[d][i]);
+            assert_true(f->X[d][k] == p->X[d][i]);
             assert_true(f->u[d][k] == (float)(p->x[d][i] - p->X[d][i]));
             assert_true(f->v[d][k] == (float)p->v[d][i]);
         }

@@ -277,7 +277,7 @@ static void complete_frames_are_read(void **state)
     assert_int_equal(file_append_checksum_footer("complete.hdf"), OK);
     assert_int_equal(file_replace_by_temporary("complete.hdf"), OK);
     assert_int_equal(frame_read(&f, "complete.hdf"), OK);
-    assert_true(f.n == 500 && f.t == 0.5 && f.step == 7 && f.X[2][9] == (float)p.X[2][9]);
+    assert_true(f.n == 500 && f.t == 0.5 && f.step == 7 && f.X[2][9] == p.X[2][9]);
     frame_free(&f);
     particles_free(&p);
 }

@@ -23,10 +23,10 @@ static struct output_frame block_make(int nx, int ny, int nz, int dim)
     const int count[3] = {nx, ny, nz};
     struct output_frame f = {.n = (int64_t)nx * ny * nz, .dim = dim};
     for (int d = 0; d < dim; d++) {
-        f.X[d] = NEW("test.X", f.n, float), f.u[d] = NEW("test.u", f.n, float), f.v[d] = NEW("test.v", f.n, float);
+        f.X[d] = NEW("test.X", f.n, real), f.u[d] = NEW("test.u", f.n, float), f.v[d] = NEW("test.v", f.n, float);
         for (int64_t i = 0; i < f.n; i++) {
             const int64_t k = d == 0 ? i % nx : d == 1 ? i / nx % ny : i / nx / ny;
-            f.X[d][i] = (float)(((double)k + 0.5 - 0.5 * count[d]) * SPACING);
+            f.X[d][i] = ((double)k + 0.5 - 0.5 * count[d]) * SPACING;
         }
     }
     for (int k = 0; k < frame_stress_component_count(dim); k++) f.stress[k] = NEW("test.stress", f.n, float);
@@ -337,7 +337,7 @@ static void stretched_bodies_are_closed(void **state)
         struct plotted_particles c;
         int painted, blank;
         block_deform(&f, H[k % 3], k == 3 ? 3 * SPACING : 0);
-        for (int64_t i = 0; i < f.n && k == 3; i++) f.damage[i] = fabsf(f.X[1][i]) < 1.1 * SPACING ? 0.4F : 0;
+        for (int64_t i = 0; i < f.n && k == 3; i++) f.damage[i] = fabs(f.X[1][i]) < 1.1 * SPACING ? 0.4F : 0;
         plotted_particles_select_from_frame(&c, &f, NULL);
         pixels_count(&c, 5 * SPACING, &painted, &blank);
         if (k < 3) assert_int_equal(blank, 0);
@@ -359,7 +359,7 @@ static void stretched_solids_are_closed(void **state)
     struct output_frame f = block_make(10, 8, 6, 3);
     struct plotted_particles c;
     int painted, blank;
-    for (int64_t i = 0; i < f.n; i++) f.u[0][i] = 0.5F * f.X[0][i];
+    for (int64_t i = 0; i < f.n; i++) f.u[0][i] = (float)(0.5 * f.X[0][i]);
     plotted_particles_select_from_frame(
         &c, &f, &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
     pixels_count(&c, 10 * SPACING, &painted, &blank);
@@ -384,11 +384,11 @@ static int columns_with_line(const struct colour *pixel, int size)
 
 /* A slit of a mesh, which causes no damage, is a line that ends at the body's edge, and opens where it opens. Its faces
  * are lines over its whole length of 12 of 30 spacings, opened or not, also in a picture with less than a pixel for a
- * spacing. */
+ * spacing, 2.5 km from the origin. */
 static void slits_are_lines_of_the_body(void **state)
 {
     (void)state;
-    real end[2][DIM_MAX] = {{-20e-3, 0}, {0, 0}};
+    real far = 2500, end[2][DIM_MAX] = {{far - 20e-3, 0}, {far, 0}};
     struct crack slit = {.n = 2, .corner = end};
     struct scene scene = {.dim = 2, .cracks = 1, .crack = &slit};
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
@@ -396,10 +396,11 @@ static void slits_are_lines_of_the_body(void **state)
         struct output_frame f = block_make(24, 20, 1, 2);
         struct plotted_particles c;
         int line = 0, blank = 0;
-        for (int64_t i = 0; i < f.n && open; i++)
-            if (f.X[0][i] < 0 && f.X[1][i] > 0) f.u[1][i] = (float)(-0.3 * f.X[0][i]);
+        for (int64_t i = 0; i < f.n; f.X[0][i++] += far)
+            if (open && f.X[0][i] < 0 && f.X[1][i] > 0) f.u[1][i] = (float)(-0.3 * f.X[0][i]);
         plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
-        const struct view v = {.from = {-15e-3, -15e-3}, .to = {15e-3, 15e-3}, .top = 1, .notches = 1, .notch = &slit};
+        const struct view v = {
+            .from = {far - 15e-3, -15e-3}, .to = {far + 15e-3, 15e-3}, .top = 1, .notches = 1, .notch = &slit};
         raster_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
         for (int q = 0; q < PIXELS * PIXELS; q++) {
             line += pixel[q].alpha && pixel[q].green < 100;

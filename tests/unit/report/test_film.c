@@ -22,14 +22,14 @@ static void plate_make(struct film *f)
     f->set = memory_ensure_capacity("test.sets", NULL, 1, sizeof *f->set);
     struct film_set *s = f->set;
     const int n = s->n = NX * NY;
-    for (int d = 0; d < 2; d++) s->X[d] = NEW("test.X", n, float);
+    for (int d = 0; d < 2; d++) s->X[d] = NEW("test.X", n, real);
     s->material = NEW("test.material", n, uint8_t), s->body = NEW("test.body", n, uint8_t);
     s->busy = NEW("test.busy", n, bool), s->history = NEW("test.history", n, uint32_t);
     s->level = NEW("test.level", n, uint8_t), s->first = NEW("test.first", n + 1, int32_t);
     s->member = NEW("test.member", n, int32_t), s->hidden = NEW("test.hidden", n, bool);
     for (int i = 0; i < n; i++) {
-        s->X[0][i] = (float)(0.013 + (i % NX + 0.5) * H);
-        s->X[1][i] = (float)(-0.002 + (i / NX + 0.5) * H);
+        s->X[0][i] = 0.013 + (i % NX + 0.5) * H;
+        s->X[1][i] = -0.002 + (i / NX + 0.5) * H;
         s->busy[i] = i / NX == 20 && i % NX >= 10;
     }
 }
@@ -57,11 +57,11 @@ static void groups_cover_the_body(void **state)
             for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) {
                 busy += s->busy[s->member[k]];
                 if (s->busy[s->member[k]]) assert_int_equal(n, 1);
-                for (int d = 0; d < 2; d++) moment[d] += size * size * (double)s->X[d][s->member[k]] / n;
+                for (int d = 0; d < 2; d++) moment[d] += size * size * s->X[d][s->member[k]] / n;
             }
         }
         for (int i = 0; i < s->n; i++)
-            for (int d = 0; d < 2; d++) wanted[d] += H * H * (double)s->X[d][i];
+            for (int d = 0; d < 2; d++) wanted[d] += H * H * s->X[d][i];
         assert_int_equal(members, NX * NY);
         assert_int_equal(busy, NX - 10);
         /* sums of two thousand terms, each rounded to 1e-16 of the largest */
