@@ -19,6 +19,9 @@ enum { BELOW_NARROW = 62, BELOW_OUTSIDE_NARROW = 78 };
 enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
 static const double SHAPE_WANTED = 0.72;  /* height of the picture divided by its width */
 static const double TALL_MOST = 1.5;      /* the same of a narrow picture of which the width alone is given */
+enum { PAGE_HEIGHT = 1300 };              /* of such a picture whose panels do not fit into this: 230 mm [pixel] */
+enum { PANEL_TITLE = 11 };                /* letters of the title of a panel, as `t = 12.3 µs` */
+static const double DOES_NOT_FIT = 1e3;   /* more than any other cost of a layout */
 static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger by 6 % of their area */
 
 bool map_has_colour_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
@@ -68,15 +71,32 @@ static void strip_set(struct layout *l, int width)
     l->below = l->axes + (l->bar_under ? BAR_STRIP : 0) + (lines > 0 ? lines * KEY_ROW + KEY_UNDER : 0);
 }
 
-/* Returns the layout of a picture with `panels` panels in `columns` columns. aspect: height of a panel divided by its
- * width; margins: layout in which the margins of the panels are set. */
-static struct layout layout_of(int columns, int panels, double aspect, const struct layout *margins)
+/* Returns the largest height of a picture [pixel]. tall: of which the width alone is given, the height of a page. */
+static double height_most(bool tall)
+{
+    const struct picture_size given = picture_size_get();
+    if (given.height || !given.width) return given.height ? given.height : HEIGHT_MAX;
+    return tall ? PAGE_HEIGHT : fmin(HEIGHT_MAX, TALL_MOST * given.width);
+}
+
+/* Returns true if the panels of a layout have room in a picture of the size that the user has chosen, and their titles
+ * beside one another. more: width of the picture beyond what the layout needs [pixel]; height: largest height of the
+ * picture [pixel]. */
+static bool panels_fit(const struct layout *l, int more, double height)
+{
+    const double letter = picture_is_too_narrow_for_key() ? KEY_LETTER_NARROW : KEY_LETTER;
+    return more >= 0 && l->above + l->below + (l->rows - 1) * GAP_Y + l->rows * l->panel_height <= height + 1 &&
+           (l->columns == 1 || l->panel_width + l->gap >= PANEL_TITLE * letter);
+}
+
+/* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height over width of a
+ * panel; height: largest height of the picture [pixel]; margins: layout with the margins of the panels. */
+static struct layout layout_of(int columns, int panels, double aspect, double height, const struct layout *margins)
 {
     struct layout l = *margins;
     l.columns = columns, l.rows = (panels + columns - 1) / columns;
     const struct picture_size given = picture_size_get();
     const int width = given.width ? given.width : panels == 1 ? WIDTH_SINGLE : WIDTH;
-    const double height = given.height ? given.height : given.width ? fmin(HEIGHT_MAX, TALL_MOST * width) : HEIGHT_MAX;
     const int between_x = (columns - 1) * l.gap, between_y = (l.rows - 1) * GAP_Y;
     strip_set(&l, width);
     double panel = fmax((width - l.left - l.right - between_x) / columns, PANEL_MIN);
@@ -84,25 +104,30 @@ static struct layout layout_of(int columns, int panels, double aspect, const str
     l.panel_width = (int)fmax(lround(panel), PANEL_MIN);
     l.panel_height = (int)fmax(lround(panel * aspect), PANEL_MIN);
     l.width = l.left + l.right + between_x + columns * l.panel_width;
-    const int more = given.width - l.width;
+    const int more = given.width ? given.width - l.width : 0;
     if (given.width) l.width = given.width, l.left += more / 2, l.right += more - more / 2; /* centred */
-    l.spare = given.width ? more : 0;
+    l.spare = more;
     strip_set(&l, l.width);
+    l.fits = panels_fit(&l, more, height);
     l.height = given.height ? given.height : l.above + l.below + between_y + l.rows * l.panel_height;
     return l;
 }
 
-/* Returns the layout of a picture with `panels` panels in `columns` columns. It is computed twice, because the width of
- * a colour bar on the right depends on the height of the panels: beside low panels its unit needs a second line. under:
- * true if the colour bar or key (legend) is below the panels; aspect: height of a panel divided by its width. */
-static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect)
+/* Returns the layout of a picture of `panels` panels in `columns` columns. It is computed twice, because the width of a
+ * colour bar on the right depends on the height of the panels: beside low panels its unit needs a second line. under:
+ * the colour bar or key is below the panels; aspect: height over width of a panel; height: largest height of the
+ * picture [pixel]. */
+static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect,
+                                    double height)
 {
-    struct layout margins = margins_of(m, under, NULL), l = layout_of(columns, panels, aspect, &margins);
+    struct layout margins = margins_of(m, under, NULL), l = layout_of(columns, panels, aspect, height, &margins);
     margins = margins_of(m, under, &l);
-    return layout_of(columns, panels, aspect, &margins);
+    return layout_of(columns, panels, aspect, height, &margins);
 }
 
-struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width)
+/* Returns the best layout of at most the given height [pixel], one whose panels fit if there is any. */
+static struct layout layout_best(const struct maps_shown *shown, int panel_count, double height_over_width,
+                                 double height)
 {
     const bool choice =
         picture_is_too_narrow_for_key() && (map_has_colour_bar(shown->map) || shown->map == MAP_CATEGORY);
@@ -112,15 +137,34 @@ struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count
     double best_cost = INFINITY;
     for (int under = 0; under < 1 + choice; under++)
         for (int columns = 1; columns <= panel_count; columns++) {
-            const struct layout l = layout_settled(shown, under, columns, panel_count, height_over_width);
+            const struct layout l = layout_settled(shown, under, columns, panel_count, height_over_width, height);
             const double area = (double)l.panel_width * l.panel_height;
             const double tall = log((double)l.height / l.width / SHAPE_WANTED);
             const double shape = fixed ? 0 : picture_size_get().width ? fmax(tall, 0) : fabs(tall);
             double cost = shape - 0.5 * log(area) + under * BESIDE_BETTER + (fixed ? (double)l.spare / l.width : 0);
             cost += 0.2 * (l.rows * l.columns - panel_count); /* empty panels */
+            cost += l.fits ? 0 : DOES_NOT_FIT;
             if (cost >= best_cost) continue;
             best_cost = cost;
             best = l;
         }
     return best;
+}
+
+struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width)
+{
+    const struct layout l = layout_best(shown, panel_count, height_over_width, height_most(false));
+    return l.fits ? l : layout_best(shown, panel_count, height_over_width, height_most(true));
+}
+
+status maps_layout_check_panels_fit(const struct maps_shown *shown, int panel_count, double height_over_width)
+{
+    int fit = panel_count;
+    if (!picture_size_get().width) return OK;
+    while (fit > 1 && !maps_layout_choose(shown, fit, height_over_width).fits) fit--;
+    if (fit == panel_count || panel_count == 1) return OK;
+    return status_set(REFUSED,
+                      "plot: --size: %d panels do not fit into a picture of this size, %d do; choose fewer frames "
+                      "(--frames) or a larger size",
+                      panel_count, fit);
 }

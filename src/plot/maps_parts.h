@@ -28,6 +28,7 @@ struct layout {
     int left, above, below, gap;   /* margins of the panels; distance of columns [pixel] */
     int title;                     /* distance of the title from the left edge [pixel] */
     int right;                     /* width of the colour bar or key on the right [pixel] */
+    bool fits;                     /* the panels and their titles have room in the picture */
     int spare;                     /* blank beside panels that fill the height before the width [pixel] */
     bool bar_under, key_beside; /* colour bar below the panels, else on their right; key on their right, else below */
     int axes;                   /* height of tics and label below the panels [pixel] */
@@ -49,8 +50,11 @@ static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
  * of panels; height_over_width: height of a panel divided by its width. */
 struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width);
 
-/* Returns true if a map of the quantity `map` has a colour bar, as all maps except those of fragments and of named
- * values have. */
+/* Returns REFUSED, with the number of panels that fit, if the panels have no room in a picture of the size that the
+ * user has chosen. A single panel is not refused. Arguments as of maps_layout_choose. */
+status maps_layout_check_panels_fit(const struct maps_shown *shown, int panel_count, double height_over_width);
+
+/* Returns true if a map of the kind `map` has a colour bar. */
 bool map_has_colour_bar(enum map map);
 
 /* Returns the width [pixel] of the longest number at the tics (labelled marks) of an axis. low, high: values at the

@@ -60,8 +60,9 @@ status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum ma
     bool rigid = false;
     for (int k = 0; k < frame_count; k++) rigid = rigid || rigids_are_visible(view, &cloud[k]);
     map_key_make(&shown.key, map, view, rigid);
-    const struct layout l =
-        maps_layout_choose(&shown, frame_count, (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]));
+    const double aspect = (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]);
+    TRY(maps_layout_check_panels_fit(&shown, frame_count, aspect));
+    const struct layout l = maps_layout_choose(&shown, frame_count, aspect);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("set multiplot\nunset grid\n", g.to);
     gnuplot_write_title(&g, text, l.title);

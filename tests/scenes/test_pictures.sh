@@ -534,6 +534,7 @@ is "a picture of others" "$(cat elsewhere/energy.png)" mine
 is "plot -o FOLDER --overwrite: $(cat err)" $? 0
 holds "it is replaced" sh -c "head -c 4 elsewhere/energy.png | grep -q PNG"
 refused "a folder with / at its end" held2 -o a.folder
+refused "5 panels do not fit into a picture of this size" held2 --field speed --size 53mmx40mm
 
 # A stand-in for ffmpeg: it reads pictures, writes a film of one box, and can fail or wait.
 cat >bin/ffmpeg <<'END'
