@@ -34,6 +34,30 @@ static double place_along(const struct faces *f, const double *X, double *off)
     return f->along[0] * x + f->along[1] * y;
 }
 
+/* Returns true if particle i, with the given coordinate s along the pre-crack and distance `off` from it [m], is beside
+ * the pre-crack f. */
+static bool is_beside(const struct faces *f, const struct plotted_particles *c, int64_t i, double s, double off)
+{
+    const double reach = BESIDE * (c->size ? c->size[i] : c->spacing);
+    return fabs(off) <= reach && s >= -0.5 * f->section && s <= f->length + 0.5 * f->section;
+}
+
+/* Moves the pre-crack f to the middle between the edges of the particles on its two sides, where the gap is that opens.
+ * A pre-crack along the lattice may be anywhere between two rows, one across it hardly moves. */
+static void faces_move_between_particles(struct faces *f, const struct plotted_particles *c)
+{
+    double edge[2] = {INFINITY, INFINITY}; /* distance of the nearest edge on each side [m] */
+    for (int64_t i = 0; i < c->n; i++) {
+        double off;
+        const double s = place_along(f, (double[]){c->reference[0][i], c->reference[1][i]}, &off);
+        const double half = 0.5 * (c->size ? c->size[i] : c->spacing);
+        if (is_beside(f, c, i, s, off)) edge[off < 0] = fmin(edge[off < 0], fabs(off) - half);
+    }
+    if (!isfinite(edge[0] + edge[1])) return;
+    f->from[0] -= 0.5 * (edge[0] - edge[1]) * f->along[1];
+    f->from[1] += 0.5 * (edge[0] - edge[1]) * f->along[0];
+}
+
 /* Adds the displacement of particle i to that of the adjacent face of the pre-crack. Does nothing if the particle is
  * farther from the pre-crack than BESIDE spacings or badly damaged. Each face is divided into sections along the
  * pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by the deformation
@@ -44,7 +68,7 @@ static void face_add_motion(struct faces *f, const struct plotted_particles *c, 
     double off, u[2];
     const double s = place_along(f, X, &off);
     const double reach = BESIDE * (c->size ? c->size[i] : c->spacing);
-    if (fabs(off) > reach || s < -0.5 * f->section || s > f->length + 0.5 * f->section || c->damage[i] > RUBBLE) return;
+    if (!is_beside(f, c, i, s, off) || c->damage[i] > RUBBLE) return;
     const double xi[2] = {off * f->along[1], -off * f->along[0]}; /* from the particle to the face */
     for (int a = 0; a < 2; a++) {
         u[a] = c->position[a][i] - X[a];
@@ -152,6 +176,7 @@ void notches_paint_crack_faces(struct colour *pixel, int width, int height, cons
                                           v->notch[k].corner[1][1] - v->notch[k].corner[0][1]) > 0))
             continue;
         faces_make(&f, &v->notch[k], 2 * c->spacing);
+        faces_move_between_particles(&f, c);
         for (int64_t i = 0; i < c->n; i++) face_add_motion(&f, c, i);
         faces_paint(pixel, width, height, v, &f, map == MAP_DAMAGE ? FACE : GAP);
         for (int side = 0; side < 2; side++) memory_free(f.u[side]), memory_free(f.weight[side]);
