@@ -48,6 +48,13 @@ struct projection {
     const struct scene *scene;      /* scene as run, for its pre-cracks and rigid bodies; NULL: unknown; borrowed */
 };
 
+/* Returns true if the run computes one equilibrium: the times of its frames are those of the loads. */
+bool projection_is_equilibrium(const struct projection *projection);
+
+/* Writes to `text` what a picture calls a frame of load steps or of an equilibrium: `load step 3`. Returns false and
+ * writes "" for a frame of a run in time. t: time of the frame [s]; step: number of the load step. */
+bool frame_write_state(char text[NAME_MAX_LENGTH], bool in_steps, bool equilibrium, double t, int64_t step);
+
 /* Options of `cleave plot`. */
 struct plot_request {
     const char *folder;      /* folder of the run */

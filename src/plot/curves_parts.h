@@ -138,14 +138,16 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
  * picture. Returns FAILED if history.csv cannot be read or gnuplot fails. */
 status history_curves_draw(const struct plot_request *request, const char *title);
 
-/* Draws velocity, stress and damage against the position along a one-dimensional bar, one curve for each of
- * frame[frame_count], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
-status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frame_count);
-
-/* Draws one field against the position along a one-dimensional bar, one curve for each of frame[frame_count], to the
- * file `sheet`. title: heading of the picture; value_of_frame[k]: values of the field at the particles of frame k.
+/* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
+ * frame[frame_count], to the file `sheet`. title: heading of the picture; projection: tells load steps from times.
  * Returns FAILED if gnuplot fails. */
-status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+status bar_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
+                         const struct output_frame *frame, int frame_count);
+
+/* Draws the field projection->field over the position along a one-dimensional bar, one curve for each of
+ * frame[frame_count], to the file `sheet`. title: heading of the picture; value_of_frame[k]: values of the field at the
+ * particles of frame k. Returns FAILED if gnuplot fails. */
+status field_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                            float *const *value_of_frame, const struct output_frame *frame, int frame_count);
 
 /* Finds an EXACT probe, which compares a bar with a closed-form solution, by its profiles in the folder of a run.

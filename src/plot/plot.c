@@ -166,8 +166,8 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
     struct output_frame *f = NULL;
     TRY(frames_read_selected(&f, r->folder, frames));
     picture_compose_title(title, r, "profiles", NULL, NULL);
-    const status s =
-        bar_profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, f, frames->shown);
+    const status s = bar_profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title,
+                                       &r->projection, f, frames->shown);
     frames_free(f, frames->shown);
     return s;
 }

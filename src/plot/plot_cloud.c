@@ -255,15 +255,13 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
 {
     struct projection open = {.normal = -1};
     if (!projection) (void)projection_complete_slice_from_particles(&open, f), projection = &open;
-    const struct scene *scene = projection->scene;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
                                     .t = f->t,
                                     .spacing = frame_particle_spacing(f),
                                     .magnify = projection->magnify > 0 ? projection->magnify : 1,
                                     .in_steps = projection->in_steps,
-                                    .equilibrium =
-                                        scene && (scene->solver == SOLVER_RELAXATION || scene->solver == SOLVER_CG),
+                                    .equilibrium = projection_is_equilibrium(projection),
                                     .step = f->step,
                                     .from = {INFINITY, INFINITY},
                                     .to = {-INFINITY, -INFINITY}};

@@ -133,7 +133,7 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
                             run_frame_path(r->folder, frames->show[k].number).text);
     field_title(title, r, NULL, NULL);
     if (s == OK)
-        s = field_profiles_draw((struct sheet){path, r->format}, title, r->projection.field, value, f, frames->shown);
+        s = field_profiles_draw((struct sheet){path, r->format}, title, &r->projection, value, f, frames->shown);
     for (int k = 0; k < frames->shown; k++) memory_free(value[k]);
     memory_free(value);
     frames_free(f, frames->shown);

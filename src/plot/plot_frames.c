@@ -150,6 +150,22 @@ status picture_choose_path(struct path *path, const char *option_argument, const
                       path->text);
 }
 
+bool projection_is_equilibrium(const struct projection *projection)
+{
+    const struct scene *s = projection->scene;
+    return s && (s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG);
+}
+
+bool frame_write_state(char text[NAME_MAX_LENGTH], bool in_steps, bool equilibrium, double t, int64_t step)
+{
+    text[0] = '\0';
+    if (equilibrium)
+        snprintf(text, NAME_MAX_LENGTH, "%s", t > 0 ? "equilibrium" : "without loads");
+    else if (in_steps)
+        snprintf(text, NAME_MAX_LENGTH, "load step %lld", (long long)step);
+    return text[0] != '\0';
+}
+
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
 /* Prints that the picture `path` is not drawn, with the reason `reason`, and removes an older picture of this name if

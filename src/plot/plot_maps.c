@@ -26,14 +26,12 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         step[k] = (view->to[k] - view->from[k]) / metre.factor / size[k];
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
     }
-    fputs("set title '", to);
-    if (c->equilibrium)
-        fputs(c->t > 0 ? "equilibrium" : "without loads", to);
-    else if (c->in_steps)
-        fprintf(to, "load step %lld", (long long)c->step);
+    char state[NAME_MAX_LENGTH];
+    if (frame_write_state(state, c->in_steps, c->equilibrium, c->t, c->step))
+        fprintf(to, "set title '%s'", state);
     else
-        fprintf(to, "t = %.3g %s", c->t / second->factor, second->name);
-    fputs("' font ',13' offset 0,-0.5\n", to);
+        fprintf(to, "set title 't = %.3g %s'", c->t / second->factor, second->name);
+    fputs(" font ',13' offset 0,-0.5\n", to);
     if (c->position[2])
         fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\nunset arrow\n", to);
     else

@@ -8,8 +8,9 @@
 
 /* A particle of a profile. loose: it belongs to a piece of at most LOOSE_MOST particles. */
 struct station {
-    float x, value[3]; /* position; velocity, stress, damage, or a field in value[0] */
-    int32_t fragment;  /* index of its fragment; -1: none, or the frame does not have it */
+    double x;         /* position [m] */
+    float value[3];   /* velocity, stress, damage, or a field in value[0] */
+    int32_t fragment; /* index of its fragment; -1: none, or the frame does not have it */
     bool loose;
 };
 
@@ -17,7 +18,8 @@ struct station {
 struct bar_profile {
     struct station *at;
     int64_t n;
-    double t; /* time [s] */
+    double t;                    /* time [s] */
+    char label[NAME_MAX_LENGTH]; /* load step or equilibrium; "": the time */
 };
 
 /* SEPARATED: distance of neighbours at which a bar has separated [spacings]. ALL_BONDS: damage above which a particle
@@ -29,7 +31,7 @@ enum { LOOSE_MOST = 2 };
 
 static int plot_curves_by_place(const void *a, const void *b)
 {
-    float x = ((const struct station *)a)->x, y = ((const struct station *)b)->x;
+    const double x = ((const struct station *)a)->x, y = ((const struct station *)b)->x;
     return (x > y) - (x < y);
 }
 
@@ -42,10 +44,12 @@ static bool stations_are_parted(const struct station *a, const struct station *b
 }
 
 /* Makes the profile of a frame. value: values of a field at its particles, or NULL for velocity, stress and damage;
- * spacing: of the particles [m]. Release its particles with memory_free. */
-static struct bar_profile profile_make(const struct output_frame *f, const float *value, double spacing)
+ * spacing: of the particles [m]; projection: names load steps. Release its particles with memory_free. */
+static struct bar_profile profile_make(const struct output_frame *f, const float *value, double spacing,
+                                       const struct projection *projection)
 {
-    struct bar_profile p = {NEW("plot.profile", f->n, struct station), f->n, f->t};
+    struct bar_profile p = {NEW("plot.profile", f->n, struct station), f->n, f->t, ""};
+    (void)frame_write_state(p.label, projection->in_steps, projection_is_equilibrium(projection), f->t, f->step);
     for (int64_t i = 0; i < f->n; i++)
         p.at[i] = (struct station){.x = f->X[0][i] + f->u[0][i],
                                    .value = {value ? value[i] : f->v[0][i], f->stress[0][i], f->damage[i]},
@@ -65,7 +69,7 @@ static void profiles_free(struct bar_profile *profile, int profiles)
     memory_free(profile);
 }
 
-static float station_number(const struct station *s, int column) { return column < 0 ? s->x : s->value[column]; }
+static double station_number(const struct station *s, int column) { return column < 0 ? s->x : s->value[column]; }
 
 /* Returns the range of the position (column -1) or of value number `column` in profile[profiles], without loose
  * particles unless there are no others, or `loose` is true. */
@@ -75,7 +79,7 @@ static struct value_range profiles_range(const struct bar_profile *profile, int 
     for (int pass = 0; pass < 2 && !(e.low <= e.high); pass++)
         for (int k = 0; k < profiles; k++)
             for (int64_t i = 0; i < profile[k].n; i++) {
-                const float a = station_number(&profile[k].at[i], column);
+                const double a = station_number(&profile[k].at[i], column);
                 if (profile[k].at[i].loose && pass == 0 && !loose) continue;
                 e.low = fmin(e.low, a), e.high = fmax(e.high, a);
             }
@@ -146,8 +150,8 @@ static void profiles_send(FILE *to, const struct bar_profile *profile, int profi
                 const struct station *s = &profile[k].at[i];
                 if (loose && !s->loose) continue;
                 if (!loose && i > 0 && stations_are_parted(s - 1, s, spacing)) putc('\n', to);
-                fprintf(to, "%.7g %.7g %.7g %.7g\n", s->x / factor[0], s->value[0] / factor[1], s->value[1] / factor[2],
-                        s->value[2] / factor[3]);
+                fprintf(to, "%.12g %.7g %.7g %.7g\n", s->x / factor[0], s->value[0] / factor[1],
+                        s->value[1] / factor[2], s->value[2] / factor[3]);
             }
             fputs(loose ? "NaN NaN NaN NaN\nEOD\n" : "EOD\n", to); /* gnuplot refuses a block without points */
         }
@@ -163,24 +167,42 @@ static bool profile_has_loose(const struct bar_profile *p)
 /* Returns the largest absolute value in the range `of`. */
 static double range_magnitude(struct value_range of) { return fmax(fabs(of.low), fabs(of.high)); }
 
-/* Plots value number `column` of profile[profiles] against the position, each with its time in the key. */
+/* Writes what the key calls a profile: its load step, or its time. */
+static void profile_write_label(char label[NAME_MAX_LENGTH], const struct bar_profile *p, const struct unit *second)
+{
+    if (p->label[0])
+        snprintf(label, NAME_MAX_LENGTH, "%s", p->label);
+    else
+        snprintf(label, NAME_MAX_LENGTH, "%.3g %s", p->t / second->factor, second->name);
+}
+
+/* Returns the number of letters of the longest entry of the key. */
+static size_t longest_label(const struct bar_profile *profile, int profiles)
+{
+    size_t longest = TIME_LETTERS;
+    for (int k = 0; k < profiles; k++) longest = (size_t)fmax((double)longest, (double)strlen(profile[k].label));
+    return longest;
+}
+
+/* Plots value number `column` of profile[profiles] over the position, each with its time in the key. */
 static void plot_profiles(FILE *to, const struct bar_profile *profile, int profiles, int column)
 {
     struct unit second = unit_for_largest_value(profile[profiles - 1].t, "s");
     fputs("plot ", to);
     for (int k = 0; k < profiles; k++) {
-        char colour[COLOUR_ROOM];
+        char colour[COLOUR_ROOM], label[NAME_MAX_LENGTH];
         curves_write_colour_of_time(colour, k, profiles);
-        fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '%s' title '%.3g %s'", k > 0 ? ", " : "", k, column + 2,
-                colour, profile[k].t / second.factor, second.name);
+        profile_write_label(label, &profile[k], &second);
+        fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '%s' title '%s'", k > 0 ? ", " : "", k, column + 2,
+                colour, label);
         if (profile_has_loose(&profile[k]))
             fprintf(to, ", $l%d using 1:%d with points pt 7 ps 0.6 lc rgb '%s' notitle", k, column + 2, colour);
     }
     putc('\n', to);
 }
 
-/* Draws velocity, stress and, if there is any, damage of profile[profiles] in panels one above another. Returns FAILED
- * if gnuplot fails. */
+/* Draws velocity, stress and damage of profile[profiles] in panels one above another, velocity and damage if they are
+ * not 0 everywhere. Returns FAILED if gnuplot fails. */
 static status profiles_draw(struct sheet sheet, const char *title, const struct bar_profile *profile, int profiles,
                             double spacing)
 {
@@ -193,7 +215,9 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
                       speed = unit_for_largest_value(range_magnitude(of[0]), "m/s"),
                       pascal = unit_for_largest_value(range_magnitude(of[1]), "Pa");
     const double factor[4] = {metre.factor, speed.factor, pascal.factor, 1};
-    const int panels = of[2].high > 0 ? 3 : 2;
+    int shown[3], panels = 0;
+    for (int c = 0; c < 3; c++)
+        if (c == 1 || range_magnitude(of[c]) > 0) shown[panels++] = c;
     of[2] = (struct value_range){0, 1};
     snprintf(label[0], sizeof label[0], "velocity x [%s]", speed.name);
     snprintf(label[1], sizeof label[1], "stress [%s]", pascal.name);
@@ -201,17 +225,18 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, 130 + 263 * panels));
     profiles_send(g.to, profile, profiles, spacing, factor);
     curves_write_title(&g, text, "");
-    const struct curves_layout l = curves_layout_make(&g, profiles, TIME_LETTERS, false);
+    const struct curves_layout l = curves_layout_make(&g, profiles, longest_label(profile, profiles), false);
     const double each = (curves_layout_height_of_all_panels(&l) - PANEL_GAP * (panels - 1)) / panels;
     curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set multiplot\nset format x ''\nset xrange [%.9g:%.9g]\n", x.low / metre.factor,
             x.high / metre.factor);
-    for (int c = 0; c < panels; c++) {
-        const double from = c * (each + PANEL_GAP);
+    for (int k = 0; k < panels; k++) {
+        const int c = shown[k];
+        const double from = k * (each + PANEL_GAP);
         curves_write_panel_margins(g.to, &l, from, from + each);
         curves_write_tics(g.to, "y", of[c].low / factor[c + 1], of[c].high / factor[c + 1], each);
         fprintf(g.to, "set ylabel '%s'\n", label[c]);
-        if (c == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
+        if (k == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
         if (c == 2)
             fputs("set yrange [0:1.04]\n", g.to);
         else
@@ -223,11 +248,12 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     return gnuplot_close(&g);
 }
 
-status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frame_count)
+status bar_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
+                         const struct output_frame *frame, int frame_count)
 {
     const double spacing = frame_particle_spacing(&frame[0]);
     struct bar_profile *profile = NEW("plot.profiles", frame_count, struct bar_profile);
-    for (int k = 0; k < frame_count; k++) profile[k] = profile_make(&frame[k], NULL, spacing);
+    for (int k = 0; k < frame_count; k++) profile[k] = profile_make(&frame[k], NULL, spacing, projection);
     const status s = profiles_draw(sheet, title, profile, frame_count, spacing);
     profiles_free(profile, frame_count);
     return s;
@@ -251,7 +277,7 @@ static status field_profile_draw(struct sheet sheet, const char *title, const st
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     profiles_send(g.to, profile, profiles, spacing, factor);
     curves_write_title(&g, text, "");
-    const struct curves_layout l = curves_layout_make(&g, profiles, TIME_LETTERS, false);
+    const struct curves_layout l = curves_layout_make(&g, profiles, longest_label(profile, profiles), false);
     curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set xlabel 'x [%s]'\nset ylabel '%s'\nset xrange [%.9g:%.9g]\n", metre.name, label,
             x.low / metre.factor, x.high / metre.factor);
@@ -261,13 +287,13 @@ static status field_profile_draw(struct sheet sheet, const char *title, const st
     return gnuplot_close(&g);
 }
 
-status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+status field_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                            float *const *value_of_frame, const struct output_frame *frame, int frame_count)
 {
     const double spacing = frame_particle_spacing(&frame[0]);
     struct bar_profile *profile = NEW("plot.profiles", frame_count, struct bar_profile);
-    for (int k = 0; k < frame_count; k++) profile[k] = profile_make(&frame[k], value_of_frame[k], spacing);
-    const status s = field_profile_draw(sheet, title, field, profile, frame_count, spacing);
+    for (int k = 0; k < frame_count; k++) profile[k] = profile_make(&frame[k], value_of_frame[k], spacing, projection);
+    const status s = field_profile_draw(sheet, title, projection->field, profile, frame_count, spacing);
     profiles_free(profile, frame_count);
     return s;
 }

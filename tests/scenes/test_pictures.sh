@@ -466,6 +466,13 @@ holds "a lone particle is a point: $(cat err)" grep -a -q '$l3 using 1:2 with po
 holds "and outside the axis of velocities" grep -a -q "profiles (1 particle is outside the picture)" all
 between "whose axis is that of the bar" "$(sed -n 's/^set yrange .*:\([0-9.]*\)\].*/\1/p' all | head -n 1)" 0.5 20
 
+# Load steps of a bar: profiles are named by the step, and a bar at rest has no panel of velocities.
+"$cleave" run spall.yaml -q -o slow -s solver=static -s steps.number=2 -s 'boundary=[{fixed: [x], face: x-}, {displacement: [1 um], face: x+, time: {ramp: {until: 12 us}}}]' >out 2>err
+: >all
+"$cleave" plot slow $small >out 2>err
+holds "the key names load steps: $(cat err)" grep -a -q "using 1:3 with lines lw 1.8 lc rgb '#[0-9a-f]*' title 'load step 2'" all
+holds "no velocity of a bar at rest" sh -c "! grep -a -q 'velocity x' all"
+
 # A support that a probe measures too: one curve with both names, one peak; others stay apart.
 mkdir twice
 cat >twice/history.csv <<'END'
