@@ -85,10 +85,11 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
-    struct view view;
+    struct view view, own; /* own: colours of the last frame alone */
     const struct plotted_particles *last = &cloud[frames->shown - 1];
     struct contents has = contents_of(cloud, frames->shown);
     TRY(view_make_for_request(&view, r, cloud, frames->shown));
+    TRY(view_make_for_request(&own, r, last, 1));
     const enum map map = map_of_field(view.field);
     has.damage = map == MAP_DAMAGE && (has.damage || view.notches > 0); /* pre-cracks alone are not of interest */
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
@@ -100,8 +101,8 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
                                               "no bond breaks; draw another field with --field von_mises, speed, ..."));
     if (map == MAP_FIELD) TRY(draw_map(r, field.text, map, &view, cloud, frames->shown));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
-                  : report_picture_not_drawn(kind.text, "all particles have the same method"));
-    TRY(something || has.kinds ? draw_map(r, latest.text, something ? map : MAP_KIND, &view, last, 1)
+                  : report_picture_not_drawn(kind.text, "all particles are of one method"));
+    TRY(something || has.kinds ? draw_map(r, latest.text, something ? map : MAP_KIND, &own, last, 1)
                                : report_picture_not_drawn(latest.text, "nothing happens in this run"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
     return r->every ? draw_every(r, frames, &view, &has) : OK;

@@ -165,6 +165,8 @@ holds "where bonds break: damage" grep -q "damage of 5 frames" out
 "$cleave" plot calm $small >out 2>err
 made calm/pictures/field_von_mises.png
 holds "a slit that does not grow: no map of damage" grep -q "damage.png is not drawn: no bond breaks" out
+"$cleave" plot calm --field von_mises --times last -o one.png $small >out 2>err
+holds "last.png has the colours of its frame: $(cat err)" cmp -s one.png calm/pictures/last.png
 "$cleave" plot calm -o default.png $small >out 2>err
 holds "where none breaks: the stress" grep -q "von_mises of 5 frames" out
 "$cleave" run strip.yaml -q -o still -s solver=cg -s 'bodies=[{name: plate, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}]' -s 'boundary=[{name: pull, traction: [0, 1 kPa], face: y+}, {name: grip, fixed: all, face: y-}]' >out 2>err
