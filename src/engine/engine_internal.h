@@ -71,8 +71,8 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
  * material [m/s]. */
 void engine_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports that hold all particles, and about pairs of supports that prescribe
- * different motions of the same particles. */
+/* Adds warnings to *warnings about supports that hold all particles, about pairs of supports that prescribe different
+ * motions of the same particles, and about loads on particles whose motion a support prescribes. */
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 

@@ -1,11 +1,14 @@
-/* Warns of supports that leave nothing to move, and of two supports that prescribe different motions of the same
- * particles. */
+/* Warns of supports that leave nothing to move, of two supports that prescribe different motions of the same particles,
+ * and of loads on particles whose motion a support prescribes. */
 #include <math.h>
 #include <stdio.h>
 
+#include "base/memory.h"
 #include "engine_internal.h"
 
-enum { MOMENTS_OF_SUPPORTS = 8 }; /* times at which the motions of two supports are compared */
+#define IDLE_SHARE 0.5 /* share of a force on held particles from which on it is reported [1] */
+
+enum { MOMENTS_OF_SUPPORTS = 8 }; /* times at which motions of supports and forces of loads are evaluated */
 
 /* Adds a warning to *to if load l prescribes zero displacement in all components for all particles. */
 static void warn_of_held(const struct scene *s, const struct load *l, const struct particles *p, struct warnings *to)
@@ -70,6 +73,58 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
         common == 1 ? "it" : "them");
 }
 
+/* Returns for each of the p->n particles the components of its motion that supports prescribe, as bits (bit d for
+ * component d). The caller releases the array. */
+static uint8_t *prescribed_components(const struct loads *loads, const struct particles *p)
+{
+    uint8_t *prescribed = NEW("warn.prescribed", p->n, uint8_t);
+    for (int b = 0; b < loads->n; b++) {
+        const struct load *l = &loads->load[b];
+        for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k++)
+            prescribed[l->particle[k]] |= l->boundary->rotates ? (1u << DIM_MAX) - 1 : l->boundary->components;
+    }
+    return prescribed;
+}
+
+/* Computes the sum of the magnitudes of the forces of load l along axis d, over its particles and MOMENTS_OF_SUPPORTS
+ * times, and stores in *idle the part of it on particles whose component d is prescribed [N]. prescribed: [p->n]. */
+static real force_and_idle_part(const struct scene *s, const struct particles *p, const struct load *l, int d,
+                                const uint8_t *prescribed, real *idle)
+{
+    real all = 0;
+    *idle = 0;
+    for (int m = 1; m <= MOMENTS_OF_SUPPORTS; m++)
+        for (int64_t k = 0; k < l->n; k++) {
+            real force[DIM_MAX] = {0};
+            load_force_on_particle(l, p, k, s->duration * m / MOMENTS_OF_SUPPORTS, force);
+            all += fabs(force[d]);
+            if (prescribed[l->particle[k]] >> d & 1) *idle += fabs(force[d]);
+        }
+    return all;
+}
+
+/* Adds a warning to *to for each traction, pressure and body force whose larger part acts along an axis on particles
+ * whose motion along it a support prescribes, so that this part has no effect. */
+static void warn_of_idle_forces(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                struct warnings *to)
+{
+    uint8_t *prescribed = prescribed_components(loads, p);
+    for (int b = 0; b < loads->n; b++)
+        for (int d = 0; d < s->dim; d++) {
+            const struct load *l = &loads->load[b];
+            real idle;
+            if (!boundary_applies_force(l->boundary) || l->boundary->by_mass) continue;
+            const real all = force_and_idle_part(s, p, l, d, prescribed, &idle);
+            if (!(idle > IDLE_SHARE * all)) continue;
+            warnings_add_if_new(to,
+                                "boundary %s: %.3g %% of its force along %c acts on particles whose motion along %c a "
+                                "support prescribes, and does nothing: leave one of them out, or give each a face or "
+                                "region of its own",
+                                l->boundary->name, 100 * idle / all, "xyz"[d], "xyz"[d]);
+        }
+    memory_free(prescribed);
+}
+
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings)
 {
@@ -77,4 +132,5 @@ void engine_warn_of_conflicting_supports(const struct scene *s, const struct loa
         warn_of_held(s, &loads->load[a], p, warnings);
         for (int b = 0; b < a; b++) warn_of_contrary(s, p, &loads->load[b], &loads->load[a], warnings);
     }
+    warn_of_idle_forces(s, loads, p, warnings);
 }

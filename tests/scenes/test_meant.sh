@@ -484,6 +484,13 @@ says "two supports that share an edge" '^warning: boundaries a and b prescribe d
     "$plate" -s 'boundary.a={name: a, fixed: all, face: x-}'
 silent "two supports of different components" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: [x], face: y+}' \
     -s 'boundary.b={name: b, velocity: [free, 0.5 m/s], face: y+}'
+# A traction on a face of 400 mm^2 does nothing where a support holds it; on the face x+ 3 of its 20 rows are held.
+idle='% of its force along'
+loaded() { echo "boundary=[{name: a, fixed: $1, face: y-}, {name: load, traction: [0, 1 MPa], face: $2}]"; }
+says "a traction on a face that is held" "^warning: boundary load: 100 $idle y acts on particles whose motion along y a support prescribes, and does nothing" \
+    "$plate" -s "$(loaded all y-)"
+silent "a traction on a face that is held across" "$idle" "$plate" -s "$(loaded '[x]' y-)"
+silent "a traction beside a face that is held" "$idle" "$plate" -s "$(loaded all x+)"
 # From the corner at 20 mm to 8 m: sqrt(2) 7.98 m.
 solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }
 says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (mm?) (' "$plate" \
