@@ -485,6 +485,7 @@ void print_accuracy_advice(const struct run *e, FILE *out)
     print_particle_list_advice(e, out);
     advise_waves(e->scene, &e->tables, out);
     advise_shocks(e->scene, out);
+    print_advice_on_unbalanced_loads(e, out);
     print_load_step_accuracy_advice(e, out);
     advise_formulas(e, out);
     advise_levels(e, out);

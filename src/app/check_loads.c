@@ -323,55 +323,111 @@ static void say_load(const struct run *e, int which)
 
 /* ---- balance ----------------------------------------------------------------------------------------------------- */
 
-#define UNBALANCED 0.01 /* net force, divided by the sum of the forces, from which on loads do not balance */
+#define UNBALANCED 0.01 /* net force from which on loads do not balance, over the sum of their forces */
+#define LASTING 0.5     /* net force at the end of the run over its largest one from which on the load lasts [1] */
+#define CROSSED 2.0     /* passages of waves through the body after which it is faster than the waves in it [1] */
 enum { INSTANTS = 64 }; /* times at which the net force is evaluated */
 
-/* Returns true if the scene has a single body that moves in time under loads alone: no support holds or drives it, and
- * it can touch no other body. */
-static bool is_free_body(const struct scene *s, const struct particles *p, const struct loads *loads)
+/* Largest net force of the loads on a body that nothing holds along it, and the motion of the body by the net force. */
+struct drift {
+    real force[DIM_MAX], net;               /* largest net force and its magnitude [N] */
+    real acceleration, speed, displacement; /* by it [m/s^2]; at the end of the run [m/s], [m] */
+    int axis;                               /* axis of the largest component of the force */
+    bool lasts;                             /* the net force acts at the end as well, and waves have crossed the body */
+};
+
+/* Returns true if the scene has a single body that moves in time, and can touch no other body. */
+static bool is_single_body(const struct scene *s, const struct particles *p)
 {
-    bool is_free = scene_is_dynamic(s) && s->rigids == 0 && p->n > 0 && p->n == p->n_body;
-    for (int b = 1; b < s->bodies; b++) is_free = is_free && s->body[b].joined == 0;
-    for (int b = 0; b < loads->n; b++) is_free = is_free && boundary_applies_force(loads->load[b].boundary);
-    return is_free;
+    bool is_single = scene_is_dynamic(s) && s->rigids == 0 && p->n > 0 && p->n == p->n_body;
+    for (int b = 1; b < s->bodies; b++) is_single = is_single && s->body[b].joined == 0;
+    return is_single;
 }
 
-/* Computes the net force of all loads at time t [s], except of loads proportional to mass such as gravity, and stores
- * it in force[DIM_MAX] [N]. Returns the sum of the magnitudes of the forces of the single loads [N]. */
-static real net_force(const struct loads *loads, const struct particles *p, real t, real *force)
+/* Returns true if a support, a plane of symmetry or an absorbing face resists motion of the body along axis d. */
+static bool is_held_along(const struct loads *loads, int d)
+{
+    bool held = false;
+    for (int k = 0; k < loads->n; k++) {
+        const struct boundary *b = loads->load[k].boundary;
+        held |= b->kind == BOUNDARY_ABSORBING || (b->kind == BOUNDARY_MIRROR && (b->axis == d || b->hold_tangential)) ||
+                (b->kind == BOUNDARY_VELOCITY && (b->rotates || b->components >> d & 1));
+    }
+    return held;
+}
+
+/* Computes the net force along the axes with is_free[axis], at time t [s], of all loads except those proportional to
+ * mass such as gravity, and stores it in force[DIM_MAX] [N]. Returns the sum of the magnitudes of the forces of the
+ * single loads [N]. */
+static real net_force(const struct loads *loads, const struct particles *p, const bool *is_free, real t, real *force)
 {
     real all = 0;
     for (int d = 0; d < DIM_MAX; d++) force[d] = 0;
     for (int b = 0; b < loads->n; b++) {
-        if (loads->load[b].boundary->by_mass) continue;
+        if (loads->load[b].boundary->by_mass || !boundary_applies_force(loads->load[b].boundary)) continue;
         const struct resultant r = resultant_at(&loads->load[b], p, t);
-        for (int d = 0; d < DIM_MAX; d++) force[d] += r.force[d];
+        for (int d = 0; d < DIM_MAX; d++) force[d] += is_free[d] ? r.force[d] : 0;
         all += sqrt(dot(r.force, r.force, DIM_MAX));
     }
     return all;
 }
 
-/* Prints the largest net force on a free body if its loads do not balance, its acceleration by that force, and its
- * speed and displacement at the end of the run, by integration with the midpoint rule. */
-static void say_balance_of_loads(const struct run *e)
+/* Computes in *a the motion of the body of run e by the net force of its loads, along the axes along which nothing
+ * holds it, by integration with the midpoint rule. Returns false if the loads balance along these axes, or if the scene
+ * has several bodies. */
+static bool drift_by_loads(const struct run *e, struct drift *a)
 {
-    real force[DIM_MAX], largest[DIM_MAX] = {0}, v[DIM_MAX] = {0}, u[DIM_MAX] = {0}, mass = 0, all = 0;
+    real force[DIM_MAX], v[DIM_MAX] = {0}, u[DIM_MAX] = {0}, mass = 0, all = 0, low, high;
     const real dt = e->scene->duration / INSTANTS;
-    if (!is_free_body(e->scene, &e->part, &e->loads)) return;
+    bool is_free[DIM_MAX] = {false};
+    *a = (struct drift){.axis = 0};
+    if (!is_single_body(e->scene, &e->part)) return false;
+    for (int d = 0; d < e->part.dim; d++) is_free[d] = !is_held_along(&e->loads, d);
     for (int64_t i = 0; i < e->part.n; i++) mass += e->part.mass[i];
     for (int k = 0; k < INSTANTS; k++) {
-        all = real_max(all, net_force(&e->loads, &e->part, (k + 0.5) * dt, force));
-        if (dot(force, force, DIM_MAX) > dot(largest, largest, DIM_MAX)) memcpy(largest, force, sizeof largest);
+        all = real_max(all, net_force(&e->loads, &e->part, is_free, (k + 0.5) * dt, force));
+        if (dot(force, force, DIM_MAX) > dot(a->force, a->force, DIM_MAX)) memcpy(a->force, force, sizeof force);
         for (int d = 0; d < DIM_MAX; d++)
             u[d] += dt * (v[d] + 0.5 * dt * force[d] / mass), v[d] += dt * force[d] / mass;
     }
-    const real net = sqrt(dot(largest, largest, DIM_MAX));
-    if (!(net > UNBALANCED * all) || !isfinite(net)) return;
-    printf("balance        the loads do not balance, and nothing holds the body: net force up to ");
-    say_vector(largest, e->part.dim);
-    printf(" N, acceleration %.3g m/s^2; at the end its mean velocity has changed by %.3g m/s and it has moved by %.3g "
-           "m\n",
-           net / mass, sqrt(dot(v, v, DIM_MAX)), sqrt(dot(u, u, DIM_MAX)));
+    a->net = sqrt(dot(a->force, a->force, DIM_MAX)), a->acceleration = a->net / mass;
+    a->speed = sqrt(dot(v, v, DIM_MAX)), a->displacement = sqrt(dot(u, u, DIM_MAX));
+    for (int d = 1; d < e->part.dim; d++)
+        if (fabs(a->force[d]) > fabs(a->force[a->axis])) a->axis = d;
+    particles_coordinate_range(&e->part, e->part.n, a->axis, &low, &high);
+    a->lasts = sqrt(dot(force, force, DIM_MAX)) > LASTING * a->net &&
+               e->tables.wave_speed * e->scene->duration > CROSSED * (high - low + e->scene->spacing);
+    return a->net > UNBALANCED * all && isfinite(a->net);
+}
+
+/* Writes to `out` the largest net force on a body that nothing holds along it, and the motion of the body by it. */
+static void write_drift(const struct run *e, const struct drift *a, FILE *out)
+{
+    fprintf(out,
+            "the loads do not balance, and nothing holds the body along %c: net force up to %s%s%s N, acceleration "
+            "%.3g m/s^2; at the end its mean velocity has changed by %.3g m/s and it has drifted %.3g m",
+            "xyz"[a->axis], e -> part.dim > 1 ? "(" : "", position_text(a->force, e->part.dim, 4).text,
+            e->part.dim > 1 ? ")" : "", a->acceleration, a->speed, a->displacement);
+}
+
+void print_advice_on_unbalanced_loads(const struct run *e, FILE *out)
+{
+    struct drift a;
+    if (!drift_by_loads(e, &a) || !a.lasts) return;
+    fprintf(out, "accuracy       ");
+    write_drift(e, &a, out);
+    fprintf(out, ": hold a face along %c, or balance the loads\n", "xyz"[a.axis]);
+}
+
+/* Prints the net force of loads that do not balance on a body that nothing holds along it, unless
+ * print_advice_on_unbalanced_loads writes about it. */
+static void say_balance_of_loads(const struct run *e)
+{
+    struct drift a;
+    if (!drift_by_loads(e, &a) || a.lasts) return;
+    printf("balance        ");
+    write_drift(e, &a, stdout);
+    putchar('\n');
 }
 
 void print_loads(const struct run *e)

@@ -152,6 +152,10 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 /* Prints a line for each load and support of run e: its number of particles, area, force and moment. */
 void print_loads(const struct run *e);
 
+/* Writes a line to `out` if the loads of a single body in motion do not balance along an axis along which nothing holds
+ * it, and act until the end of the run, with the motion of the body by them and a remedy. */
+void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
+
 /* Prints which share of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary,
  * the mean angle between normal and axis there, and a region that would exclude this part of the face. Prints instead
  * where the face lies if it is in several planes and the boundary has no region. */
