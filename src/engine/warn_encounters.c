@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 
+#define TOUCHING 0.01      /* largest overlap of bodies that touch [spacings] */
 enum { FLYING_MOST = 64 }; /* largest number of bodies that are compared in pairs */
 
 /* Box round a body and range of its velocities at the start. */
@@ -55,16 +56,20 @@ static bool flies(const struct flight *f, int dim)
     return any;
 }
 
-/* Returns the time [s] after which bodies a and b can meet: when their ranges of positions, extended by `reach`,
- * overlap along every axis. Returns INFINITY if they never do. reach: distance at which bodies meet [m]. */
+/* Returns the time after which bodies a and b can meet [s]: when their ranges of positions, extended by `reach`,
+ * overlap along every axis. Returns INFINITY if they never do, also if they touch or are closer than `reach` at the
+ * start, and fly apart. reach: distance at which bodies meet [m]. */
 static real time_to_meet(const struct flight *a, const struct flight *b, int dim, real reach)
 {
     real after = 0;
     for (int d = 0; d < dim; d++) {
         const real ahead = b->low[d] - a->high[d] - reach, behind = a->low[d] - b->high[d] - reach;
-        const real closing = ahead > 0 ? a->fastest[d] - b->slowest[d] : b->fastest[d] - a->slowest[d];
-        if (ahead <= 0 && behind <= 0) continue;
-        after = real_max(after, closing > 0 ? real_max(ahead, behind) / closing : INFINITY);
+        const real closing = ahead > behind ? a->fastest[d] - b->slowest[d] : b->fastest[d] - a->slowest[d];
+        const real gap = real_max(ahead, behind);
+        if (gap > 0)
+            after = real_max(after, closing > 0 ? gap / closing : INFINITY);
+        else if (gap > -(1 + TOUCHING) * reach && closing < 0)
+            after = INFINITY;
     }
     return after;
 }
