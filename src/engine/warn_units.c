@@ -10,7 +10,7 @@ enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are eval
 #define UNLIKE 30  /* factor between the densities of a rigid body and of materials in other units */
 #define EARLY 0.01 /* end of a function of time divided by the time step, below which the run does not see it */
 #define STIFF 1e9  /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
-
+#define TOUGHNESS_LEAST 5e4 /* [Pa m^0.5] from STIFF on; waxes and salts that cleave have 8e4 */
 #define HARDENING_LEAST                                                                                                \
     1e-6 /* hardening modulus divided by Young's modulus below which stress hardly grows with strain [1] */
 
@@ -129,6 +129,20 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
                                 subject, constant[k].key, constant[k].value);
 }
 
+/* Adds a warning to *to if material m is stiff and has a toughness (E G_c)^(1/2) below that of any solid but foams. The
+ * usual reason is an energy release rate in kJ/m^2. name: of the material in messages. */
+static void units_of_toughness(const struct scene *s, const char *name, const struct material *m, struct warnings *to)
+{
+    const real toughness = sqrt(m->young * m->energy_release_rate);
+    const bool known = m->energy_release_rate >= rule[ACCEPT_ENERGY].least && !scene_silences_warning(s, ACCEPT_ENERGY);
+    if (!known || m->young < STIFF || toughness >= TOUGHNESS_LEAST) return;
+    warnings_add_if_new(
+        to,
+        "%s: its toughness of %.3g MPa m^0.5 (%.3g J/m^2, %.3g Pa) is below %.3g; glass has 0.75: check the units of "
+        "energy_release_rate (J/m^2; kJ?) or toughness, and young; if this is meant: accept: [energy]",
+        name, 1e-6 * toughness, m->energy_release_rate, m->young, 1e-6 * TOUGHNESS_LEAST);
+}
+
 /* Adds warnings to *to about implausible wave speeds, densities, energy release rates, specific heats, yield stresses
  * and critical stretches of the materials. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
@@ -141,6 +155,7 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         units_of_waves(s, subject, a, to);
         units_judge(s, ACCEPT_DENSITY, subject, a->density, "", to);
         if (isfinite(a->energy_release_rate)) units_judge(s, ACCEPT_ENERGY, subject, a->energy_release_rate, "", to);
+        units_of_toughness(s, subject, a, to);
         if (a->law.specific_heat > 0) units_judge(s, ACCEPT_HEAT, subject, a->law.specific_heat, "", to);
         const real yield = material_initial_yield_stress(a);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
