@@ -55,6 +55,10 @@ struct crack_tips {
     real *growth; /* [samples][TIPS_MAX] growth of every tip, without `joined` [m] */
 };
 
+/* Returns true if a crack tip starts at `end` (coordinates [m]), the end of a pre-crack: it is inside a body and not at
+ * a face of it. */
+bool tips_start_at_precrack_end(const struct crack_tips *t, const real *end);
+
 /* Excludes from all cracks the particles that pre-cracks damage by more than TIP_DAMAGE, so that crack tips do not grow
  * through them. Needed for pre-cracks that are slits (free surfaces) of the mesh. cut_fraction: for each particle, the
  * share of its bonds that pre-cracks cut once the particle has bonds [1]. */

@@ -11,18 +11,8 @@
 /* Length of a pre-crack below which its critical load depends on the horizon [horizons]; measured. */
 #define HORIZONS_LEAST 3
 
-/* Returns true if `end` (coordinates [m]), an end of a pre-crack, is a crack tip inside the material and not at a face
- * of the body. */
-static bool is_tip(const struct fracture_state *fracture, const real *end)
-{
-    const struct crack_tips *t = &fracture->tips;
-    for (int k = 0; k < t->n; k++)
-        if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
-    return false;
-}
-
-/* Returns the fraction of the straight crack between the points `from` and `to` (coordinates [m]) that is inside
- * bodies, from 1000 points on the crack. */
+/* Returns the share of the straight crack between the points `from` and `to` (coordinates [m]) that is inside bodies
+ * [1], from 1000 points on it. */
 static real crack_share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };
@@ -41,7 +31,8 @@ void advise_on_close_crack_tips(const struct scene *s, const struct fracture_sta
 {
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
         const real *from = s->crack[k].corner[0], *to = s->crack[k].corner[1];
-        const bool tip[2] = {is_tip(fracture, from), is_tip(fracture, to)};
+        const bool tip[2] = {tips_start_at_precrack_end(&fracture->tips, from),
+                             tips_start_at_precrack_end(&fracture->tips, to)};
         const real share = tip[0] && tip[1] ? 1 : crack_share_within(s, from, to);
         const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
         if (tip[0] != tip[1] && length < 0.5 * s->spacing) {

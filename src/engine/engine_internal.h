@@ -4,6 +4,7 @@
 
 #include "data/hollow.h"
 #include "engine/engine.h"
+#include "fracture/tips.h"
 
 /* Allocates the parts of a run (contact, cracks, mesh, probes and others), sets all of them to zero, and stores
  * pointers to them in *e. */
@@ -52,10 +53,24 @@ void engine_warn_of_isolated_particles(const struct scene *s, const struct cells
  * corners box_low[dim] and box_high[dim] [m]. */
 bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin);
 
-/* Adds warnings to *warnings about pre-cracks that are outside of all bodies or cut no bond, and about probes of cracks
- * where no bond can break. longest_bond: length of the longest bonds [m]. */
+/* Adds warnings to *warnings about pre-cracks that are outside of all bodies, cut no bond or cannot grow, and about
+ * probes of cracks where no bond can break. tips: crack tips at the start; longest_bond: length of the longest bonds
+ * [m]. */
 void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b,
-                                   real longest_bond, struct warnings *warnings);
+                                   const struct loads *loads, const struct crack_tips *tips, real longest_bond,
+                                   struct warnings *warnings);
+
+/* Adds a warning to *warnings if waves from the loads do not travel to the nearest crack tip within the duration. tips:
+ * crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
+void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
+                                        const struct crack_tips *tips, real wave_speed, struct warnings *warnings);
+
+/* Adds a warning to *warnings if all loads are tractions that press the pre-cracks shut. */
+void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct particles *p, struct warnings *warnings);
+
+/* Returns for each of the p->n particles the components of its motion that supports prescribe, as bits (bit d for
+ * component d). The caller releases the array. */
+uint8_t *engine_find_prescribed_components(const struct loads *loads, const struct particles *p);
 
 /* Adds warnings to *warnings about values that look like mistakes of units, unless the key `accept` of the scene
  * silences them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */

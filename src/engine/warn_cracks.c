@@ -1,9 +1,11 @@
 /* Warnings of pre-cracks that have no effect, and of probes of cracks where nothing can break. */
 #include <math.h>
 
+#include "base/memory.h"
 #include "engine_internal.h"
 
-enum { ALONG = 32 }; /* positions along a segment, or along each of two sides of a triangle, of a crack */
+#define FAR_OUTSIDE 0.1 /* distance of an end of a crack from all particles that is reported [longest edges] */
+enum { ALONG = 32 };    /* positions along a segment, or along each of two sides of a triangle, of a crack */
 
 /* Returns true if pre-cracks have cut at least one of the bonds b. */
 static bool bonds_are_cut(const struct bonds *b)
@@ -80,6 +82,73 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
     return far > 0;
 }
 
+/* Returns true if pre-crack c can grow: a tip starts at one of its ends, in 3D at the front of any pre-crack. */
+static bool can_grow(const struct crack_tips *tips, const struct crack *c)
+{
+    bool can = tips->n == TIPS_MAX;
+    for (int k = 0; k < tips->n && tips->dim == 3; k++) can |= tips->tip[k].from_crack;
+    return can || (tips->dim == 2 && (tips_start_at_precrack_end(tips, c->corner[0]) ||
+                                      tips_start_at_precrack_end(tips, c->corner[c->n - 1])));
+}
+
+/* Counts the particles within `reach` [m] of position X[dim] [m], and in *loose those whose motion the supports do not
+ * prescribe in all components. prescribed: [p->n], bit d: component d is prescribed. Returns the number of all. */
+static int64_t particles_near(const struct particles *p, const real *X, real reach, const uint8_t *prescribed,
+                              int64_t *loose)
+{
+    int64_t near = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        real r2 = 0;
+        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - X[d]);
+        if (r2 > square(reach)) continue;
+        near++, *loose += (prescribed[i] & ((1u << p->dim) - 1)) != (1u << p->dim) - 1;
+    }
+    return near;
+}
+
+/* Adds a warning to *to about pre-crack number k, which cannot grow, if supports prescribe the motion of all particles
+ * within `reach` [m] of its ends, or if an end is far outside of all bodies. longest: longest edge of the box around
+ * all particles [m]; prescribed: [p->n], bit d: component d is prescribed. */
+static void warn_of_fixed_crack(const struct scene *s, const struct particles *p, int k, real reach, real longest,
+                                const uint8_t *prescribed, struct warnings *to)
+{
+    const struct crack *c = &s->crack[k];
+    int64_t near = 0, loose = 0;
+    for (int end = 0; end < c->n; end++) {
+        const real outside = particle_distance(p, c->corner[end]);
+        near += particles_near(p, c->corner[end], reach, prescribed, &loose);
+        if (outside > real_max(reach, FAR_OUTSIDE * longest)) {
+            warnings_add_if_new(
+                to,
+                "crack %d ends nowhere inside a body, so that it cannot grow and may cut the body in two: its "
+                "end at (%s) m is %.3g m from the nearest particle; check its coordinates and their unit (mm?); "
+                "if this is meant: accept: [growth]",
+                k + 1, position_text(c->corner[end], p->dim, 6).text, outside);
+            return;
+        }
+    }
+    if (near > 0 && loose == 0)
+        warnings_add_if_new(
+            to,
+            "crack %d cannot grow: supports prescribe the motion of all %lld particles within a horizon of its ends; "
+            "use a smaller depth or region for them; if this is meant: accept: [growth]",
+            k + 1, (long long)near);
+}
+
+/* Adds warnings to *to about the first pre-cracks that cannot grow because supports hold them, or that cut a body and
+ * end far outside of it. tips: tips at the start; reach: length of the longest bonds [m]. */
+static void warn_of_fixed_cracks(const struct scene *s, const struct particles *p, const struct loads *loads,
+                                 const struct crack_tips *tips, real reach, struct warnings *to)
+{
+    enum { CRACKS_MOST = 16 };
+    if (p->dim == 1 || scene_silences_warning(s, ACCEPT_GROWTH)) return;
+    uint8_t *prescribed = engine_find_prescribed_components(loads, p);
+    const real longest = particles_bounding_box_longest_edge(p);
+    for (int k = 0; k < s->cracks_given && k < CRACKS_MOST && p->n == p->n_body; k++)
+        if (!can_grow(tips, &s->crack[k])) warn_of_fixed_crack(s, p, k, reach, longest, prescribed, to);
+    memory_free(prescribed);
+}
+
 /* Adds warnings to *to about probes of crack tips and first breaks if no bond of the scene can break and no crack is
  * grown. */
 static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
@@ -125,12 +194,14 @@ static void warn_of_growths(const struct scene *s, const struct particles *p, st
 }
 
 void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b,
-                                   real longest_bond, struct warnings *warnings)
+                                   const struct loads *loads, const struct crack_tips *tips, real longest_bond,
+                                   struct warnings *warnings)
 {
     warn_of_unbreakable(s, warnings);
     warn_of_growths(s, p, warnings);
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, longest_bond, warnings)) return;
     if (!bonds_are_cut(b))
-        warnings_add_if_new(warnings,
-                            "the pre-cracks cut no bond: check that they are inside the body, and their unit (mm?)");
+        warnings_add_if_new(warnings, "the pre-cracks cut no bond: check that they are inside the body");
+    else
+        warn_of_fixed_cracks(s, p, loads, tips, longest_bond, warnings);
 }

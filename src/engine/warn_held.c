@@ -73,9 +73,7 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
         common == 1 ? "it" : "them");
 }
 
-/* Returns for each of the p->n particles the components of its motion that supports prescribe, as bits (bit d for
- * component d). The caller releases the array. */
-static uint8_t *prescribed_components(const struct loads *loads, const struct particles *p)
+uint8_t *engine_find_prescribed_components(const struct loads *loads, const struct particles *p)
 {
     uint8_t *prescribed = NEW("warn.prescribed", p->n, uint8_t);
     for (int b = 0; b < loads->n; b++) {
@@ -108,7 +106,7 @@ static real force_and_idle_part(const struct scene *s, const struct particles *p
 static void warn_of_idle_forces(const struct scene *s, const struct loads *loads, const struct particles *p,
                                 struct warnings *to)
 {
-    uint8_t *prescribed = prescribed_components(loads, p);
+    uint8_t *prescribed = engine_find_prescribed_components(loads, p);
     for (int b = 0; b < loads->n; b++)
         for (int d = 0; d < s->dim; d++) {
             const struct load *l = &loads->load[b];

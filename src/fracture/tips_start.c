@@ -38,6 +38,13 @@ real segment_distance_and_offset_to_point(const real *centre, const real *half_v
     return sqrt(dot(offset, offset, dim));
 }
 
+bool tips_start_at_precrack_end(const struct crack_tips *t, const real *end)
+{
+    for (int k = 0; k < t->n; k++)
+        if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
+    return false;
+}
+
 static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
 
 /* Returns true if the position X [m] is within half a spacing of a pre-crack other than number `self`. It is then a

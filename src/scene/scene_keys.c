@@ -119,7 +119,7 @@ const struct key keys[] = {
         "stretch, stress of loads over strength, load over Young's modulus, number of time steps, spacings that "
         "waves travel, particles across a body with a crack, density, yield stress over Young's modulus, number of "
         "times that waves cross the body, thickness over width in plane stress, energy release rate, specific heat, "
-        "energy that a crack can release, density of a rigid body, E G_c/strength^2 over the body, times of loads "
+        "cracks that cannot grow, density of a rigid body, E G_c/strength^2 over the body, times of loads "
         "beside the duration; and what a run warns of: bodies that pass through each other, a coupling without "
         "energy, one point in a cell, a face driven so fast that bonds beside it break, bonds that break behind the "
         "front of a collision, a crack faster than Rayleigh waves",
