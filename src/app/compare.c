@@ -14,6 +14,8 @@
 #include "output/summary_read.h"
 #include "run/ledger.h"
 
+#define EQUAL_TIMES 0.1 /* relative difference between the times of equal runs on a machine in use [1] */
+
 /* Capacity of the texts of labels and keys [byte]. */
 enum { KEY_LENGTH = 64 };
 
@@ -366,8 +368,10 @@ static void compare_time(const struct pair *p)
         compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
                           compare_figure_of(p->folder[1], figure[k].key));
     double a = compare_figure_of(p->folder[0], "loop_seconds"), b = compare_figure_of(p->folder[1], "loop_seconds");
-    if (a > 0 && b > 0)
-        printf("  A/B = %.4g, A saves the share t_r = 1 - A/B = %.4g of the time of B\n", a / b, 1 - a / b);
+    if (!(a > 0 && b > 0)) return;
+    printf("  A/B = %.4g, A %s the share t_r = 1 - A/B = %.4g of the time of B%s\n", a / b,
+           a > b ? "takes longer, by" : "saves", 1 - a / b,
+           fabs(1 - a / b) < EQUAL_TIMES ? "; times of equal runs differ as much" : "");
 }
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
