@@ -61,7 +61,7 @@ struct unconstrained_fragment {
     int32_t *node;        /* [n] its unknowns */
     int motions;          /* number of the free rigid motions, at most 6 */
     real *motion;         /* [n dim][6] orthonormal free motions in the first columns [1] */
-    real middle[DIM_MAX]; /* reference position of a node in the middle of the list [m] */
+    real middle[DIM_MAX]; /* mean reference position of the nodes [m] */
 };
 
 /* State of a point at the start of a load step, from which the turn of its direction of flow in the step is measured

@@ -377,7 +377,11 @@ static void fragment_motions(const struct search *s, struct unconstrained_fragme
         f->node[f->n++] = (int32_t)k;
     }
     motions_orthonormal(f, dim);
-    unknown_compute_reference_position(s->statics, s->part, s->mesh, f->node[f->n / 2], f->middle);
+    for (int64_t k = 0; k < f->n; k++) {
+        real X[DIM_MAX] = {0};
+        unknown_compute_reference_position(s->statics, s->part, s->mesh, f->node[k], X);
+        for (int d = 0; d < dim; d++) f->middle[d] += X[d] / (real)f->n;
+    }
 }
 
 /* Numbers the fragments in the order of their first nodes, s->fragment, and computes their centres and radii. */
