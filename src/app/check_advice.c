@@ -481,6 +481,7 @@ void print_accuracy_advice(const struct run *e, FILE *out)
     print_advice_on_widths_of_narrow_parts(e, out);
     advise_on_close_crack_tips(e->scene, e->fracture, out);
     print_advice_on_incompressible_bodies(e, out);
+    print_advice_on_held_layers(e, out);
     advise_faces(e->scene, out);
     print_particle_list_advice(e, out);
     advise_waves(e->scene, &e->tables, out);

@@ -1,5 +1,5 @@
-/* Counts the particle layers across thin parts of bodies of any shape, and reports errors from incomplete families
- * and locking cells. */
+/* Counts the particle layers across thin parts of bodies of any shape, and reports errors from incomplete families,
+ * locking cells and layers that supports hold. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -182,5 +182,49 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
                 s->body[b].name, poisson,
                 families ? "particles near faces are too stiff" : "the points of a cell have the same change of volume",
                 layers < RUNS_MOST - 1 ? "" : "more than ", layers, off, families ? "little" : "much");
+    }
+}
+
+/* ---- layers behind faces ----------------------------------------------------------------------------------------- */
+
+/* Shortening of a body of bonds by a layer that moves as one, less the depth of the layer [spacings], by dimension:
+ * measured, inputs/loads.md. */
+static const real layer_shortening[] = {[1] = -0.65, [2] = -0.75, [3] = -0.75};
+#define SHORTENED 0.03 /* share of the length from which on it is reported; 10 % of the stiffness in bending [1] */
+
+/* Returns true if load l is a support with the default depth behind a face that prescribes the motion normal to it, one
+ * motion for all particles, and if bonds alone move these particles. */
+static bool holds_layer_of_bonds(const struct scene *s, const struct load *l, const struct particles *p)
+{
+    const struct boundary *b = l->boundary;
+    bool bonds = l->n > 0;
+    if (b->kind != BOUNDARY_VELOCITY || b->side == 0 || !(b->components >> b->face & 1)) return false;
+    if (fabs(b->depth / (s->horizon * s->spacing) - 1) > 1e-9 || boundary_motion_varies_in_space(b)) return false;
+    for (int64_t k = 0; k < l->n && bonds; k++) bonds = !particle_moves_with_nodes(p, l->particle[k]);
+    return bonds;
+}
+
+void print_advice_on_held_layers(const struct run *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    const struct particles *p = &e->part;
+    for (int k = 0; k < e->loads.n && !scene_is_dynamic(s); k++) {
+        const struct load *l = &e->loads.load[k];
+        if (!holds_layer_of_bonds(s, l, p)) continue;
+        const int axis = l->boundary->face, body = p->body[l->particle[0]];
+        real low = INFINITY, high = -INFINITY;
+        for (int64_t i = 0; i < p->n; i++)
+            if (s->body[p->body[i]].joined == s->body[body].joined)
+                low = real_min(low, p->X[axis][i]), high = real_max(high, p->X[axis][i]);
+        const real length = high - low + s->spacing;
+        const real shorter = (floor(s->horizon) + layer_shortening[s->dim]) * s->spacing, left = 1 - shorter / length;
+        if (!(left > 0) || 1 - left < SHORTENED || s->horizon < 2) continue;
+        fprintf(
+            out,
+            "accuracy       boundary %s: the layer behind its face, a horizon deep, moves as one, which shortens the "
+            "body of %.4g m by %.3g m along %c: its stiffness is off by %+.2g %% in tension, %+.2g %% in bending; "
+            "use depth: %s or a smaller spacing, or make the body longer by that\n",
+            l->boundary->name, length, shorter, "xyz"[axis], 100 * (1 / left - 1), 100 * (pow(left, -3) - 1),
+            length_text_with_unit(s->spacing, 3, s->spacing).text);
     }
 }

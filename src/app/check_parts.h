@@ -120,6 +120,10 @@ double count_layers_across_thin_parts(const struct run *e, int body_index, doubl
  * whose mesh cells are too soft, in bending. */
 void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
 
+/* Writes a line to `out` for each support that holds a layer of particles behind a face, a horizon deep by default, and
+ * so stiffens a body of bonds in equilibrium by more than a few percent. */
+void print_advice_on_held_layers(const struct run *e, FILE *out);
+
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
 /* Prints size and number of the coarse mesh cells of the run e, and why coarse cells are used or not. */

@@ -491,6 +491,11 @@ says "a traction on a face that is held" "^warning: boundary load: 100 $idle y a
     "$plate" -s "$(loaded all y-)"
 silent "a traction on a face that is held across" "$idle" "$plate" -s "$(loaded '[x]' y-)"
 silent "a traction beside a face that is held" "$idle" "$plate" -s "$(loaded all x+)"
+# A layer of three of 20 rows, which shortens the plate by 2.25 mm: 20/17.75 = 1.127, its cube 1.43.
+rests() { test=$1 what=$2; shift 2; "$test" "$what" 'the layer behind its face' "$plate" -s solver=cg -s 'boundary.b={name: b, traction: [0, 1 MPa], face: y+}' "$@"; }
+rests says "a layer of a short body"
+holds "its stiffness: $(cat "$work/said")" grep -q 'boundary a: .* of 0.02 m by 0.00225 m along y: .* +13 % in tension, +43 % in bending; use depth: 1 mm' "$work/said"
+rests silent "a layer of one row" -s 'boundary.a={name: a, fixed: all, face: y-, depth: 1 mm}'
 # From the corner at 20 mm to 8 m: sqrt(2) 7.98 m.
 solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }
 says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (mm?) (' "$plate" \
