@@ -17,6 +17,7 @@
 #define RESISTS_LEAST 1e-8 /* smallest rate of a gap under a unit motion that is not round-off [1] */
 #define SLIDES_MOST 1e-3   /* see sliding_update: the square of a slope of faces of 2 degrees; a judgement */
 #define DROPPED 1e-6       /* relative norm of the rest of a motion below which it depends linearly on previous ones */
+#define ROUND_OFF 1e-9     /* coordinate of a centre over the radius of the fragment below which it is 0 [1] */
 
 /* ---- connected components ---------------------------------------------------------------------------------------- */
 
@@ -377,10 +378,9 @@ static void fragment_motions(const struct search *s, struct unconstrained_fragme
         f->node[f->n++] = (int32_t)k;
     }
     motions_orthonormal(f, dim);
-    for (int64_t k = 0; k < f->n; k++) {
-        real X[DIM_MAX] = {0};
-        unknown_compute_reference_position(s->statics, s->part, s->mesh, f->node[k], X);
-        for (int d = 0; d < dim; d++) f->middle[d] += X[d] / (real)f->n;
+    for (int d = 0; d < dim; d++) {
+        const real middle = c->centre[d] - c->moved[d];
+        f->middle[d] = fabs(middle) > ROUND_OFF * c->radius ? middle : 0;
     }
 }
 

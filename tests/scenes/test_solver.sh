@@ -140,6 +140,23 @@ done
 is "too few steps: exit status" $? 1
 holds "too few steps: message" grep -q 'no equilibrium after 20 steps.*raise solver_steps' "$work/err"
 is "too few steps: status" "$(figure "$work/short" status)" failed
+
+# The edge of a plate of 20 mm, 100 m from the origin: 5300 times the distance of 19 mm between its outermost particles.
+cat >"$work/far.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 s
+method: pd
+solver: cg
+solver_tolerance: 1e-7
+material: {young: 70 GPa, density: 2700}
+body: {box: {from: [100 m, 0], to: [100.02 m, 20 mm]}}
+particles: {spacing: 1 mm}
+boundary: [{fixed: all, face: y-}, {traction: [0, 1 MPa], face: y+}]
+END
+"$cleave" run -q -o "$work/far" "$work/far.yaml" 2>"$work/err"
+is "far from the origin: exit status" $? 1
+holds "far from the origin: $(cat "$work/err")" grep -q 'the body is 100 m from the origin, 5.3e+03 times its size, .*: move it to the origin$' "$work/err"
 refused()
 {
     what=$1 text=$2; shift 2
