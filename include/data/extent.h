@@ -13,8 +13,8 @@ struct extent_text {
  * particles. */
 struct extent_text particles_extent_text(const struct particles *p);
 
-/* Returns "; the body is .. m from the origin, .. times its size, and ..: move it to the origin" if the particles are so
- * far from the origin that round-off of their positions limits solvers, else "". */
+/* Returns "; the body is .. m from the origin, .. times its size, and ..: move it to the origin" if the particles are
+ * so far from the origin that round-off of their positions limits solvers, else "". */
 struct extent_text particles_far_from_origin_text(const struct particles *p);
 
 #endif

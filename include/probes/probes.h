@@ -116,9 +116,9 @@ void probes_store_motion_before_step(struct probes *s, const struct observed_run
  * velocities. If probes_store_motion_before_step was not called before, the body is assumed to be in equilibrium. */
 void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
 
-/* Appends to *warning_list and prints, once for each SIF probe, a warning that K_I, K_II and J have no value at the last
- * sample: the ring of a tip that has grown leaves the body, or its contours differ by more than 20 %. in_equilibrium:
- * also for tips at rest, where no wave can be the cause. t: time of the sample [s]. */
+/* Appends to *warning_list and prints, once for each SIF probe, a warning that K_I, K_II and J have no value at the
+ * last sample: the ring of a tip that has grown leaves the body, or its contours differ by more than 20 %.
+ * in_equilibrium: also for tips at rest, where no wave can be the cause. t: time of the sample [s]. */
 void probes_warn_of_meaningless_sif(struct probes *s, bool in_equilibrium, real t, struct warnings *warning_list);
 
 /* Updates the probes that observe every time step. BREAK and SPALL probes search for bonds that broke in the step

@@ -122,7 +122,7 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
                 to,
                 "crack %d ends nowhere inside a body, so that it cannot grow and may cut the body in two: its "
                 "end at (%s) m is %.3g m from the nearest particle; check its coordinates and their unit (mm?); "
-                "if this is meant: accept: [growth]",
+                "if this is intended, add accept: [growth]",
                 k + 1, position_text(c->corner[end], p->dim, 6).text, outside);
             return;
         }
@@ -131,7 +131,7 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
         warnings_add_if_new(
             to,
             "crack %d cannot grow: supports prescribe the motion of all %lld particles within a horizon of its ends; "
-            "use a smaller depth or region for them; if this is meant: accept: [growth]",
+            "use a smaller depth or region for them; if this is intended, add accept: [growth]",
             k + 1, (long long)near);
 }
 
@@ -201,7 +201,8 @@ void engine_warn_of_useless_cracks(const struct scene *s, const struct particles
     warn_of_growths(s, p, warnings);
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, longest_bond, warnings)) return;
     if (!bonds_are_cut(b))
-        warnings_add_if_new(warnings, "the pre-cracks cut no bond: check that they are inside the body");
+        warnings_add_if_new(warnings,
+                            "the pre-cracks cut no bond: check that they are inside the body, and their unit (mm?)");
     else
         warn_of_fixed_cracks(s, p, loads, tips, longest_bond, warnings);
 }

@@ -50,17 +50,18 @@ void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct part
                 distance = real_min(distance, load_distance(&loads->load[b], p, &tips->tip[k]));
     }
     if (!isfinite(distance) || distance <= reach + s->horizon * s->spacing) return;
-    warnings_add_if_new(warnings,
-                        "duration: in %.3g s waves travel %.3g m, but from the loads to the nearest end of a crack it "
-                        "is %.3g m, so that no crack can grow: use a duration of more than %.2g s; if this is meant: "
-                        "accept: [reach]",
-                        s->duration, reach, distance, distance / wave_speed);
+    warnings_add_if_new(
+        warnings,
+        "duration: in %.3g s waves travel %.3g m, but from the loads to the nearest end of a crack it "
+        "is %.3g m, so that no crack can grow: use a duration of more than %.2g s; if this is intended, add "
+        "accept: [reach]",
+        s->duration, reach, distance, distance / wave_speed);
 }
 
 /* ---- signs ------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if boundary b is a traction on a whole face, given by numbers, that presses on it without shear until the
- * end of the run. With a region it may act on the wall of a hole, where it opens cracks. */
+/* Returns true if boundary b is a traction on a whole face, given by numbers, that presses on it without shear until
+ * the end of the run. With a region it may act on the wall of a hole, where it opens cracks. */
 static bool presses(const struct boundary *b, int dim)
 {
     bool normal = b->region.n == 0;
@@ -95,7 +96,7 @@ void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct part
     if (!all || !load || scene_silences_warning(s, ACCEPT_GROWTH)) return;
     warnings_add_if_new(warnings,
                         "boundary %s: its traction of %.3g Pa on %c%c presses crack 1 shut, as all loads do, so that "
-                        "it cannot grow: one that opens it points outwards, %.3g Pa; if this is meant: accept: "
+                        "it cannot grow: one that opens it points outwards, %.3g Pa; if this is intended, add accept: "
                         "[growth]",
                         load->name, load->value[load->face], "xyz"[load->face], load -> side > 0 ? '+' : '-',
                         -load->value[load->face]);

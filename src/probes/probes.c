@@ -143,7 +143,8 @@ void probes_store_motion_before_step(struct probes *s, const struct observed_run
 }
 
 /* Computes K_I, K_II, J and their relative difference between contours for a SIF probe, and stores them in
- * value[SIF_FIGURES] in this order, NAN for those that are not meaningful. t_velocity: time of the current velocities [s]. */
+ * value[SIF_FIGURES] in this order, NAN for those that are not meaningful. t_velocity: time of the current velocities
+ * [s]. */
 static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
     sif_probe_compute_intensity_factors(q, o, t_velocity);

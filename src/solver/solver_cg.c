@@ -153,12 +153,13 @@ static status check(struct static_solver *s, const struct static_body *body, int
     restart(s, body->part);
     if (s->stalls < STALLS_MOST) return OK;
     solver_cg_displace(s, body); /* the last accepted state replaces the trial motion */
-    return status_set(FAILED,
-                      "conjugate gradients at step %lld: the residual stays at %.3g of the load, and %.3g is required; "
-                      "use a larger solver_tolerance (round-off limits it to 1e-8 for compact bodies, 1e-6 for slender "
-                      "ones), or check that the moments of the loads are balanced and every part has stiffness: a "
-                      "single row of particles has no bending stiffness%s",
-                      (long long)step, s->best, body->tolerance, particles_far_from_origin_text(body->part).text);
+    return status_set(
+        FAILED,
+        "conjugate gradients at step %lld: the out-of-balance force stays at %.3g of the load, but %.3g is required; "
+        "use a larger solver_tolerance (round-off limits it to 1e-8 for compact bodies, 1e-6 for slender "
+        "ones), or check that the moments of the loads are balanced and every part has stiffness: a "
+        "single row of particles has no bending stiffness%s",
+        (long long)step, s->best, body->tolerance, particles_far_from_origin_text(body->part).text);
 }
 
 status cg_step(struct static_solver *s, const struct static_body *body, int64_t step, bool *done)
