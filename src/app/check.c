@@ -341,8 +341,8 @@ static void say_verdict(const char *scene, int warnings, int remarks)
         printf("%s can be run; read first the remark%s on accuracy above (%d in all)\n", name, remarks > 1 ? "s" : "",
                remarks);
     else
-        printf("%s can be run, but read first the warning%s above (%d)%s\n", name, warnings > 1 ? "s" : "", warnings,
-               remarks > 0 ? " and the remarks on accuracy" : "");
+        printf("%s can be run, but read first the warning%s above (%d in all)%s\n", name, warnings > 1 ? "s" : "",
+               warnings, remarks > 0 ? " and the remarks on accuracy" : "");
 }
 
 /* Prints the resolved settings of the scene of run e: particles, shapes, materials, frames, pre-cracks, loads, steps,

@@ -78,7 +78,7 @@ refused 'only: use `method: pd` or `method: adaptive`; a smooth wall at rest can
 remedied -s method=pd
 remedied -s method=adaptive
 other "$work/mirror.yaml"
-refused 'only; `method: pd` with `model: ospd` or `method: adaptive` with `model: ospd`' "$wall" -s method=mpm -s material.poisson=0.2
+refused 'only: use `method: pd` with `model: ospd` or `method: adaptive` with `model: ospd`' "$wall" -s method=mpm -s material.poisson=0.2
 remedied -s method=pd -s model=ospd
 remedied -s method=adaptive -s model=ospd
 refused 'which do not allow a law of plasticity other than linear hardening; use a boundary `mirror` for' "$wall" -s method=mpm $cook
@@ -153,7 +153,7 @@ sed 's/^particles:/interfaces: [{bodies: [plate, wall]}]\n&/' "$work/stiff.yaml"
 refused 'by their grid (method mpm); use `method: pd` or `method: mpm`' "$work/joined.yaml" -s method=adaptive
 remedied -s method=pd
 remedied -s method=mpm
-refused 'space plane stress; `method: pd` with `model: ospd` or use `method: mpm` for any ratio' "$work/joined.yaml" -s method=adaptive -s materials.m.poisson=0.2
+refused 'space plane stress; use `method: pd` with `model: ospd` or `method: mpm` for any ratio' "$work/joined.yaml" -s method=adaptive -s materials.m.poisson=0.2
 remedied -s method=pd -s model=ospd
 remedied -s method=mpm
 

@@ -157,9 +157,9 @@ done
 silent "sound: no line before it" "^warning\|^accuracy" "$glass"
 is "sound: the last line" "$(tail -n 1 "$work/said")" "$glass is sound"
 checked "$glass" -s particles.horizon=1
-is "a warning: the last line" "$(tail -n 1 "$work/said")" "$glass can be run, but read first the warning above (1)"
+is "a warning: the last line" "$(tail -n 1 "$work/said")" "$glass can be run, but read first the warning above (1 in all)"
 checked "$glass" -s cracks=[] -s 'body={box: {from: [0, -4*a], to: [50*a, 4*a]}}'
-is "a remark: the last line" "$(tail -n 1 "$work/said")" "$glass can be run; read first the remark on accuracy above (1)"
+is "a remark: the last line" "$(tail -n 1 "$work/said")" "$glass can be run; read first the remark on accuracy above (1 in all)"
 "$cleave" check "$glass" --no-trial -s particles.horizon=1 2>/dev/null >"$work/said"
 holds "warnings go to standard error" sh -c "! grep -q ^warning '$work/said'"
 
@@ -457,7 +457,7 @@ silent "a speed elsewhere" 'bodies collide' "$plates" -s 'initial=[{velocity: [2
 says "without contact" '^warning: contact.between: none: peridynamic bodies have no contact and pass through each other; use contact.between: bodies or all for contact' \
     "$plates" -s contact.between=none
 silent "without contact: no collision" 'bodies collide' "$plates" -s contact.between=none
-says "without contact, adaptive" 'warning: particles that become peridynamic pass .*; here contact.between is none' "$plates" -s contact.between=none -s method=adaptive
+says "without contact, adaptive" 'warning: particles that become peridynamic pass .*, but contact.between is none' "$plates" -s contact.between=none -s method=adaptive
 
 # ---- supports, shapes, encounters, frames ------------------------------------------------------------------------------
 
