@@ -179,7 +179,7 @@ refused "a half-space that flies" "$work/no" "its shape is infinite" "$work/hit.
     -s "bodies=[{name: b, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}, {name: a, rigid: true, mass: 1 kg, shape: {half-space: {point: [20 mm, 0], normal: [1, 0]}}}]"
 refused "friction of pairs" "$work/no" "contact.law: surface" "$work/hit.yaml" -s contact.friction=0.1 -s contact.law=pair
 refused "rigid bodies and material points" "$work/no" "method: pd" "$work/hit.yaml" -s method=mpm
-stopped "particles that pass each other" "$work/deep" "inside another" inputs/bars_collide.yaml \
+stopped "particles that pass each other" "$work/deep" "overlaps another one by" inputs/bars_collide.yaml \
     -s "bodies=[{name: a, velocity: [2000 m/s], shape: {box: {from: [-100 mm], to: [0]}}}, {name: b, velocity: [-2000 m/s], shape: {box: {from: [1 mm], to: [101 mm]}}}]"
 
 finish
