@@ -309,10 +309,9 @@ static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool 
     }
 }
 
-/* Prescribes the velocities of all node components in the list s on grid g, except of nodes without mass, each by the
- * last load in the scene that constrains it. by[loads]:
- * prescribed motion of each load; mesh: the mesh to which g belongs, or NULL; reference: true if nodes move with the
- * material, as on a mesh. */
+/* Prescribes the velocities of all node components in the list s on grid g, except of nodes without mass and of entries
+ * that a later load overrules. by[loads]: prescribed motion of each load; mesh: the mesh to which g belongs, or NULL;
+ * reference: true if nodes move with the material, as on a mesh. */
 static void constrained_walls(const struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                               const struct driven_by *by, bool reference)
 {
