@@ -164,6 +164,7 @@ struct frame_extra {
     const real *more_spacing;        /* [more->n] spacing of the material points of coarse cells [m] */
     unsigned asked;                  /* bit set of the requested fields: ASK_STRAIN and so on */
     const struct material *material; /* materials of the particles, borrowed; needed for strain and density */
+    const int *material_number;      /* of each material in the scene file, borrowed; NULL: its index */
     enum space space;
     struct frame_state state, more_state;
 };

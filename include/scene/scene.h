@@ -145,6 +145,7 @@ struct scene {
 
     int materials, unused_materials; /* those that bodies consist of; others */
     struct material *material;       /* [materials + unused_materials] */
+    int *material_number;            /* [the same] position of each in the scene file, from 0 */
     int bodies;
     struct scene_body *body; /* [bodies + rigids] deformable bodies, then rigid ones */
     int rigids;
@@ -326,6 +327,10 @@ int scene_material_at_position(const struct scene *s, const struct scene_body *b
 /* Returns true if particles of body b can consist of the material with the index `material`: it is the material of the
  * body or of one of its parts, or the particle list of the body has a column of materials. */
 bool scene_body_can_have_material(const struct scene_body *b, int material);
+
+/* Returns the material with the number `number` in the scene file (0 .. s->materials + s->unused_materials - 1), by
+ * which files of a run name it; NULL if there is none. */
+const struct material *scene_material_of_number(const struct scene *s, int number);
 
 /* Releases the members of the scene *s, which was read by a function of scene_read.h. */
 void scene_free(struct scene *s);

@@ -1,7 +1,7 @@
-/* Exports the particles of a scene, or the frames of a run, as an Exodus II file (Schoof, Yarberry 1994):
- * spheres in one block for each material, with radius and volume as attributes; the particles on which loads act as
- * node sets; fields over time. Nodes and elements have the same numbers, and there are always three coordinates, as
- * Peridigm requires. */
+/* Exports the particles of a scene, or the frames of a run, as an Exodus II file (Schoof, Yarberry 1994): spheres in
+ * one block for each material of the scene file, empty where no body consists of it, with radius and volume as
+ * attributes; the particles on which loads act as node sets; fields over time. Nodes and elements have the same
+ * numbers, and there are always three coordinates, as Peridigm requires. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -161,7 +161,7 @@ static void blocks_define(struct exodus_export *x, const struct shared *d, int *
     netcdf_define_array(w, "eb_status", 0, NETCDF_INT, 1, &d->blocks, NULL, NULL);
     netcdf_define_array(w, "eb_prop1", 0, NETCDF_INT, 1, &d->blocks, "name", "ID");
     netcdf_define_array(w, "eb_names", 0, NETCDF_CHAR, 2, (const int[]){d->blocks, d->name}, NULL, NULL);
-    for (int m = 0; m < x->mesh.scene.materials; m++) {
+    for (int m = 0; m < x->mesh.materials; m++) {
         if (block_size(&x->mesh, m) == 0) continue;
         over[m] = netcdf_define_dimension(w, "num_el_in_blk", m + 1, block_size(&x->mesh, m));
         const int one = netcdf_define_dimension(w, "num_nod_per_el", m + 1, 1);
@@ -205,7 +205,7 @@ static void variables_define(struct exodus_export *x, const struct shared *d, co
         netcdf_define_array(w, "vals_nod_var", v + 1, NETCDF_DOUBLE, 2, (const int[]){d->records, d->nodes}, NULL,
                             NULL);
     for (int v = 0; v < x->variables[0]; v++)
-        for (int m = 0; m < x->mesh.scene.materials; m++) {
+        for (int m = 0; m < x->mesh.materials; m++) {
             char name[NETCDF_NAME];
             snprintf(name, sizeof name, "vals_elem_var%deb", v + 1);
             if (block_size(&x->mesh, m) == 0) continue;
@@ -221,7 +221,7 @@ static void all_define(struct exodus_export *x, const struct netcdf_attribute *a
     struct netcdf_writer *w = &x->w;
     const struct export_mesh *m = &x->mesh;
     struct shared d;
-    int *over = NEW("export.blocks", m->scene.materials, int);
+    int *over = NEW("export.blocks", m->materials, int);
     w->attribute = attribute, w->attributes = attributes, w->records = x->frames;
     d.records = netcdf_define_dimension(w, "time_step", 0, 0);
     netcdf_define_dimension(w, "len_string", 0, NAME_WIDTH);
@@ -231,9 +231,9 @@ static void all_define(struct exodus_export *x, const struct netcdf_attribute *a
     d.dim = netcdf_define_dimension(w, "num_dim", 0, DIM_MAX);
     d.nodes = netcdf_define_dimension(w, "num_nodes", 0, m->n);
     netcdf_define_dimension(w, "num_elem", 0, m->n);
-    d.blocks = netcdf_define_dimension(w, "num_el_blk", 0, m->scene.materials);
+    d.blocks = netcdf_define_dimension(w, "num_el_blk", 0, m->materials);
     d.sets = m->e->loads.n > 0 ? netcdf_define_dimension(w, "num_node_sets", 0, m->e->loads.n) : -1;
-    d.rows = netcdf_define_dimension(w, "num_info", 0, m->scene.materials + 1);
+    d.rows = netcdf_define_dimension(w, "num_info", 0, m->materials + 1);
     netcdf_define_array(w, "info_records", 0, NETCDF_CHAR, 2, (const int[]){d.rows, d.line}, NULL, NULL);
     netcdf_define_array(w, "coor_names", 0, NETCDF_CHAR, 2, (const int[]){d.dim, d.name}, NULL, NULL);
     for (int k = 0; k < DIM_MAX; k++) netcdf_define_array(w, axes[k], 0, NETCDF_DOUBLE, 1, &d.nodes, NULL, NULL);
@@ -252,9 +252,10 @@ static void info_write(struct exodus_export *x)
     char line[2 * LINE_WIDTH];
     snprintf(line, sizeof line, "spacing %.9g m, horizon %.9g m", s->spacing, s->horizon * s->spacing);
     netcdf_write_text_row(&x->w, line, LINE_WIDTH);
-    for (int m = 0; m < s->materials; m++) {
-        snprintf(line, sizeof line, "block_%d: %.24s: density %.5g kg/m^3, E %.5g Pa, nu %.4g", m + 1,
-                 s->material[m].name, s->material[m].density, s->material[m].young, s->material[m].poisson);
+    for (int k = 0; k < x->mesh.materials; k++) {
+        const struct material *m = scene_material_of_number(s, k);
+        snprintf(line, sizeof line, "block_%d: %.24s: density %.5g kg/m^3, E %.5g Pa, nu %.4g", k + 1, m->name,
+                 m->density, m->young, m->poisson);
         netcdf_write_text_row(&x->w, line, LINE_WIDTH);
     }
     netcdf_end_array(&x->w);
@@ -275,7 +276,7 @@ static void coordinates_write(struct exodus_export *x)
     memory_free(numbers);
 }
 
-/* Writes the element block of the material with the index `material`: the nodes of its elements, and the attributes
+/* Writes the element block of the material with the number `material`: the nodes of its elements, and the attributes
  * radius and volume of the spheres that represent the particles. */
 static void block_write(struct exodus_export *x, int material)
 {
@@ -300,7 +301,7 @@ static void block_write(struct exodus_export *x, int material)
 
 static void blocks_write(struct exodus_export *x)
 {
-    const int n = x->mesh.scene.materials;
+    const int n = x->mesh.materials;
     for (int m = 0; m < n; m++) netcdf_write_integers(&x->w, 1, (const int32_t[]){block_size(&x->mesh, m) > 0});
     netcdf_end_array(&x->w);
     for (int m = 0; m < n; m++) netcdf_write_integers(&x->w, 1, (const int32_t[]){m + 1});
@@ -393,7 +394,7 @@ static void exodus_print(const struct exodus_export *x)
     const struct scene *s = &x->mesh.scene;
     const int cracks = s->cracks;
     printf("%s: %lld particles in %d block%s, %d node set%s", printable_name(x->request->folder).text,
-           (long long)x->mesh.n, s->materials, s->materials == 1 ? "" : "s", x->mesh.e->loads.n,
+           (long long)x->mesh.n, x->mesh.materials, x->mesh.materials == 1 ? "" : "s", x->mesh.e->loads.n,
            x->mesh.e->loads.n == 1 ? "" : "s");
     if (x->folder)
         printf(", %d variables at %d times\n", x->variables[0] + x->variables[1], x->frames);

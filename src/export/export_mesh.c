@@ -25,8 +25,8 @@ static status scene_make_whole(struct export_mesh *m, const struct export_reques
     return s;
 }
 
-/* Compares two keys a and b for qsort, each of type int64_t[3] with material, id and index: first by material, then by
- * id. */
+/* Compares two keys a and b for qsort, each of type int64_t[3] with number of the material, id and index: first by
+ * number, then by id. */
 static int mesh_key_order(const void *a, const void *b)
 {
     const int64_t *p = a, *q = b;
@@ -40,7 +40,8 @@ status export_mesh_make(struct export_mesh *m, const struct export_request *r)
     TRY(engine_set_up_run(m->e, &m->scene, NULL));
     const struct particles *p = &m->e->part;
     int64_t(*key)[3] = memory_new("export.order", p->n, sizeof *key);
-    for (int64_t i = 0; i < p->n; i++) key[i][0] = p->material[i], key[i][1] = p->id[i], key[i][2] = i;
+    for (int64_t i = 0; i < p->n; i++)
+        key[i][0] = m->scene.material_number[p->material[i]], key[i][1] = p->id[i], key[i][2] = i;
     array_sort(key, p->n, sizeof *key, mesh_key_order);
     m->n = p->n;
     m->particle = NEW("export.particles", p->n, int32_t), m->place = NEW("export.places", p->n, int32_t);
@@ -48,7 +49,8 @@ status export_mesh_make(struct export_mesh *m, const struct export_request *r)
         m->particle[k] = (int32_t)key[k][2], m->place[key[k][2]] = (int32_t)k;
         m->first[key[k][0] + 1]++;
     }
-    for (int material = 0; material < m->scene.materials; material++) m->first[material + 1] += m->first[material];
+    m->materials = m->scene.materials + m->scene.unused_materials;
+    for (int material = 0; material < m->materials; material++) m->first[material + 1] += m->first[material];
     memory_free(key);
     return OK;
 }

@@ -5,15 +5,16 @@
 #include "engine/engine.h"
 #include "export/export.h"
 
-/* The particles of a scene or run, sorted by material, then by id, for meshes of other programs. Each load is a set of
- * them. */
+/* The particles of a scene or run, sorted by the number of their material in the scene file, then by id, for meshes of
+ * other programs. Each load is a set of them. */
 struct export_mesh {
     struct scene scene;
     struct run *e;
     int64_t n;
     int32_t *particle;  /* [n] index in e->part */
     int32_t *place;     /* [n] position of each particle of e->part in this list */
-    int64_t first[258]; /* first position of material m; [materials]: n */
+    int materials;      /* of the scene file, with those of which no body consists */
+    int64_t first[258]; /* first position of material number m; [materials]: n */
 };
 
 /* Reads the scene of the request with its overrides, creates all particles of its bodies and sorts them by material and

@@ -245,7 +245,11 @@ static void copy_reference(const struct frame_source *s, const int32_t *row, int
 
 static void copy_material(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    copy_bytes(rows, row, first, end, s->p->material);
+    const int *number = s->extra.material_number;
+    for (int64_t r = first; r < end; r++) {
+        const uint8_t own = s->p->material[row[r]];
+        ((uint8_t *)rows)[r] = number ? (uint8_t)number[own] : own;
+    }
 }
 
 static void copy_body(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)

@@ -25,7 +25,8 @@ static void category_name(char *name, size_t capacity, const char *field, int va
     if (strcmp(field, "fragment") == 0) known = value < 0 ? "no bond left" : value == 0 ? "the heaviest" : NULL;
     if (strcmp(field, "level") == 0 && value == 0) known = "none";
     if (strcmp(field, "body") == 0 && s && value < s->bodies) known = s->body[value].name;
-    if (strcmp(field, "material") == 0 && s && value < s->materials) known = s->material[value].name;
+    const struct material *m = strcmp(field, "material") == 0 && s ? scene_material_of_number(s, value) : NULL;
+    if (m) known = m->name;
     if (known && *known)
         snprintf(name, capacity, "%s", known);
     else

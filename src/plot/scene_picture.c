@@ -36,11 +36,11 @@ static const double BAR_HALF = 0.02;
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Returns the number that determines the colour of particle i: the index of its material, or of its body if all bodies
- * have the same material. */
+/* Returns the number that determines the colour of particle i: that of its material in the scene file, or of its body
+ * if all bodies have the same material. */
 static int part_number(const struct scene *s, const struct particles *p, int64_t i)
 {
-    return s->materials > 1 ? p->material[i] : p->body[i];
+    return s->materials > 1 ? s->material_number[p->material[i]] : p->body[i];
 }
 
 /* Appends a square to the cloud c, the particles of the picture, at the position x[dim] [m] projected on the picture
@@ -120,8 +120,8 @@ static void scene_cloud(struct plotted_particles *c, struct run *e, const struct
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of particles of the material with the index `number`, or of the body with this index if all bodies
- * have the same material. Particles in coarse cells are not counted. */
+/* Returns the number of particles of the material with the number `number` in the scene file, or of the body with this
+ * index if all bodies have the same material. Particles in coarse cells are not counted. */
 static int64_t count_part(const struct particles *part, const struct scene *scene, int number)
 {
     int64_t n = 0;
@@ -148,11 +148,13 @@ static void key_of_parts(struct marks *m)
 {
     const struct run *e = m->engine;
     const struct scene *s = e->scene;
-    const int parts = s->materials > 1 ? s->materials : s->bodies;
+    const int parts = s->materials > 1 ? s->materials + s->unused_materials : s->bodies;
     char text[TEXT_ROOM];
     for (int k = 0; k < parts; k++) {
         const int64_t n = count_part(&e->part, e->scene, k);
-        const char *name = s->materials > 1 ? s->material[k].name : s->bodies > 1 ? s->body[k].name : s->material->name;
+        const char *name = s->materials > 1 ? scene_material_of_number(s, k)->name
+                           : s->bodies > 1  ? s->body[k].name
+                                            : s->material->name;
         if (n == 0) continue;
         if (m->plain)
             snprintf(text, sizeof text, "%.48s", name);

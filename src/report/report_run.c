@@ -104,7 +104,8 @@ static void write_names(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "names", '{');
     json_open(&p->json, "material", '[');
-    for (int k = 0; k < s->materials; k++) json_write_text(&p->json, NULL, s->material[k].name);
+    for (int k = 0; k < s->materials + s->unused_materials; k++)
+        json_write_text(&p->json, NULL, scene_material_of_number(s, k)->name);
     json_close(&p->json, ']');
     json_open(&p->json, "body", '[');
     for (int k = 0; k < s->bodies; k++) json_write_text(&p->json, NULL, s->body[k].name);

@@ -97,6 +97,7 @@ void scene_free(struct scene *s)
     for (int k = 0; k < s->regions; k++) region_free(&s->named[k].region);
     memory_free(s->named);
     memory_free(s->material);
+    memory_free(s->material_number);
     memory_free(s->body);
     memory_free(s->interface);
     memory_free(s->crack);

@@ -36,6 +36,13 @@ bool scene_body_can_have_material(const struct scene_body *b, int material)
     return has;
 }
 
+const struct material *scene_material_of_number(const struct scene *s, int number)
+{
+    for (int m = 0; m < s->materials + s->unused_materials; m++)
+        if (s->material_number[m] == number) return &s->material[m];
+    return NULL;
+}
+
 /* Returns true if a body of the scene can consist of material number `material`. */
 static bool material_is_used(const struct scene *s, int material)
 {
@@ -48,9 +55,12 @@ static bool material_is_used(const struct scene *s, int material)
 static void material_set_aside(struct scene *s, int unused)
 {
     const struct material own = s->material[unused];
+    const int number = s->material_number[unused];
     s->materials--, s->unused_materials++;
-    for (int m = unused; m < s->materials; m++) s->material[m] = s->material[m + 1];
-    s->material[s->materials] = own;
+    for (int m = unused; m < s->materials; m++) {
+        s->material[m] = s->material[m + 1], s->material_number[m] = s->material_number[m + 1];
+    }
+    s->material[s->materials] = own, s->material_number[s->materials] = number;
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         body->material -= body->material > unused;

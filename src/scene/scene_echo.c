@@ -304,10 +304,11 @@ static void write_rate(struct writer *w, const struct strength_rate *rate)
 static void write_materials(struct writer *w)
 {
     const struct scene *s = w->scene;
-    bool one = s->materials == 1; /* overrides of material.young then apply to the echo */
+    const int n = s->materials + s->unused_materials;
+    bool one = n == 1; /* overrides of material.young then apply to the echo */
     fprintf(w->out, one ? "material:\n" : "materials:\n");
-    for (int k = 0; k < s->materials; k++) {
-        struct material m = s->material[k];
+    for (int k = 0; k < n; k++) {
+        struct material m = *scene_material_of_number(s, k);
         if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN; /* follows from energy_release_rate */
         writer_begin_list_item(w);
         if (one) w->indent = 2, w->dash = false;

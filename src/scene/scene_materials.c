@@ -150,9 +150,11 @@ status read_materials(struct reader *r, const struct yaml_node *root)
     if (many) TRY(expect_list_of_valid_length(r, key_find("", "materials"), many));
     s->materials = many ? many->n : 1;
     s->material = NEW("materials", s->materials, struct material);
+    s->material_number = NEW("materials.numbers", s->materials, int);
     const struct yaml_node *n = many ? many->first : one;
     for (int k = 0; k < s->materials; k++, n = n->next) {
         TRY(scene_parts_read_material(r, n, &s->material[k]));
+        s->material_number[k] = k;
         if (many && !yaml_node_find(n, "name")) return fault_report_missing_key(r, n, key_find("material", "name"));
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)

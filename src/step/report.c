@@ -151,7 +151,9 @@ static status write_frames(struct run *e, unsigned due)
     if (parts) fragments_find_by_intact_bonds(&fragments, &e->bonds, &e->part);
     for (int k = 0; k <= out->n_series; k++)
         if (due >> k & 1) asked |= asked_of(e->scene, k);
-    struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
+    struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL,
+                                .fragment = fragments.of,
+                                .material_number = e->scene->material_number};
     if (coarse_cell_points_make_for_output(e->frame, &e->part, e->scene->material,
                                            asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;

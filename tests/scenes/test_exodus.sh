@@ -46,6 +46,21 @@ for name in kinetic strain; do
     holds "$name energy of the list: $(column list $name), of the shape: $(column shape $name)" \
         awk -v a="$(column shape $name)" -v b="$(column list $name)" 'BEGIN { exit !(a > 0 && a - b < 1e-7 * a && b - a < 1e-7 * a) }'
 done
+# A material of which no body consists keeps its number in the file, read back or from a run, and in frames.
+sed 's/^materials: \[/&{name: spare, young: 1 GPa, density: 1, critical_stretch: 0.1}, /' plate.yaml >spare.yaml
+"$cleave" export exodus spare.yaml -o spare.g >said 2>&1
+grep -q "800 particles in 3 blocks" said && pass || fail "a spare material: $(cat said)"
+"$cleave" run spare.yaml -q -o spare -s 'bodies=[{name: plate, particles: spare.g}]' >said 2>&1 || fail "the spare list does not run: $(cat said)"
+holds "a spare material changes nothing" cmp -s list/history.csv spare/history.csv
+"$cleave" run spare.yaml -q -o kept >/dev/null 2>&1
+"$cleave" export exodus kept -o kept.g >/dev/null 2>&1
+"$cleave" run spare.yaml -q -o again -s 'bodies=[{name: plate, particles: kept.g}]' >said 2>&1 || fail "the spare run does not run: $(cat said)"
+holds "nor in the export of a run" cmp -s list/history.csv again/history.csv
+rm -r again
+if command -v h5dump >/dev/null; then
+    holds "numbers in frames" sh -c "h5dump -d /VTKHDF/PointData/material kept/frames/000003.hdf | grep -A3 DATA | grep -q '(0): 1'"
+fi
+
 # A list in mm: the echo of the scene says so and runs alike.
 for x in 0.25 0.75 1.25 1.75; do for y in 0.25 0.75 1.25; do echo "$x $y 0 0.5 1"; done; done >bare.txt
 { echo "x y z volume block_id"; cat bare.txt; } >named.txt
