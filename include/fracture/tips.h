@@ -15,6 +15,7 @@
 #define CLEAVE_TIPS
 
 #include "base/archive.h"
+#include "bonds/bonds.h"
 #include "data/cells.h"
 #include "data/particles.h"
 #include "data/region.h"
@@ -118,6 +119,10 @@ struct crack_area {
  * symmetry and thickness. */
 struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
                                         const struct tip_surroundings *s);
+
+/* Returns the area of the cuts through a bar [m^2]: places that bonds have crossed, all of which load has broken. Of a
+ * cut in a plane of symmetry half of the area is own. section: of the bar [m^2]. */
+struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real section);
 
 /* Frees the arrays of t. */
 void tips_free(struct crack_tips *t);

@@ -121,3 +121,54 @@ struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct
     memory_free(cell);
     return area;
 }
+
+/* A particle of a bar with its reference position [m]. */
+struct bar_place {
+    real X;
+    int32_t particle;
+};
+
+/* Compares two struct bar_place by position for qsort. */
+static int bar_place_order(const void *a, const void *b)
+{
+    const struct bar_place *p = a, *q = b;
+    return (p->X > q->X) - (p->X < q->X);
+}
+
+/* Extends *kept and *lost to the farthest position that an intact bond of the particle `i` of a bar reaches in the
+ * direction `side`, and one that load has broken [side m]. side: -1: towards smaller positions, 1: larger ones. */
+static void bar_bonds_reach(const struct bonds *b, const struct particles *p, int32_t i, int side, real *kept,
+                            real *lost)
+{
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);) {
+        const real to = side * p->X[0][it.bond.nbr];
+        if (it.bond.w != 0)
+            *kept = real_max(*kept, to);
+        else if (it.bond.inverse_length < 0)
+            *lost = real_max(*lost, to);
+    }
+}
+
+struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real section)
+{
+    const int64_t n = p->n_of[KIND_PD];
+    struct bar_place *at = NEW("tips.bar", n, struct bar_place);
+    int64_t cuts = 0, beside_mirror = 0;
+    real kept = -INFINITY, lost = -INFINITY;
+    for (int64_t k = 0; k < n; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        at[k] = (struct bar_place){p->X[0][i], i};
+    }
+    array_sort(at, n, sizeof *at, bar_place_order);
+    if (n > 0) bar_bonds_reach(b, p, at[0].particle, -1, &kept, &lost);
+    if (n > 0 && lost > -at[0].X && kept <= -at[0].X) beside_mirror++;
+    kept = lost = -INFINITY;
+    for (int64_t k = 0; k < n; k++) {
+        bar_bonds_reach(b, p, at[k].particle, 1, &kept, &lost);
+        const bool cut = lost > at[k].X && kept <= at[k].X;
+        cuts += cut && k + 1 < n, beside_mirror += cut && k + 1 == n;
+    }
+    memory_free(at);
+    return (struct crack_area){.face = section * (real)(cuts + beside_mirror),
+                               .own = section * ((real)cuts + 0.5 * (real)beside_mirror)};
+}

@@ -83,20 +83,23 @@ static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct
 /* Updates in e->statics->record the crack area, the energy released and the release rate, which is computed over the
  * last two growths of the crack. The crack area follows from the paths of SIF-driven tips, unless damaged particles
  * indicate more than 1.5 spacings of further growth. Without such tips it follows from the damaged particles, in 3D
- * from the broken bonds. Damaged particles change the area in steps of one spacing, so that growth counts only after
- * GROWTH spacings. A load step without growth leaves the rate unchanged. */
+ * from the broken bonds, in a bar from its cuts. Damaged particles change the area in steps of one spacing, so that
+ * growth counts only after GROWTH spacings. A load step without growth leaves the rate unchanged. */
 static void measure(struct run *e)
 {
     const struct statics *s = e->statics;
     struct steps_record *r = &e->statics->record;
-    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section_or_thickness(e->scene),
+    const real section = scene_section_or_thickness(e->scene);
+    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, section,
                                             0.5 * damage_beside_cut(e->scene)};
     const struct crack_area path = sif_paths_area(&s->sif, &e->part);
-    const real spacing = growth_by_spacing(&e->fracture->tips, scene_section_or_thickness(e->scene));
+    const real spacing = growth_by_spacing(&e->fracture->tips, section);
     const bool solid = e->part.dim == 3 && path.own == 0;
     const struct crack_area bonds = {r->broken / crack_energy_share_by_symmetry(&e->fracture->tips, &e->source, -1),
                                      r->broken},
-                            damaged = solid ? bonds : tips_total_crack_area(&e->fracture->tips, &e->part, &around);
+                            damaged = solid              ? bonds
+                                      : e->part.dim == 1 ? bar_total_crack_area(&e->bonds, &e->part, section)
+                                                         : tips_total_crack_area(&e->fracture->tips, &e->part, &around);
     const bool by_path = path.own > 0 && damaged.own <= path.own + 1.5 * spacing;
     const real area = by_path ? path.own : damaged.own, growth = by_path || solid ? 0 : GROWTH * spacing;
     r->released = statics_energy_released(s, &e->bonds);

@@ -107,6 +107,14 @@ near "way of the grip" "$(last "$bar" grip.displacement_x)" 2e-5 1e-12
 holds "a wall at rest has no displacement" sh -c "! grep -q 'wall.displacement' '$bar/history.csv'"
 is "figures are those of probes alone" "$(grep -c '"wall"\|"grip"' "$bar/summary.json")" 0
 
+# A bar that breaks has a crack of its section at each cut: one where its middle is weak, two where both grips let go.
+sed -e 's/section: .*/section: 1 mm^2/; s/0.02 mm/0.06 mm/' -e 's/^body.*/bodies: [{name: b, material: whole, shape: {box: {from: [0], to: [40 mm]}}, parts: [{region: {box: {from: [18 mm], to: [22 mm]}}, material: weak}]}]/' \
+    -e 's/^material.*/materials: [{name: whole, young: 70 GPa, density: 2700, critical_stretch: 0.4 %}, {name: weak, young: 70 GPa, density: 2700, critical_stretch: 0.1 %}]/' "$bar.yaml" >"$work/weak.yaml"
+sed -e 's/section: .*/section: 1 mm^2/; s/0.02 mm/0.06 mm/; s/density: 2700/density: 2700, critical_stretch: 0.1 %/' "$bar.yaml" >"$work/grips.yaml"
+for name in weak grips; do "$cleave" run "$work/$name.yaml" -q -o "$work/$name" >"$work/out" 2>&1; done
+is "a bar in two pieces" "$(column "$work/weak" crack_area 2)" 1e-06
+is "a bar that leaves both grips" "$(column "$work/grips" crack_area 2)" 2e-06
+
 # Loads on lists of particles that overlap: the wall bears their sum, that of points that two of them load counted once each.
 for method in pd mpm; do
     calm "$bar$method" "$bar.yaml" -s method=$method -s 'gravity=[100 km/s^2]' \
