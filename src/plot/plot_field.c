@@ -96,6 +96,16 @@ static status field_unknown(const char *name, const char *const *names)
                       word_propose_similar(name, names, COUNT_OF(fields)).text, all);
 }
 
+/* Returns true if `name` denotes the field `own`: it is its name, or that with the axes of a tensor component in the
+ * other order, as in stress_xz and stress_zx. */
+static bool names_field(const char *name, const char *own)
+{
+    const size_t n = strlen(own);
+    if (strcmp(name, own) == 0) return true;
+    if (n < 3 || strlen(name) != n || own[n - 3] != '_' || strncmp(name, own, n - 2) != 0) return false;
+    return name[n - 2] == own[n - 1] && name[n - 1] == own[n - 2];
+}
+
 status plot_field_find_by_name(const struct plot_field **field, const char *name, int dim)
 {
     const char *names[COUNT_OF(fields)];
@@ -104,7 +114,7 @@ status plot_field_find_by_name(const struct plot_field **field, const char *name
     snprintf(component, sizeof component, "%s%s", name, dim == 1 && vector ? "_x" : "");
     for (size_t k = 0; k < COUNT_OF(fields); k++) {
         names[k] = fields[k].name;
-        if (strcmp(component, names[k]) != 0) continue;
+        if (!names_field(component, names[k])) continue;
         *field = &fields[k];
         if (!lacks_component(*field, dim)) return OK;
         return status_set(REFUSED, "plot: --field %s: a run in %d dimension%s has no such component", name, dim,

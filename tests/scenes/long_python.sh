@@ -101,6 +101,9 @@ ax = plate.plot("von_mises", limits=(0, 50e6))
 assert ax.collections[0].get_clim() == (0, 50) and ax.figure.axes[1].get_ylabel() == "von Mises stress [MPa]"
 for field in ("displacement", "speed", "pressure", "principal_stress_1", "kind"):
     plate.plot(field)
+ax = plate.plot("fragment")
+assert len(ax.figure.axes) == 1 and ax.get_legend().get_texts()[0].get_text() == "the heaviest", "a name for each value"
+assert np.allclose(ax.collections[0].get_facecolor()[0, :3], np.array([212, 214, 217]) / 255), "and a colour"
 _, panel = plt.subplots()
 assert plate.plot(ax=panel) is panel and frame.slice(y=0.5e-3).plot("damage", colour_bar=False) is not panel
 

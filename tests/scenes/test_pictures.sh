@@ -125,6 +125,8 @@ drawn "the title, and that displacements are not as they are" "'It''s a strip, d
 drawn "a PDF of 90 x 70 mm" "pdfcairo size 3.541[0-9]*in,2.75in"
 "$cleave" plot results/strip --field speed --times last --magnify 3e4 --title '' $small -o untitled.png >out 2>err
 drawn "no title: the magnification alone" "set label 1 'displacements x 30 000' at"
+"$cleave" plot results/strip --field stress_yx --times last $small -o order.png >out 2>err
+holds "a component by either order of its axes: $(cat err)" grep -q "stress_xy" out
 # A unit that one end has holds for both; damage has the colours and the ends that are asked for, categories have no scale.
 : >drawn
 "$cleave" plot results/strip --field damage --times last --range -0.1:0.6 --colours grey --crop 4:12mm,2mm:8 $small -o grey.pdf >out 2>err

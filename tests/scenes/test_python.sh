@@ -86,7 +86,7 @@ frame = run.frames[-1]
 holds("particles", len(frame) == summary["particles"] == 400 and (np.diff(frame["id"]) > 0).all())
 x, y = 1e-3 * (np.arange(400) % 20 + 0.5), 1e-3 * (np.arange(400) // 20 + 0.5) - 10e-3
 holds("places at rest", np.allclose(frame.reference, np.c_[x, y, 0 * x], atol=1e-12))
-holds("places now", np.allclose(frame.positions - frame.reference, frame["displacement"], atol=1e-8))
+holds("places now", np.allclose(frame.positions - frame.reference, frame["displacement"], atol=1e-15, rtol=1e-6))
 holds("shapes", frame["stress"].shape == (400, 6) and frame["velocity"].shape == (400, 3) and frame["damage"].shape == (400,))
 holds("units", frame.units["stress"] == "Pa" and frame.units["damage"] == "")
 kinetic = 0.5 * 2440 * 1e-9 * (frame["velocity"].astype(float) ** 2).sum()
@@ -138,6 +138,7 @@ refused("half a summary", None, lambda: half.status)
 stress = frame["stress"].astype(float)
 deviator = stress - np.r_[1, 1, 1, 0, 0, 0] * stress[:, :3].mean(axis=1)[:, None]
 holds("von Mises", np.allclose(frame["von_mises"] ** 2, 1.5 * (deviator ** 2 * np.r_[1, 1, 1, 2, 2, 2]).sum(axis=1), rtol=1e-5))
+holds("a component by either order of its axes", (frame["stress_zx"] == frame["stress_xz"]).all() and frame.unit("stress_zx") == "Pa")
 holds("components", (frame["stress_xy"] == frame["stress"][:, 3]).all() and (frame["velocity_y"] == frame["velocity"][:, 1]).all())
 holds("principal stresses", np.allclose(frame["principal_stress"].sum(axis=1), -3 * frame["pressure"], atol=1.0)
       and (np.diff(frame["principal_stress"], axis=1) <= 0).all())
@@ -209,6 +210,20 @@ gap = np.interp(1e-3, opened[0][:, 0], opened[0][:, 1]) - np.interp(1e-3, opened
 above, below = (frame.slice(y=y) for y in (0.5e-3, -0.5e-3))
 wanted = 100 * np.mean([(above.positions - above.reference)[:2, 1] - (below.positions - below.reference)[:2, 1]])
 holds("as far apart as the particles: %g, %g" % (gap, wanted), gap > 0 and np.isclose(gap, wanted, rtol=0.1))
+
+# A body far from the origin, whose points in the file are rounded to 0.06 m, is nowhere else for that.
+far = cleave.run(scene, {"body": {"box": {"from": [5e5, 0], "to": ["500000.02 m", "20 mm"]}}, "cracks": [], "boundary": [], "probes": [],
+                         "output.regions": [], "duration": "1 us"}, output=work + "/far").frames[-1]
+holds("far away, at rest", (far.positions == far.reference).all() and (far.moved(1e6) == far.reference).all())
+holds("and squares there", np.allclose(np.ptp(corners_of(far, 1e6), axis=1), 1e-3, atol=1e-8))
+
+# fields with named values: the colours and names of the program
+from cleave._categories import _FRAGMENTS, _PARTS, categories_of
+rows = [[tuple(int(part) for part in colour.split(",")[:3]) for colour in re.findall(r"{([0-9, ]*)}", body)]
+        for body in re.findall(r"struct colour turn\[\] = {(.*?)};", source, re.S)]
+holds("colours of fragments and parts", rows == [list(_FRAGMENTS), list(_PARTS)])
+holds("names", [entry[1] for entry in categories_of(frame, "fragment", np.array([-1, 0, 3]))] == ["no bond left", "the heaviest", "fragment 3"]
+      and categories_of(frame, "kind", frame["kind"])[0][1] == "peridynamics")
 
 # packages that only some functions need: one line says which and how to get it
 for name, need in (("matplotlib.pyplot", lambda: run.plot()), ("pandas", frame.to_pandas), ("pandas", history.to_pandas),

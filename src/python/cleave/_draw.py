@@ -7,6 +7,7 @@ from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
+from ._categories import CATEGORIES, categories_of
 from ._errors import need, number_of
 from ._fields import components, scale_of
 from ._rigid import outlines_of
@@ -25,6 +26,7 @@ _SIGNED = re.compile(r"(displacement|velocity)_[xyz]$|(stress|strain)_[xyz]{2}$|
 _FROM_LEAST = ("temperature", "density")
 _NEARLY = 0.98                           # share of the most damage that makes a layer a candidate for the section
 _APART = 1.5                             # distance of neighbours over the spacing above which a bar has separated
+_NAMED_MOST = 12                         # largest number of values that the key of a field with named values has
 _BESIDE = 0.3                            # share of its longer side by which a picture grows towards rigid bodies
 
 
@@ -138,7 +140,7 @@ def _draw_line(frame: Any, name: str, ax: Any, magnify: float) -> Any:
     """Draws a field of a bar as a curve over the position, with gaps where it has separated; a particle alone is a point."""
     values, words, unit = _values_of(frame, name)
     reference = frame.reference[:, 0]
-    places = reference + (frame.positions[:, 0] - reference) * magnify
+    places = frame.moved(magnify)[:, 0]
     order = np.argsort(reference)
     apart = np.flatnonzero(np.diff(frame.positions[order, 0]) > _APART * frame.spacing[order[1:]]) + 1
     long, metres = scale_of(float(np.ptp(places)), "m")
@@ -193,6 +195,21 @@ def _seen(particles: np.ndarray, rigid: np.ndarray) -> np.ndarray:
     return np.array([points.min(axis=0), points.max(axis=0)])
 
 
+def _draw_categories(frame: Any, name: str, values: np.ndarray, squares: Any, ax: Any, key: bool) -> None:
+    """Gives each value of a field with named values its colour, and names the first ones in a key beside the picture."""
+    from matplotlib.patches import Patch
+    found = categories_of(frame, name, values)
+    colours = {value: colour for value, _, colour in found}
+    squares.set_array(None)
+    squares.set_facecolor([colours[value] for value in values.astype(int).tolist()])
+    squares.set_edgecolor("face")
+    patches = [Patch(color=colour, label=text) for _, text, colour in found[:_NAMED_MOST]]
+    if len(found) > _NAMED_MOST:
+        patches.append(Patch(color="none", label="and %d more" % (len(found) - _NAMED_MOST)))
+    if key:
+        ax.legend(handles=patches, title=name, loc="upper left", bbox_to_anchor=(1.02, 1.0), borderaxespad=0.0)
+
+
 def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: float = 1.0, limits: Any = None, colours: Optional[str] = None,
                colour_bar: bool = True, slice: Optional[Dict[str, float]] = None) -> Any:
     """Draws a field of a frame and returns the axes. Arguments: Run.plot."""
@@ -202,6 +219,8 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     from matplotlib.collections import LineCollection, PolyCollection
     _check(frame, magnify, limits, colours)
     name, words, axes, at = _name_of(frame, field), [], (0, 1), None
+    if name in CATEGORIES and not (colours is None and limits is None):
+        raise ValueError("%s: %s has a colour for each value and no scale" % ("limits" if colours is None else "colours", name))
     words.append(_when(frame))
     if slice is not None and frame.dimension < 3:
         raise ValueError("slice is for solids; this frame has %d dimension%s" % (frame.dimension, "s" * (frame.dimension > 1)))
@@ -237,7 +256,9 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     ax.set_xlabel("%s [%s]" % ("xyz"[axes[0]], metres))
     ax.set_ylabel("%s [%s]" % ("xyz"[axes[1]], metres))
     _title(ax, words)
-    if colour_bar:
+    if name in CATEGORIES:
+        _draw_categories(frame, name, values, squares, ax, colour_bar)
+    elif colour_bar:
         beyond = (values.min(initial=low) < low, values.max(initial=high) > high)
         ax.figure.colorbar(squares, ax=ax, label=label + (" [%s]" % shown if shown else ""),
                            extend={(True, True): "both", (True, False): "min", (False, True): "max"}.get(beyond, "neither"))

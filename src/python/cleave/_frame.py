@@ -138,9 +138,13 @@ class Frame:
 
     @property
     def positions(self) -> np.ndarray:
-        """Current positions [m], n x 3; z = 0 in the plane."""
-        with self._file() as file:
-            return self._part(file["VTKHDF/Points"][()])
+        """Current positions [m], n x 3 in double precision; z = 0 in the plane."""
+        return self.moved()
+
+    def moved(self, magnify: float = 1.0) -> np.ndarray:
+        """Returns the reference positions plus `magnify` times the displacements [m], n x 3: the points of the file have single
+        precision, too coarse for small displacements and for bodies far from the origin."""
+        return self.reference + magnify * self["displacement"].astype(float)
 
     @property
     def reference(self) -> np.ndarray:
@@ -200,8 +204,10 @@ class Frame:
         if values is None and "_" in which:
             name, _, suffix = which.rpartition("_")
             whole = self._found(name)
-            if whole is not None and suffix in components(name, whole):
-                values = whole[:, components(name, whole).index(suffix)]
+            parts = () if whole is None else components(name, whole)
+            suffix = suffix if suffix in parts else suffix[::-1]     # stress_zx is stress_xz
+            if whole is not None and suffix in parts:
+                values = whole[:, parts.index(suffix)]
         if values is None:
             raise KeyError("%s; this frame has %s" % (which, ", ".join(self.names)))
         return values

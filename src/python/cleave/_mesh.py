@@ -25,8 +25,7 @@ def grid_of(frame: Any, cells: str, magnify: float) -> Any:
     count, dim = len(frame), frame.dimension
     if cells == "points":
         kind, corners = _VERTEX, 1
-        reference = frame.reference
-        places = frame.positions if magnify == 1 else reference + magnify * (frame.positions - reference)
+        places = frame.moved(magnify)
     else:
         kind, corners = _BOXES[dim]
         places = np.zeros((count * corners, 3))

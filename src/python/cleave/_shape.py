@@ -51,7 +51,7 @@ def crack_faces(frame: Any, magnify: float = 1.0) -> List[np.ndarray]:
     """Returns the faces of the pre-cracks of a plane frame as lines [m], each n x 2: the positions along a pre-crack, moved as the particles
     beside it are. magnify: factor on displacements."""
     reference, spacing, lines = frame.reference[:, :2], float(frame.spacing.min(initial=np.inf)), []
-    motion = magnify * (frame.positions[:, :2] - reference)
+    motion = magnify * frame["displacement"][:, :2].astype(float)
     for start, end in precracks(frame.scene) if frame.dimension == 2 else []:
         length = float(np.linalg.norm(end - start))
         along = (end - start) / max(length, 1e-300)
@@ -139,7 +139,7 @@ def corners_of(frame: Any, magnify: float = 1.0, axes: Tuple[int, ...] = (0, 1, 
     """
     kept = list(axes[:frame.dimension])
     reference, spacing = frame.reference[:, kept], frame.spacing
-    motion = frame.positions[:, kept] - reference
+    motion = frame["displacement"][:, kept].astype(float)
     names, none = frame.names, np.zeros(len(frame), dtype=int)
     damage = frame["damage"] if "damage" in names else none
     body = frame["body"] if "body" in names else none
