@@ -18,6 +18,21 @@ void csv_close(struct csv_file *c)
     c->file = NULL;
 }
 
+/* Replaces the D of Fortran exponents by e in the numbers of a line, as in 5.0D-01. */
+static void exponents_rewrite(char *text)
+{
+    static const char between[] = " \t\r\n,;\"", digits[] = "0123456789";
+    for (char *field = text + strspn(text, between); *field; field += strspn(field, between)) {
+        char *end = field + strcspn(field, between), *d = field + strspn(field, "+-.0123456789");
+        char *power = d + 1;
+        if ((*d == 'D' || *d == 'd') && d > field && strchr(".0123456789", d[-1])) {
+            power += *power == '+' || *power == '-';
+            if (power < end && power + strspn(power, digits) == end) *d = 'e';
+        }
+        field = end;
+    }
+}
+
 status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comment)
 {
     while ((*line_was_read = fgets(c->text, sizeof c->text, c->file) != NULL)) {
@@ -31,6 +46,7 @@ status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comm
         if (c->line == 1 && strncmp(c->text, "\xEF\xBB\xBF", 3) == 0) memmove(c->text, c->text + 3, length - 2);
         size_t blank = strspn(c->text, " \t\r\n");
         *line_is_comment = c->text[blank] == '#';
+        if (!*line_is_comment) exponents_rewrite(c->text);
         if (c->text[blank] != '\0') return OK;
     }
     *line_is_comment = false;

@@ -24,9 +24,9 @@ status csv_open(struct csv_file *c, const char *path, const char *line_descripti
 /* Closes the CSV file of c. */
 void csv_close(struct csv_file *c);
 
-/* Reads the next line that is not blank into c->text. Sets *line_was_read to false at the end of the file, and
- * *line_is_comment to true if the line begins with #. Returns REFUSED, with a message, if the line is too long or
- * cannot be read. */
+/* Reads the next line that is not blank into c->text, with e for the D of Fortran exponents, as in 5.0D-01. Sets
+ * *line_was_read to false at the end of the file, and *line_is_comment to true if the line begins with #. Returns
+ * REFUSED, with a message, if the line is too long or cannot be read. */
 status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comment);
 
 /* Reads the next line that is neither blank nor a comment into c->text. Sets *line_was_read to false at the end of the
