@@ -44,6 +44,7 @@ function unitFor(largest, unit) {
     const size = Math.abs(largest);
     if (unit === "degree") return {factor: 1, name: "°"};
     if (unit === "m" && size >= 0.9995 && size < 999.5) return {factor: 1, name: "m"};
+    if (unit === "m" && size >= 999.5) return {factor: 1e3, name: "km"};
     if (unit === "m" && size > 5e-4) return {factor: 1e-3, name: "mm"};
     if (/^m(\^2|²)$/.test(unit) && size > 0) {
         const squares =
@@ -52,10 +53,13 @@ function unitFor(largest, unit) {
         return {factor, name};
     }
     if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-15))
-        return {factor: 1, name: unit || ""};
+        return {factor: 1, name: unitText(unit)};
     const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || prefixes[prefixes.length - 1];
-    return {factor, name: prefix + unit};
+    return {factor, name: prefix + unitText(unit)};
 }
+
+// A unit as it is written: m², not m^2.
+const unitText = (unit) => (unit || "").replace(/\^([23])(?!\d)/g, (all, power) => " ²³"[power - 1]);
 
 const powerOfTen = (power) =>
     "10" + [...String(power)].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");

@@ -113,7 +113,7 @@ function showColumns() {
     });
     for (const [unit, list] of groups)
         byId("columns").append(element("div", {className: "chips"},
-            element("span", {className: "unit"}, unit ? "[" + unit + "]" : "[1]"), ...list.map((c) => {
+            element("span", {className: "unit"}, unit ? "[" + unitText(unit) + "]" : "[1]"), ...list.map((c) => {
                 const box = element("input", {
                     type: "checkbox",
                     checked: history_.shown.includes(c),
@@ -130,7 +130,8 @@ function showColumns() {
         page.history.rows < page.history.listed ?
             number(page.history.rows) + " of " + number(page.history.listed) + " lines of history.csv." :
             "",
-        constant.length ? "Constant: " + constant.join(", ") + "." : ""
+        constant.length ? "Constant: " + constant.join(", ") + "." : "",
+        groups.size ? "" : "Nothing but the time changes."
     ];
     byId("rows").textContent = said.join(" ");
 }
@@ -142,7 +143,9 @@ function panelsOf() {
 }
 
 function drawCurves() {
-    const panels = panelsOf(), each = panels.length > 2 ? 170 : 220, over = history_.columns[history_.over];
+    const panels = panelsOf();
+    byId("plot").style.display = panels.length ? "" : "none";
+    const each = panels.length > 2 ? 170 : 220, over = history_.columns[history_.over];
     const {context, width, height} = canvasOf(byId("plot"), Math.max(panels.length, 1) * (each + 34) + 44);
     const zoom = history_.zoom || [over.low, over.high > over.low ? over.high : over.low + 1],
           xUnit = unitFor(Math.max(Math.abs(over.low), Math.abs(over.high)), over.unit);

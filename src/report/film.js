@@ -53,6 +53,8 @@ function codesOf(field, frame) {
     return codes;
 }
 
+// Do the colours of a field show by themselves where cracks are?
+const showsCracks = (field) => field.name === "damage" || field.name === "fragment";
 const damageOf = (frame) => (frame.values.damage ? arrayOf(frame.values.damage) : null);
 const valueOf = (field, code) => field.low + (field.high - field.low) * code / 254;
 
@@ -123,7 +125,7 @@ function drawFilm() {
         context.putImageData(to.image, 0, 0);
         if (film.dim === 2) {
             drawRigids(context, to, frame, ratio);
-            drawPreCracks(context, to, ratio);
+            drawPreCracks(context, to, frame, ratio);
         } else
             drawTriad(context, [width - BAR - 60, height - foot / 2 + 4]);
         drawScaleBar(context, width - BAR, height - foot / 2);
@@ -138,7 +140,7 @@ function drawFilm() {
 
 function paintFrame(to, frame, ratio) {
     const set = particlesOf(film, film.sets[frame.set]), {lut, codes} = view, damage = damageOf(frame);
-    const dark = byId("cracks").checked && view.field.name !== "damage" && damage;
+    const dark = byId("cracks").checked && !showsCracks(view.field) && damage;
     const colour = (i) => (dark && damage[i] > CRACK_CODE ? INK : lut[codes[i]]);
     if (film.dim === 2) {
         paintPlane(to, {x: view.x, y: view.y, scale: view.scale * ratio}, set, view.x_of, colour, damage);
@@ -165,25 +167,6 @@ const timeText = (frame) => {
     const t = unitFor(last, "s");
     return "t = " + number(frame.t / t.factor) + " " + t.name;
 };
-
-// Pre-cracks where they were before the run, as lines on the body.
-function drawPreCracks(context, to, ratio) {
-    context.fillStyle = "#18202a";
-    const pixel = ([x,
-        y]) => [to.width / 2 + (x - view.x) * view.scale * ratio, to.height / 2 - (y - view.y) * view.scale * ratio];
-    const onBody =
-        (px, py) => [-3, 0, 3].some((off) => to.owner[(Math.round(py) + off) * to.width + Math.round(px)] >= 0);
-    for (const line of page.cracks || [])
-        for (let k = 1; k < line.length; k++) {
-            const [a, b] = [pixel(line[k - 1]), pixel(line[k])],
-                      steps = Math.min(Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1])), 8000);
-            for (let s = 0; s <= steps; s++) {
-                const [px, py] = [0, 1].map((d) => a[d] + (b[d] - a[d]) * s / Math.max(steps, 1));
-                if (px >= 0 && px < to.width && onBody(px, py))
-                    context.fillRect(px / ratio - 0.7, py / ratio - 0.7, 1.4, 1.4);
-            }
-        }
-}
 
 // The axes as the body is turned. at: their origin on the canvas.
 function drawTriad(context, at) {
@@ -220,6 +203,8 @@ function drawColourBar(context, width, height) {
     context.fillStyle = "#1d2330";
     words.forEach((word, k) => context.fillText(word, left, 20 + 16 * k));
     if (field.scale === "category") return drawCategories(context, left, top, height);
+    if (!(field.most > field.least))
+        return context.fillText(quantity(field.low, field.unit) + " everywhere", left, top + 6);
     const stops = field.name === "damage" ? scales.damage : scales[field.scale === "signs" ? "signs" : "zero"];
     for (let k = 0; k < tall; k++) {
         context.fillStyle = "rgb(" + scaleColour(stops, 1 - k / tall).join() + ")";
@@ -274,8 +259,9 @@ function setLimits(low, high) {
     const field = view.field, unit = unitFor(Math.max(Math.abs(field.low), Math.abs(field.high)), field.unit);
     view.low = low;
     view.high = high > low ? high : low + Math.abs(low) * 1e-6 + 1e-30;
-    for (const id of ["limits", "auto"]) byId(id).style.display = field.scale === "category" ? "none" : "";
-    byId("cracks").disabled = field.name === "damage";
+    for (const id of ["limits", "auto"])
+        byId(id).style.display = field.scale === "category" || !(field.most > field.least) ? "none" : "";
+    byId("cracks").disabled = showsCracks(field);
     byId("low").value = Number((low / unit.factor).toPrecision(4));
     byId("high").value = Number((high / unit.factor).toPrecision(4));
     byId("unit").textContent = unit.name;
@@ -321,9 +307,18 @@ function boxOf(frame, magnify) {
     return {low, high};
 }
 
+// The box of the magnified body in the present frame and five others.
+function boxOfFrames(magnify) {
+    const last = film.frames.length - 1, shown = [0, 1, 2, 3, 4].map((k) => film.frames[Math.round(k * last / 4)]);
+    const boxes = [...new Set([film.frames[view.frame], ...shown])].map((frame) => boxOf(frame, magnify));
+    const over = (end, most) => boxes[0][end].map((_, d) => most(...boxes.map((box) => box[end][d])));
+    return {low: over("low", Math.min), high: over("high", Math.max)};
+}
+
 // Shows the whole body: from the front in the plane, obliquely in space.
 function resetView() {
-    const box = view.magnify === 1 ? film.box : boxOf(film.frames[view.frame], view.magnify);
+    const box = view.magnify === 1 ? film.box : boxOfFrames(view.magnify);
+    view.chosen = false;
     const {low, high} = boxWithRigids(box, film.frames[view.frame]),
                 size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
     if (film.dim === 2) {
@@ -337,9 +332,12 @@ function resetView() {
         const extent = (row) => size.reduce((sum, s, d) => sum + Math.abs(row[d]) * s, 0);
         view.scale = Math.min(width / extent(view.turn[0]), view.height / extent(view.turn[1])) / 1.12;
     } else
-        view.height = 380;
+        view.height = 380, view.box = box;
     drawFilm();
 }
+
+// Shows the whole body again after a change of its magnification, unless the reader has chosen a view.
+function followBody() { view.chosen ? drawFilm() : resetView(); }
 
 const unitVector = (v) => v.map((c) => c / Math.hypot(...v));
 
@@ -365,6 +363,7 @@ function listenToPointer() {
         if (!from) return readParticle(e);
         const [dx, dy] = [e.clientX - from[0], e.clientY - from[1]];
         from = [e.clientX, e.clientY];
+        view.chosen = true;
         if (film.dim === 3 && !e.shiftKey)
             turnBy(dx / 150, dy / 150);
         else if (film.dim === 3)
@@ -381,6 +380,7 @@ function listenToPointer() {
         if (film.dim === 2)
             view.x += off[0] / view.scale * (1 - 1 / factor), view.y += off[1] / view.scale * (1 - 1 / factor);
         view.scale *= factor;
+        view.chosen = true;
         drawFilm();
     }, {passive: false});
 }
@@ -394,6 +394,12 @@ function readParticle(e) {
     byId("readout").textContent = i < 0 ? "" : particleText(i);
 }
 
+// Digits of a position that tell apart what is a ten-thousandth of the body apart, wherever the body lies.
+function placeDigits({low, high}) {
+    const extent = Math.max(...high.map((h, d) => h - low[d])), far = Math.max(...low.concat(high).map(Math.abs));
+    return Math.min(Math.max(4 + Math.ceil(Math.log10(far / extent)), 4), 12) || 4;
+}
+
 function particleText(i) {
     const frame = film.frames[view.frame], x = positionsOf(film, frame, 1), damage = damageOf(frame);
     const metre = unitFor(Math.max(...film.box.high.map((h, d) => h - film.box.low[d])), "m");
@@ -402,7 +408,8 @@ function particleText(i) {
         (code === 254 && field.most > field.high * (1 + 1e-6)                      ? "≥ " :
                 code === 0 && field.least < field.low - 1e-6 * Math.abs(field.low) ? "≤ " :
                                                                                      "");
-    const parts = ["at (" + x.map((axis) => number(axis[i] / metre.factor)).join(", ") + ") " + metre.name];
+    const digits = placeDigits(film.box);
+    const parts = ["at (" + x.map((axis) => number(axis[i] / metre.factor, digits)).join(", ") + ") " + metre.name];
     parts.push(field.scale === "category" ?
             field.name + ": " + nameOf(field, code) :
             field.name.replace(/_/g, " ") + " " + (clipped || "") + quantity(value, field.unit, 3));
@@ -462,7 +469,7 @@ function listenToControls() {
     on("low", "change", readLimits);
     on("high", "change", readLimits);
     on("auto", "click", () => setLimits(view.field.low, view.field.high));
-    on("magnify", "input", () => (view.magnify = Math.max(Number(byId("magnify").value), 0), drawFilm()));
+    on("magnify", "input", () => (view.magnify = Math.max(Number(byId("magnify").value), 0), followBody()));
     for (const id of ["cracks", "ghost", "cut", "cut_at"]) on(id, "input", drawFilm);
     on("reset", "click", resetView);
     on("save", "click",
@@ -479,7 +486,7 @@ function showFilm() {
     film.fields.push(...displacementFields());
     if (film.fields.length === 0)
         film.fields.push(
-            {name: "displacement", unit: "m", scale: "zero", low: 0, high: 1, least: 0, most: 0, axis: -1});
+            {name: "displacement", unit: "m", scale: "zero", low: 0, high: 0, least: 0, most: 0, axis: -1});
     byId("field").append(...film.fields.map((f) => element("option", {value: f.name}, f.name.replace(/_/g, " "))));
     const damaged = film.fields.some((f) => f.name === "damage"),
           hide = (id, gone) => (byId(id).style.display = gone ? "none" : "");

@@ -15,7 +15,7 @@ function drawProfile(context, width, height, frame) {
     const metre = unitFor(film.box.high[0] - film.box.low[0], "m"),
           unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit);
     const axes = axesOf({left: 76, right: width - 20, top: 34, bottom: height - 44},
-        [film.box.low[0], film.box.high[0]], padded(view.low, view.high));
+        [view.box.low[0], view.box.high[0]], padded(view.low, view.high));
     drawAxes(context, axes, metre, unit, "x [" + metre.name + "]",
         field.name.replace(/_/g, " ") + (unit.name ? " [" + unit.name + "]" : ""));
     context.fillStyle = curveColours[0];

@@ -23,8 +23,9 @@ static status folder_check_kind(const char *folder)
     if (folder_holds_study(folder) || run_has_file(folder, "frames.hdf.series") || run_has_file(folder, "history.csv"))
         return OK;
     if (run_has_file(folder, "study.yaml"))
-        return status_set(REFUSED, "%s holds a study without a table; make it by the same command with --collect",
-                          shown.text);
+        return status_set(
+            REFUSED, "%s holds a study without a table: the same command with --collect makes it once a run is done",
+            shown.text);
     return status_set(REFUSED, "%s holds neither a run (frames or history.csv) nor a study (sweep.csv, converge.csv)",
                       shown.text);
 }

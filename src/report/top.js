@@ -123,7 +123,7 @@ function showOrigin() {
             ["largest memory", number(summary.memory_peak_bytes / 1e6, 3) + " MB"],
             [
                 "time step",
-                summary.time_step ?
+                summary.time_step && !inSteps && !oneEquilibrium ? // loads are not applied by time steps there
                     quantity(summary.time_step, "s") + ", critical " + quantity(summary.time_step_critical, "s") :
                     ""
             ],

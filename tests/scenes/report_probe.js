@@ -38,6 +38,22 @@ function bareFaces() {
     return Array.from(set.X[0]).reduce((n, _, i) => n + sides.filter((s) => bare(i, s)).length, 0);
 }
 
+// What a plane body shows whose displacements are magnified: the share of its particles on the canvas, and at 4 mm along
+// the first pre-crack how far its faces are apart [m] and the darkest red on the canvas where they are.
+function magnified(factor) {
+    send("magnify", "input", factor);
+    const frame = film.frames[view.frame], set = particlesOf(film, film.sets[frame.set]), [x, y] = view.x_of;
+    const shown = (i) => Math.abs(x[i] - view.x) * view.scale < (byId("view").clientWidth - BAR) / 2 &&
+        Math.abs(y[i] - view.y) * view.scale < view.height / 2;
+    const share = Array.from(x.keys()).filter(shown).length / set.n;
+    const faces = facesOf(set).slice(0, 2).map((face) => {
+        const [px, py, i] = face.find((p) => p[0] > 0.004 && p[2] >= 0);
+        return [px + x[i] - set.X[0][i], py + y[i] - set.X[1][i]];
+    });
+    const red = faces.map(([px, py]) => Math.min(...[-1, 0, 1].map((k) => colourAt(px, py + k / view.scale)[0])));
+    return {share, apart: faces.length ? Math.abs(faces[0][1] - faces[1][1]) : 0, red: Math.max(...red)};
+}
+
 async function probeFilm(seen) {
     seen.frames = film.frames.length;
     seen.shown_at_first = view.frame;
@@ -63,6 +79,11 @@ async function probeFilm(seen) {
     seen.field = view.field.name;
     seen.painted_again = painted();
     if (film.dim === 2) seen.crack_von_mises = colourAt(0.01, 0.0102), seen.whole_von_mises = colourAt(0.035, 0.004);
+    if (film.dim === 2) {
+        seen.magnified = magnified(200);
+        send("field", "change", "fragment");
+        seen.dark_fragments = view.field.name === "fragment" && !byId("cracks").disabled;
+    }
     if (film.dim === 3) {
         const rows = JSON.stringify(view.turn), canvas = byId("view");
         for (const [type, x] of [["pointerdown", 300], ["pointermove", 380], ["pointerup", 380]])
@@ -87,7 +108,8 @@ async function probe() {
     if (page.history) {
         seen.curves_first = history_.shown.map((c) => [c.name, c.unit, largestOf(c)]);
         seen.over = byId("over").selectedOptions[0].textContent;
-        seen.lengths = [quantity(4.17, "m"), quantity(0.417, "m")];
+        seen.lengths = [quantity(4.17, "m"), quantity(0.417, "m"), quantity(2e4, "m"), unitFor(5, "J/m^2").name];
+        seen.origin = byId("origin").textContent;
         seen.chips = [...document.querySelectorAll("#columns label")].map((l) => l.textContent);
         const sum = () => byId("plot").toDataURL().length, before = sum();
         document.querySelector("#columns input:not(:checked)").click();

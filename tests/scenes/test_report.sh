@@ -63,8 +63,11 @@ if [ -n "$browser" ]; then
     says opened "s['curves_first'][-1][0] == 'crack_length' and s['curves_first'][0][0] != 'kinetic'"
     says opened "(lambda size: size == sorted(size, reverse=True))([c[2] for c in s['curves_first'][:-1]])"
     says opened "s['chips'][0] == s['curves_first'][0][0].replace('_', ' ') and s['chips'].index('crack growth') < s['chips'].index('momentum x')"
-    says opened "s['over'] == 'time' and s['lengths'] == ['4.17 m', '417 mm']"
+    says opened "s['over'] == 'time' and s['lengths'] == ['4.17 m', '417 mm', '20 km', 'J/m²']"
     says opened "s['field'] == 'von_mises' and max(s['crack_von_mises']) < 100 and s['whole_von_mises'] != [226, 228, 231]"
+    # A magnified body stays on the canvas, and the faces of its pre-crack move with it.
+    says opened "s['magnified']['share'] == 1 and s['magnified']['apart'] > 1e-3 and s['magnified']['red'] < 90"
+    says opened "not s['dark_fragments'] and ', critical ' in s['origin']"
 fi
 
 # A folder whose name would end the script and begin another: no text of the page is markup.
@@ -131,6 +134,9 @@ refused "is a file" plate.yaml
 refused "no folder is given"
 refused "is a second folder" empty empty
 refused "unknown option" results/plate --format pdf
+echo "kind: converge" >empty/study.yaml
+refused "once a run is done" empty
+rm empty/study.yaml
 holds "no page in an empty folder" test -z "$(ls empty)"
 
 # A run that is overwritten removes its page, and leaves a file of this name that is none.
@@ -199,6 +205,11 @@ if [ -n "$browser" ]; then
     says metal "s['problems'] == [] and s['slits'] < 50 and s['first_field'] == 'plastic_strain'"
     says notched "s['problems'] == [] and s['bare'] == 0"
     says steps "s['problems'] == [] and s['over'] == 'load step' and s['when_first'] == 'frame 0, load step 0' and s['first_field'] == 'von_mises'"
+    says steps "', critical ' not in s['origin']"
+    # A body at rest: its colours say so, and there is no empty panel.
+    "$cleave" run plate.yaml -o rest -q --report -s boundary= -s cracks= >out 2>err
+    seen rest
+    says rest "s['problems'] == [] and s['limits'][1] < 1e-20 and s['curves_first'] == []"
 fi
 "$cleave" sweep plate.yaml -s particles.spacing=2mm,1mm -s thickness=1mm,2mm -o sweep -q >out 2>err
 "$cleave" report sweep -q
