@@ -185,12 +185,7 @@ static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
 /* Returns the components of the motion that boundary b prescribes, as bits (bit d: component d): those of a prescribed
  * motion, the normal one of a mirror, all of a clamped mirror. In the plane of a mirror that is not clamped nodes are
  * held, particles are not. */
-static inline uint8_t boundary_prescribed_components(const struct boundary *b, int dim)
-{
-    if (b->kind == BOUNDARY_VELOCITY) return b->components;
-    if (boundary_is_clamped_mirror(b, dim)) return (uint8_t)((1 << dim) - 1);
-    return b->kind == BOUNDARY_MIRROR ? (uint8_t)(1 << b->axis) : 0;
-}
+uint8_t boundary_prescribed_components(const struct boundary *b, int dim);
 
 /* Finds the particles on which boundary b acts, those in its region (for a clamped mirror those in its plane), and
  * stores them in l, ascending, with their shares of the load: areas, volumes or masses. Sets FLAG_DRIVEN on particles

@@ -4,7 +4,6 @@
 
 #include "base/warnings.h"
 #include "data/cells.h"
-#include "data/grid.h"
 #include "scene/scene.h"
 
 /* A shape function of the material point method with which points transmit too little force in stretched metal, and the
@@ -41,15 +40,17 @@ struct point_pairs {
     struct point_pair *pair; /* [n] owned */
 };
 
+struct grid_method;
+
 /* Warns of neighbouring material points of metal, on the grid of the current frame, that have come apart: the cells
  * between them are empty, and they share at most one layer of nodes, so that little or no force acts between them.
  * With linear shapes and gimp, also warns of points that are stretched apart so far that they transmit too little
  * force. Compares them once in each fiftieth of the duration. Does nothing if the scene accepts large strains, and
- * before the plastic strain of a point exceeds 0.02. cells: search cells of the particles p; g: grid of the points; t:
- * current time [s]; pairs: found at the first call. Returns true if the warning that points have come apart has been
- * printed. */
+ * before the plastic strain of a point exceeds 0.02. cells: search cells of the particles p; grid: holds the grid of
+ * the points; t: current time [s]; pairs: found at the first call. Returns true if the warning that points have come
+ * apart has been printed. */
 bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
-                                     const struct grid *g, const struct scene *s, real t,
+                                     const struct grid_method *grid, const struct scene *s, real t,
                                      struct warnings *warning_list);
 
 #endif

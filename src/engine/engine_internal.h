@@ -4,7 +4,6 @@
 
 #include "data/hollow.h"
 #include "engine/engine.h"
-#include "fracture/tips.h"
 
 /* Allocates the parts of a run (contact, cracks, mesh, probes and others), sets all of them to zero, and stores
  * pointers to them in *e. */
@@ -54,16 +53,17 @@ void engine_warn_of_isolated_particles(const struct scene *s, const struct cells
 bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin);
 
 /* Adds warnings to *warnings about pre-cracks that are outside of all bodies, cut no bond or cannot grow, and about
- * probes of cracks where no bond can break. tips: crack tips at the start; longest_bond: length of the longest bonds
+ * probes of cracks where no bond can break. cracks: crack tips at the start; longest_bond: length of the longest bonds
  * [m]. */
 void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b,
-                                   const struct loads *loads, const struct crack_tips *tips, real longest_bond,
+                                   const struct loads *loads, const struct fracture_state *cracks, real longest_bond,
                                    struct warnings *warnings);
 
-/* Adds a warning to *warnings if waves from the loads do not travel to the nearest crack tip within the duration. tips:
- * crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
+/* Adds a warning to *warnings if waves from the loads do not travel to the nearest crack tip within the duration.
+ * cracks: crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
-                                        const struct crack_tips *tips, real wave_speed, struct warnings *warnings);
+                                        const struct fracture_state *cracks, real wave_speed,
+                                        struct warnings *warnings);
 
 /* Adds a warning to *warnings if all loads are tractions that press the pre-cracks shut. */
 void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct particles *p, struct warnings *warnings);

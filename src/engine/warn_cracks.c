@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "engine_internal.h"
+#include "fracture/fracture_part.h"
 
 #define FAR_OUTSIDE 0.1 /* distance of an end of a crack from all particles that is reported [longest edges] */
 enum { ALONG = 32 };    /* positions along a segment, or along each of two sides of a triangle, of a crack */
@@ -194,7 +195,7 @@ static void warn_of_growths(const struct scene *s, const struct particles *p, st
 }
 
 void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b,
-                                   const struct loads *loads, const struct crack_tips *tips, real longest_bond,
+                                   const struct loads *loads, const struct fracture_state *cracks, real longest_bond,
                                    struct warnings *warnings)
 {
     warn_of_unbreakable(s, warnings);
@@ -204,5 +205,5 @@ void engine_warn_of_useless_cracks(const struct scene *s, const struct particles
         warnings_add_if_new(warnings,
                             "the pre-cracks cut no bond: check that they are inside the body, and their unit (mm?)");
     else
-        warn_of_fixed_cracks(s, p, loads, tips, longest_bond, warnings);
+        warn_of_fixed_cracks(s, p, loads, &cracks->tips, longest_bond, warnings);
 }

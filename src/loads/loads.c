@@ -29,6 +29,13 @@ static void loads_list(struct loads *l, const struct particles *p)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
 }
 
+uint8_t boundary_prescribed_components(const struct boundary *b, int dim)
+{
+    if (b->kind == BOUNDARY_VELOCITY) return b->components;
+    if (boundary_is_clamped_mirror(b, dim)) return (uint8_t)((1 << dim) - 1);
+    return b->kind == BOUNDARY_MIRROR ? (uint8_t)(1 << b->axis) : 0;
+}
+
 /* Sets load->prescribes of all loads that prescribe motion of particles. Each component of a particle belongs to the
  * last load in the scene that prescribes it: this load alone moves it, and has its reaction, impulse and work.
  * particles: number of particles; dim: number of components. */

@@ -212,7 +212,8 @@ static void warn_of_parted(const struct scene *s, const struct pair_counts *c, i
 }
 
 bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
-                                     const struct grid *g, const struct scene *s, real t, struct warnings *warning_list)
+                                     const struct grid_method *grid, const struct scene *s, real t,
+                                     struct warnings *warning_list)
 {
     real most = 0;
     const int part = 1 + (int)(PARTS_OF_DURATION * t / s->duration * (1 + 1e-9));
@@ -223,7 +224,7 @@ bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct par
     if (!(most > FLOWED_LEAST)) return false;
     if (!pairs->made) pairs_make(pairs, cells, p, s);
     const struct weak_shape *w = shape_properties_if_weak_in_tension(s->shape);
-    const struct pair_counts c = pairs_count(pairs, p, g, s, w ? w->pulled : INFINITY);
+    const struct pair_counts c = pairs_count(pairs, p, &grid->field[0].grid, s, w ? w->pulled : INFINITY);
     const bool weak = !pairs->pulled && w && (real)c.pulled > w->share * (real)pairs->n;
     if (c.parted == 0 && !weak) return false;
     warn_of_parted(s, &c, pairs->n, t, warning_list);

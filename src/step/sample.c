@@ -1,5 +1,5 @@
-/* Samples: the lines of history.csv. The energies of t_n are known between the forces and the motion of a step, and
- * velocities half a step before and after t_n; a sample is therefore taken in three parts (sample.h). */
+/* Samples: the lines of history.csv. Between the forces and the motion of a step the energies at t_n are known, and the
+ * velocities half a step before and after t_n: a sample is taken in three parts (sample.h). */
 #include <math.h>
 #include <string.h>
 
@@ -198,9 +198,8 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     particles_linear_momentum(p, nodes, grids, momentum, NULL);
 }
 
-/* Computes the momentum at the time t of a sample [kg m/s]. On entry, momentum[dim] is the momentum after the step; it
- * is replaced by the linear interpolation between s->momentum, the momentum before t, and this one. now->t: time of the
- * velocities after the step [s]; now->scale: factor by which the result is multiplied [1]. */
+/* Replaces momentum[dim], the momentum after the step, by that at the time t of a sample [kg m/s], by interpolation
+ * from s->momentum before t. now->t: time of the velocities after the step [s]; now->scale: factor on the result. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
@@ -405,15 +404,15 @@ static real power_of_walls(const struct reference_frame *reference)
     return power;
 }
 
-/* Adds the forces on nodes with prescribed motion to the reactions of their loads: reaction -= force [N]. */
+/* Subtracts the forces on nodes with prescribed motion from the reactions of their loads [N]. */
 static void reactions_add(struct loads *l, const struct grid *g)
 {
     for (int64_t k = 0; k < g->walls; k++)
         l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
 }
 
-/* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads [N]. Those on
- * particles must have been added before. grid: grids of the current frame; NULL if no particle is on them. */
+/* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads [N], after
+ * those on particles. grid: grids of the current frame; NULL: no particle is on them. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -425,9 +424,9 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
 }
 
 /* Returns the power v . f [W] of the forces at the end of the run. These are computed as in a further step, but nothing
- * moves, no bond breaks, and the energies and impulses that the loads have summed are restored; only reactions are
- * updated. The power includes the work on particles with prescribed motion, but not that on nodes with prescribed
- * motion. *held: receives the work that grid and mesh nodes with prescribed motion would do in this step [J]. */
+ * moves, no bond breaks, and the loads keep their sums of energies and impulses; only reactions are updated. The power
+ * includes the work on particles with prescribed motion, not that on nodes. *held: receives the work that grid and mesh
+ * nodes with prescribed motion would do in this step [J]. */
 static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;

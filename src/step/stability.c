@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "kernels/mpm/stress.h"
-#include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
 #include "step/stability.h"
 #include "probes/diagnostics.h"
@@ -480,7 +479,7 @@ status energy_check_last_sample(struct run *e)
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
     if (!e->stability->parted)
         e->stability->parted = parted_points_warn_if_separated(
-            &e->stability->pairs, &e->part, &e->cells, &e->grid->field[0].grid, e->scene, e->clock.t, &e->warnings);
+            &e->stability->pairs, &e->part, &e->cells, e->grid, e->scene, e->clock.t, &e->warnings);
     large_motion_warn_of_passing_parts(&e->stability->motion, &e->part, e->scene, e->source.family.horizon, e->clock.t,
                                        &e->warnings);
     if (scene_is_dynamic(e->scene))

@@ -509,11 +509,11 @@ silent "a disc across an edge" 'of its shape' "$plate" -s "$(solids 'disc: {cent
 # From 20 mm to the lower end of a disc at 8.997 m, less a spacing, at 50 m/s: 0.1795 s.
 fly() { echo "bodies=[{name: plate, shape: {box: {from: [0, 0], to: [20 mm, 20 mm]}}}, {name: ball, shape: {disc: {centre: [10 mm, $1], radius: 3 mm}}, velocity: [$2]}]"; }
 says "a ball too far away" '^warning: body ball reaches plate after 0.18 s, but the duration is 1e-05 s' "$plate" -s body= -s boundary=[] -s "$(fly '9 m' '0, -50')"
-says "a ball that flies away" '^warning: body ball meets no other body, as its velocity leads past plate or away' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '0, 50')"
-says "a ball that flies away from where it touches" '^warning: body ball meets no other body' "$plate" -s body= -s boundary=[] -s "$(fly '23 mm' '0, 50')"
-says "a ball that flies away from less than a spacing" '^warning: body ball meets no other body' "$plate" -s body= -s boundary=[] -s "$(fly '23.6 mm' '0, 50')"
+says "a ball that flies away" '^warning: body ball never reaches another body, because its velocity leads past plate or away' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '0, 50')"
+says "a ball that flies away from where it touches" '^warning: body ball never reaches another body' "$plate" -s body= -s boundary=[] -s "$(fly '23 mm' '0, 50')"
+says "a ball that flies away from less than a spacing" '^warning: body ball never reaches another body' "$plate" -s body= -s boundary=[] -s "$(fly '23.6 mm' '0, 50')"
 silent "a ball that leans on the plate" '^warning: body ball' "$plate" -s body= -s boundary=[] -s "$(fly '23 mm' '0, -50')"
-says "a ball that flies past" '^warning: body ball meets no other body' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '50, 0')"
+says "a ball that flies past" '^warning: body ball never reaches another body' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '50, 0')"
 silent "a ball that hits" '^warning: body ball' "$plate" -s body= -s boundary=[] -s "$(fly '24.1 mm' '0, -50')"
 says "frames every 1 s" '^warning: output.every: 1 s is longer than the duration of 1e-05 s, so' "$plate" -s output.every=1
 says "frames after the end" '^warning: output.times: 1 of 2 are after the duration of 1e-05 s (the last at 0.001 s)' "$plate" -s 'output.times=[1 us, 1 ms]'
