@@ -478,8 +478,8 @@ status energy_check_last_sample(struct run *e)
                                   (scene_is_dynamic(e->scene) && say_flowed(&e->part, e->clock.t, &e->warnings)) ||
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
     if (!e->stability->parted)
-        e->stability->parted = parted_points_warn_if_separated(
-            &e->stability->pairs, &e->part, &e->cells, e->grid, e->scene, e->clock.t, &e->warnings);
+        e->stability->parted = parted_points_warn_if_separated(&e->stability->pairs, &e->part, &e->cells, e->grid,
+                                                               e->scene, e->clock.t, &e->warnings);
     large_motion_warn_of_passing_parts(&e->stability->motion, &e->part, e->scene, e->source.family.horizon, e->clock.t,
                                        &e->warnings);
     if (scene_is_dynamic(e->scene))
