@@ -226,14 +226,22 @@ bool picture_is_too_narrow_for_key(void) { return usual.width > 0 && usual.width
 /* Sizes of letters of titles: in large pictures, in narrow pictures, the smallest one for which a title is not broken
  * into two lines, and the smallest one of all. */
 enum { TITLE_LARGE = 16, TITLE_NARROW = 14, TITLE_ONE_LINE = 11, TITLE_SMALL = 7 };
-static const double LETTER_WIDE = 0.58;
 
-/* Returns the number of characters in the first n bytes of `text`, which is in UTF-8. */
-static int letters_of(const char *text, size_t n)
+double text_width(const char *text, size_t n)
 {
-    int letters = 0;
-    for (size_t k = 0; k < n; k++) letters += ((unsigned char)text[k] & 0xc0) != 0x80;
-    return letters;
+    static const double PIXELS_PER_POINT = 4.0 / 3, NARROW_LETTER = 0.3, WIDE_LETTER = 0.86, CAPITAL = 0.7,
+                        OTHER = 0.56;
+    double width = 0;
+    for (size_t k = 0; k < n; k++) {
+        const unsigned char c = (unsigned char)text[k];
+        if ((c & 0xc0) == 0x80) continue;
+        width += strchr("ijltfI.,:;'|!()[]/ ", c) ? NARROW_LETTER
+                 : strchr("mwMW%@", c)            ? WIDE_LETTER
+                 : c >= 0xe3                      ? 1 /* of East Asia */
+                 : isupper(c)                     ? CAPITAL
+                                                  : OTHER;
+    }
+    return PIXELS_PER_POINT * (picture_is_too_narrow_for_key() ? NARROW_LETTERS : 1) * width;
 }
 
 /* Returns the index of the blank nearest to the middle of `text`, at which a title is broken into two lines; the length
@@ -247,12 +255,12 @@ static size_t break_of(const char *text)
     return best;
 }
 
-/* Writes the first `length` bytes of `text`, a line of a title, into part[TITLE_ROOM]. If they are more than `most`
- * characters, cuts them and appends `...`. */
-static void write_title_line(char *part, const char *text, size_t length, int most)
+/* Writes the first `length` bytes of `text`, a line of a title, into part[TITLE_ROOM]; if their width exceeds `most`,
+ * as many as fit before `...`. most: width over the size of the letters in points [pixel]. */
+static void write_title_line(char *part, const char *text, size_t length, double most)
 {
-    const bool cut = letters_of(text, length) > most;
-    while (length > 0 && letters_of(text, length) > most - 3 * cut) length--;
+    const bool cut = text_width(text, length) > most;
+    while (length > 0 && text_width(text, length) + (cut ? text_width("...", 3) : 0) > most) length--;
     while (length > 0 && (text[length] & 0xc0) == 0x80) length--; /* no character is cut in two */
     snprintf(part, TITLE_ROOM, "%.*s%s", (int)length, text, cut ? "..." : "");
 }
@@ -263,15 +271,13 @@ void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin
     const size_t length = strlen(text);
     const double room = g->width - left_margin - 12,
                  most = picture_is_too_narrow_for_key() ? TITLE_NARROW : TITLE_LARGE;
-    const size_t cut = LETTER_WIDE * TITLE_ONE_LINE * letters_of(text, length) > room ? break_of(text) : length;
-    const int longer = (int)fmax(letters_of(text, cut), letters_of(text + cut, length - cut));
-    const double size = fmax(fmin(most, room / (LETTER_WIDE * fmax(longer, 1))), TITLE_SMALL);
-    const double upper = picture_is_too_narrow_for_key() ? 20 : 28,
-                 letter = LETTER_WIDE * size * (picture_is_too_narrow_for_key() ? NARROW_LETTERS : 1);
-    const int letters_most = size > TITLE_SMALL ? TITLE_ROOM : (int)(room / letter);
+    const size_t cut = TITLE_ONE_LINE * text_width(text, length) > room ? break_of(text) : length;
+    const double longer = fmax(text_width(text, cut), text_width(text + cut, length - cut));
+    const double size = fmax(fmin(most, room / fmax(longer, 1)), TITLE_SMALL);
+    const double upper = picture_is_too_narrow_for_key() ? 20 : 28;
     for (int line = 0; line < 1 + (cut < length); line++) {
         char part[TITLE_ROOM];
-        write_title_line(part, line ? text + cut + 1 : text, line ? length - cut - 1 : cut, letters_most);
+        write_title_line(part, line ? text + cut + 1 : text, line ? length - cut - 1 : cut, room / size * (1 + 1e-9));
         fprintf(g->to, "set label %d ", 1 + line);
         gnuplot_write_quoted_string(g->to, part);
         fprintf(g->to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", left_margin / g->width,

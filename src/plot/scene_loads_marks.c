@@ -306,6 +306,14 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
     }
 }
 
+/* Returns the colour of the boundary condition with the index `number`: of the first twelve each has its own. */
+static const char *colour_of_load(int number)
+{
+    static const char *const further[] = {"#882255", "#117733", "#332288", "#999933", "#aa4499"};
+    const int k = number % (CURVE_COLOURS + (int)COUNT_OF(further));
+    return k < CURVE_COLOURS ? curve_colour[k] : further[k - CURVE_COLOURS];
+}
+
 /* Draws the boundary condition with the index `number` in a colour of its own, as arrows, points or a plane of
  * symmetry, and adds its description to the key. */
 static void boundary_mark(struct marks *m, int number)
@@ -313,7 +321,7 @@ static void boundary_mark(struct marks *m, int number)
     const struct scene *s = m->engine->scene;
     const struct load *l = &m->engine->loads.load[number];
     const struct boundary *b = boundary_of(m->engine, l);
-    const char *colour = curve_colour[number % CURVE_COLOURS];
+    const char *colour = colour_of_load(number);
     char text[TEXT], how[HOW];
     struct acting acting = {.particles = l->n};
     uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(m->engine, l) : NULL;

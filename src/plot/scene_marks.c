@@ -45,6 +45,7 @@ static void key_line_add(struct marks *m, const char *text)
     gnuplot_write_quoted_string(m->plot, text);
     m->keys++;
     if ((int)strlen(text) > m->letters) m->letters = (int)strlen(text);
+    m->widest = fmax(m->widest, text_width(text, strlen(text)));
 }
 
 void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry)

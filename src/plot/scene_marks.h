@@ -17,6 +17,7 @@ struct marks {
     bool plain;                   /* the key has no numbers of particles */
     int blocks;                   /* number of data blocks so far */
     int keys, letters;            /* number of lines of the key so far, and of letters of the longest one */
+    double widest;                /* width of the widest line over the size of its letters in points [pixel] */
 };
 
 /* Begins a gnuplot data block, which contains the points or arrows of one kind of symbol. Add its lines with

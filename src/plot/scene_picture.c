@@ -21,11 +21,11 @@ enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW 
 enum { LEFT_NARROW = 74, RIGHT_NARROW = 18, ABOVE_NARROW = 44, BELOW_NARROW = 82, KEY_LINE_NARROW = 18 };
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90, ABOVE_UNTITLED = 18 };
 
-/* Key: largest size of its letters, their width over their size, width of an entry without its text, and blank beside
- * the key of a narrow picture [pixel]. In such a picture with several columns: width of an entry without its text and
- * of a letter [pixel], and the share by which gnuplot takes letters for wider. */
-static const double KEY_LETTERS = 12, LETTER_WIDE = 0.56, SAMPLE = 50, KEY_BESIDE = 6;
-static const double SAMPLE_NARROW = 44, LETTER_NARROW = 6, LETTERS_WIDER = 0.15;
+/* Key: largest size of its letters, width of an entry without its text, and blank beside the key of a narrow picture
+ * [pixel]. In such a picture with several columns: width of an entry without its text [pixel], and for which gnuplot
+ * takes a letter [pixel]. */
+static const double KEY_LETTERS = 12, SAMPLE = 50, KEY_BESIDE = 6;
+static const double SAMPLE_NARROW = 44, GNUPLOT_LETTER = 7.06;
 enum { TEXT_ROOM = 200 };
 
 /* Brightness of peridynamic particles relative to material points of the same body [1]. */
@@ -198,7 +198,7 @@ static double arrow_length(const struct plotted_particles *c)
  */
 static int key_columns(const struct marks *m, double wide)
 {
-    return (int)fmax(floor(wide / (SAMPLE_NARROW + LETTER_NARROW * fmax(m->letters, 1))), 1);
+    return (int)fmax(floor(wide / (SAMPLE_NARROW + KEY_LETTERS * m->widest)), 1);
 }
 
 /* Returns the layout of a picture that shows the view v in one panel, and the key of m. untitled: the picture has no
@@ -243,15 +243,14 @@ static void set_scene_key(FILE *to, const struct layout *l, const struct marks *
     const bool narrow = picture_is_too_narrow_for_key();
     const double x = narrow ? KEY_BESIDE : l->left + l->panel_width + 14,
                  room = (l->width - x) / l->key_columns - SAMPLE;
-    const double size =
-        l->key_columns > 1 ? KEY_LETTERS : fmin(KEY_LETTERS, room / (LETTER_WIDE * fmax(m->letters, 1)));
+    const double size = l->key_columns > 1 ? KEY_LETTERS : fmin(KEY_LETTERS, room / m->widest);
     fprintf(to,
             "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols %d maxrows %d samplen 2 spacing 1.15 "
             "width %.3g "
             "font ',%.3g'\n",
             x / l->width, 1 - (narrow ? l->above + l->panel_height + BELOW_NARROW - 4.0 : l->above - 8.0) / l->height,
             l->key_columns, (m->keys + l->key_columns - 1) / l->key_columns,
-            l->key_columns > 1 ? -LETTERS_WIDER * m->letters : 0.0, size);
+            l->key_columns > 1 ? KEY_LETTERS * m->widest / GNUPLOT_LETTER - m->letters : 0.0, size);
 }
 
 /* Writes the title of the picture of a scene: `title`, or if it is NULL the name of the scene and its particles. */

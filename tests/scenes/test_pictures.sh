@@ -321,6 +321,8 @@ END
     "$cleave" plot results/strip --size 85mmx60mm -o maps/ >out 2>err
     "$cleave" plot --scene strip.yaml --size 85mmx90mm -o maps/scene.png >out 2>err
     for picture in damage last scene; do uncut "maps/$picture.png"; done
+    "$cleave" plot results/strip --field speed --times last --title "$(printf 'wide_%.0s' 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)" -o maps/wide.png >out 2>err
+    uncut maps/wide.png
     : >all
     "$cleave" plot results/strip --field speed --size 85mmx60mm --crop -19mm:19mm,0mm:10mm -o maps/six.png >out 2>err
     for tics in $(sed -n 's/^set xtics \([0-9.]*\) format.*/\1/p' all | sort -u); do between "small panels have two tics at least: $(cat err)" "$tics" 1 10; done
