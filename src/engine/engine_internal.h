@@ -53,11 +53,11 @@ void engine_warn_of_isolated_particles(const struct scene *s, const struct cells
 bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin);
 
 /* Adds warnings to *warnings about pre-cracks that are outside of all bodies, cut no bond or cannot grow, and about
- * probes of cracks where no bond can break. cracks: crack tips at the start; longest_bond: length of the longest bonds
- * [m]. */
-void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b,
-                                   const struct loads *loads, const struct fracture_state *cracks, real longest_bond,
-                                   struct warnings *warnings);
+ * probes of cracks where no bond can break. cells: neighbour search over reference positions; longest_bond: length of
+ * the longest bonds [m]; wave_speed: speed of the fastest wave in any material [m/s]. */
+void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct cells *cells,
+                           const struct bonds *b, const struct loads *loads, real longest_bond, real wave_speed,
+                           struct warnings *warnings);
 
 /* Adds a warning to *warnings if waves from the loads do not travel to the nearest crack tip within the duration.
  * cracks: crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */

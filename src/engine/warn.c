@@ -265,9 +265,8 @@ void engine_warn_of_suspicious_input(struct run *e)
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);
     warn_of_boundaries(s, &e->loads, &e->part, to);
-    engine_warn_of_useless_cracks(s, &e->part, &e->bonds, &e->loads, e->fracture, e->source.family.cutoff, to);
-    engine_warn_of_cracks_beyond_waves(s, &e->part, &e->loads, e->fracture, e->tables.wave_speed, to);
-    engine_warn_of_cracks_pressed_shut(s, &e->part, to);
+    engine_warn_of_cracks(s, &e->part, &e->cells, &e->bonds, &e->loads, e->source.family.cutoff, e->tables.wave_speed,
+                          to);
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->warn) (*p)->warn(e, to);
 }

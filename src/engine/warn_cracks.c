@@ -194,16 +194,21 @@ static void warn_of_growths(const struct scene *s, const struct particles *p, st
     }
 }
 
-void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b,
-                                   const struct loads *loads, const struct fracture_state *cracks, real longest_bond,
-                                   struct warnings *warnings)
+void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct cells *cells,
+                           const struct bonds *b, const struct loads *loads, real longest_bond, real wave_speed,
+                           struct warnings *warnings)
 {
+    struct crack_tips tips;
     warn_of_unbreakable(s, warnings);
     warn_of_growths(s, p, warnings);
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, longest_bond, warnings)) return;
+    tips_make_at_precrack_ends(&tips, p, cells, s->crack, s->cracks, s->spacing, 0);
     if (!bonds_are_cut(b))
         warnings_add_if_new(warnings,
                             "the pre-cracks cut no bond: check that they are inside the body, and their unit (mm?)");
     else
-        warn_of_fixed_cracks(s, p, loads, &cracks->tips, longest_bond, warnings);
+        warn_of_fixed_cracks(s, p, loads, &tips, longest_bond, warnings);
+    engine_warn_of_cracks_beyond_waves(s, p, loads, &tips, wave_speed, warnings);
+    engine_warn_of_cracks_pressed_shut(s, p, warnings);
+    tips_free(&tips);
 }

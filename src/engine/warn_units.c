@@ -10,9 +10,8 @@ enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are eval
 #define UNLIKE 30  /* factor between the densities of a rigid body and of materials in other units */
 #define EARLY 0.01 /* end of a function of time divided by the time step, below which the run does not see it */
 #define STIFF 1e9  /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
-#define TOUGHNESS_LEAST 5e4 /* [Pa m^0.5] from STIFF on; waxes and salts that cleave have 8e4 */
-#define HARDENING_LEAST                                                                                                \
-    1e-6 /* hardening modulus divided by Young's modulus below which stress hardly grows with strain [1] */
+#define TOUGHNESS_LEAST 5e4  /* [Pa m^0.5] from STIFF on; waxes and salts that cleave have 8e4 */
+#define HARDENING_LEAST 1e-6 /* hardening modulus over Young's modulus below which stress hardly grows [1] */
 
 enum { RULES = ACCEPT_TIMES + 1 };
 
@@ -138,8 +137,8 @@ static void units_of_toughness(const struct scene *s, const char *name, const st
     if (!known || m->young < STIFF || toughness >= TOUGHNESS_LEAST) return;
     warnings_add_if_new(
         to,
-        "%s: its toughness of %.3g MPa m^0.5 (%.3g J/m^2, %.3g Pa) is below %.3g; glass has 0.75: check the units of "
-        "energy_release_rate (J/m^2; kJ?) or toughness, and young; if this is intended, add accept: [energy]",
+        "%s: its toughness of %.3g MPa m^0.5 (%.3g J/m^2, %.3g Pa) is below %.3g (glass: 0.75): check the units of "
+        "energy_release_rate (J/m^2; kJ?) and young; if this is meant: accept: [energy]",
         name, 1e-6 * toughness, m->energy_release_rate, m->young, 1e-6 * TOUGHNESS_LEAST);
 }
 
