@@ -138,7 +138,7 @@ static void units_of_toughness(const struct scene *s, const char *name, const st
     warnings_add_if_new(
         to,
         "%s: its toughness of %.3g MPa m^0.5 (%.3g J/m^2, %.3g Pa) is below %.3g (glass: 0.75): check the units of "
-        "energy_release_rate (J/m^2; kJ?) and young; if this is meant: accept: [energy]",
+        "energy_release_rate (J/m^2; kJ?) and young; if this is intended, add accept: [energy]",
         name, 1e-6 * toughness, m->energy_release_rate, m->young, 1e-6 * TOUGHNESS_LEAST);
 }
 
