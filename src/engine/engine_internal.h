@@ -60,10 +60,9 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
                            struct warnings *warnings);
 
 /* Adds a warning to *warnings if waves from the loads do not travel to the nearest crack tip within the duration.
- * cracks: crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
+ * tips: crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
-                                        const struct fracture_state *cracks, real wave_speed,
-                                        struct warnings *warnings);
+                                        const struct crack_tips *tips, real wave_speed, struct warnings *warnings);
 
 /* Adds a warning to *warnings if all loads are tractions that press the pre-cracks shut. */
 void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct particles *p, struct warnings *warnings);

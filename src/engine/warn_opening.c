@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "engine_internal.h"
-#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
 
 #define ACROSS                                                                                                         \
     0.15 /* extent of a crack along the axis of a load, over its largest extent, that counts as across [1]             \
@@ -38,9 +38,8 @@ static real load_distance(const struct load *l, const struct particles *p, const
 }
 
 void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
-                                        const struct fracture_state *cracks, real wave_speed, struct warnings *warnings)
+                                        const struct crack_tips *tips, real wave_speed, struct warnings *warnings)
 {
-    const struct crack_tips *tips = &cracks->tips;
     real distance = INFINITY;
     const real reach = wave_speed * s->duration;
     if (!scene_is_dynamic(s) || scene_silences_warning(s, ACCEPT_REACH) || !only_boundaries_load(s, p)) return;
