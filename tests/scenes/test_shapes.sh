@@ -51,7 +51,7 @@ refused "the scene has no material glass" check fibres.yaml -s body='{image: {fi
 said blade.yaml "248 triangles, 1 shell, closed" -s particles.spacing=2mm -s duration=1us
 head -c 6084 blade.stl >half.stl
 refused "is cut off" check blade.yaml -s bodies='[{shape: {stl: {file: half.stl, unit: mm}}}]'
-refused "not in space plane stress" check gear.yaml -s body='{stl: {file: blade.stl, unit: mm}}'
+refused "cannot be used in space plane stress" check gear.yaml -s body='{stl: {file: blade.stl, unit: mm}}'
 
 cd "$root" || exit 1
 finish

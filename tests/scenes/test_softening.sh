@@ -90,9 +90,9 @@ bad "softening alone" "tensile_strength, whose decrease it" -s materials.1.softe
 bad "two laws" "another law than material glass" -s 'materials.1.energy_release_rate=10' -s materials.1.tensile_strength=40MPa -s materials.1.softening=bilinear
 bad "static" "has no effect in a single equilibrium, in which no bond breaks" -s solver=cg
 bad "mpm" "needs bonds that can soften" -s method=mpm
-bad "yield" "do not yield" -s materials.0.yield_stress=30MPa
+bad "yield" "cannot be combined with yield_stress" -s materials.0.yield_stress=30MPa
 bad "yield of another" "bonds of material glass soften and those of grip yield" -s materials.1.yield_stress=500MPa
-bad "scatter of energy" "of: strength" -s 'materials.0.scatter={of: energy_release_rate, modulus: 8}'
+bad "scatter of energy" "set strength (the energy does not scatter)" -s 'materials.0.scatter={of: energy_release_rate, modulus: 8}'
 "$cleave" export lammps "$work/strip.yaml" -o "$work/lammps" >"$work/said" 2>&1
 is "export: status" $? 2
 holds "export" grep -q "bonds that soften; remove it (bonds are then brittle" "$work/said"

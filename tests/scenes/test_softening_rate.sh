@@ -47,9 +47,9 @@ holds "check: rate" grep -q '4e+07 Pa at strain rates up to 10 1/s, 5.2e+07 Pa f
 
 bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/strip.yaml" "$@"; }
 bad "rates that descend" "rates in ascending order" -s 'materials.0.rate.table=[[10, 1], [1, 1.3]]'
-bad "a factor that falls" "does not fall" -s 'materials.0.rate.table=[[10, 1.3], [100, 1.2]]'
+bad "a factor that falls" "give factors that do not fall" -s 'materials.0.rate.table=[[10, 1.3], [100, 1.2]]'
 bad "a factor below 1" "1" -s 'materials.0.rate.table=[[10, 0.9]]'
-bad "no pairs" "no point" -s 'materials.0.rate.table=[10, 1]'
+bad "no pairs" "is not a point of the table" -s 'materials.0.rate.table=[10, 1]'
 bad "too strong" "particles.spacing below 4.2" -s 'materials.0.rate.table=[[10, 2]]'
 bad "above a tenth of E" "above a tenth" -s 'materials.0.rate.table=[[10, 100]]' -s materials.0.tensile_strength=100MPa -s particles.spacing=0.02mm
 bad "no strength" "has no effect without tensile_strength" -s materials.0.tensile_strength=
