@@ -333,8 +333,8 @@ static void jumps_are_refused(void **state)
          "0 is expected, such as with time: {ramp: {until: 100 us}}"},
         {"method=pd", GRIP("displacement: [\"1 um*cos(t/(1 us))\", free], face: x+"), "is 1e-06 m at t = 0 already"},
         {"method=pd", GRIP("displacement: [1 um, free], face: x+, time: {step: {from: 1 us, until: 1}}"),
-         "boundary grip: its displacement jumps (time: step), which no body can follow; use time: ramp, pulse or table "
-         "expected"},
+         "boundary grip: its displacement jumps (time: step), which no body can follow; use time: ramp, pulse or "
+         "table"},
         {"method=pd", GRIP("displacement: [1 mm, free], face: x+, time: {ramp: {until: 0.1 us}}"),
          "its displacement grows by 1e+04 m/s, faster than the waves"},
         {"method=pd", GRIP("displacement: [1 mm*ramp(t/(0.1 us)), free], face: x+"), "faster than the waves"},
@@ -347,7 +347,7 @@ static void jumps_are_refused(void **state)
         {"method=pd", GRIP("displacement: 1 um"), "a list of 2 is expected, for example [0.1 mm, free]"},
         {"method=pd", GRIP("displacement: [1 um, free], velocity: [0, 0]"), "given together with displacement"},
         {"method=pd", GRIP("pressure: 1 MPa, face: x+"),
-         "face: pressure acts on every free face of the particles in `region`"},
+         "face: a pressure acts on every free face of the particles in `region`"},
         {"method=pd", GRIP("traction: [1 MPa, 0], face: x+, depth: 1 mm"),
          "depth: has no effect without fixed, velocity, displacement or rotation; leave it out"},
         {"solver=cg", GRIP("velocity: [\"t*1 m/s^2\", free], face: x+"), "does not give it; use displacement"},
