@@ -328,9 +328,8 @@ static void jumps_are_refused(void **state)
         const char *keys, *boundary, *part;
     } bad[] = {
         {"method=pd", GRIP("displacement: [1 um, free], face: x+"),
-         "boundary grip: its displacement is 1e-06 m at t = 0 already, a jump within the first step; let it grow "
-         "from "
-         "0 is expected, such as with time: {ramp: {until: 100 us}}"},
+         "boundary grip: its displacement is 1e-06 m at t = 0 already, a jump within the first step; let it grow from "
+         "0, such as with time: {ramp: {until: 100 us}}"},
         {"method=pd", GRIP("displacement: [\"1 um*cos(t/(1 us))\", free], face: x+"), "is 1e-06 m at t = 0 already"},
         {"method=pd", GRIP("displacement: [1 um, free], face: x+, time: {step: {from: 1 us, until: 1}}"),
          "boundary grip: its displacement jumps (time: step), which no body can follow; use time: ramp, pulse or "
