@@ -204,7 +204,8 @@ function drawColourBar(context, width, height) {
     words.forEach((word, k) => context.fillText(word, left, 20 + 16 * k));
     if (field.scale === "category") return drawCategories(context, left, top, height);
     if (!(field.most > field.least))
-        return context.fillText(quantity(field.low, field.unit) + " everywhere", left, top + 6);
+        return [quantity(field.low, field.unit), "everywhere"].forEach(
+            (text, k) => context.fillText(text, left, top + 6 + 16 * k));
     const stops = field.name === "damage" ? scales.damage : scales[field.scale === "signs" ? "signs" : "zero"];
     for (let k = 0; k < tall; k++) {
         context.fillStyle = "rgb(" + scaleColour(stops, 1 - k / tall).join() + ")";

@@ -211,9 +211,11 @@ above, below = (frame.slice(y=y) for y in (0.5e-3, -0.5e-3))
 wanted = 100 * np.mean([(above.positions - above.reference)[:2, 1] - (below.positions - below.reference)[:2, 1]])
 holds("as far apart as the particles: %g, %g" % (gap, wanted), gap > 0 and np.isclose(gap, wanted, rtol=0.1))
 
-# A body far from the origin, whose points in the file are rounded to 0.06 m, is nowhere else for that.
-far = cleave.run(scene, {"body": {"box": {"from": [5e5, 0], "to": ["500000.02 m", "20 mm"]}}, "cracks": [], "boundary": [], "probes": [],
-                         "output.regions": [], "duration": "1 us"}, output=work + "/far").frames[-1]
+# A body far from the origin, whose points in the file are rounded to 0.5 mm, is nowhere else for that.
+with open(work + "/far.yaml", "w") as file:
+    file.write("space: plane stress\nthickness: 1 mm\nduration: 1 us\nmethod: pd\nmaterial: {young: 72 GPa, density: 2440}\n"
+               "body: {box: {from: [5000, 0], to: [5000.02, 20 mm]}}\nparticles: {spacing: 1 mm}\noutput: {frames: 1}\n")
+far = cleave.run(work + "/far.yaml", output=work + "/far").frames[-1]
 holds("far away, at rest", (far.positions == far.reference).all() and (far.moved(1e6) == far.reference).all())
 holds("and squares there", np.allclose(np.ptp(corners_of(far, 1e6), axis=1), 1e-3, atol=1e-8))
 
