@@ -38,8 +38,8 @@ function bareFaces() {
     return Array.from(set.X[0]).reduce((n, _, i) => n + sides.filter((s) => bare(i, s)).length, 0);
 }
 
-// What a plane body shows whose displacements are magnified: the share of its particles on the canvas, and at 4 mm from
-// the start of the first pre-crack how far its faces are apart [m] and the darkest red on the canvas where they are.
+// What a plane body shows whose displacements are magnified: the share of its particles on the canvas, and at 4 mm
+// along the first pre-crack how far its faces are apart [m] and the darkest red on the canvas there.
 function magnified(factor) {
     send("magnify", "input", factor);
     const frame = film.frames[view.frame], set = particlesOf(film, film.sets[frame.set]), [x, y] = view.x_of;
