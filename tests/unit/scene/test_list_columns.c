@@ -25,7 +25,7 @@ static void lists_of_others_are_read(void **state)
     static const char *const text[] = {
         "id; X [mm]; y [cm]; z; volume [mm^3]; vx [m/s]; weight [g]; Material\n7; 500; 100; 3; 2e6; 8; 4; hard\n",
         "id\tx [mm]\ty\tvolume\tvx [km/s]\tdensity [kg/m^3]\tmaterial\n7\t500\t1\t2e-3\t8e-3\t2\t1\n",
-        "x y volume vx mass material\n5.0D-01 1.0d0 2D-3 8.0D-03 4.D-03 1\n",
+        "x y volume vx mass material\n5.0D-01 1.0d0 2D-3 8.0D+00 4.D-03 1\n",
         "  x y [mm] vx [mm / us]  weight [m^3]   mass [kg] material z\n 0.5 1000  8e-3  2e-3 4e-3 hard 9\n"};
     for (size_t k = 0; k < COUNT_OF(text); k++) {
         struct setting s;
