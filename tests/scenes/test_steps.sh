@@ -108,9 +108,9 @@ holds "a wall at rest has no displacement" sh -c "! grep -q 'wall.displacement' 
 is "figures are those of probes alone" "$(grep -c '"wall"\|"grip"' "$bar/summary.json")" 0
 
 # A bar that breaks has a crack of its section at each cut: one where its middle is weak, two where both grips let go.
-sed -e 's/section: .*/section: 1 mm^2/; s/0.02 mm/0.06 mm/' -e 's/^body.*/bodies: [{name: b, material: whole, shape: {box: {from: [0], to: [40 mm]}}, parts: [{region: {box: {from: [18 mm], to: [22 mm]}}, material: weak}]}]/' \
+sed -e 's/section: .*/section: 1 mm^2/; s/0.02 mm/0.15 mm/; s/0.5 mm/1 mm/; s/number: 4/number: 10/' -e 's/^body.*/bodies: [{name: b, material: whole, shape: {box: {from: [0], to: [100 mm]}}, parts: [{region: {box: {from: [48 mm], to: [52 mm]}}, material: weak}]}]/' \
     -e 's/^material.*/materials: [{name: whole, young: 70 GPa, density: 2700, critical_stretch: 0.4 %}, {name: weak, young: 70 GPa, density: 2700, critical_stretch: 0.1 %}]/' "$bar.yaml" >"$work/weak.yaml"
-sed -e 's/section: .*/section: 1 mm^2/; s/0.02 mm/0.06 mm/; s/density: 2700/density: 2700, critical_stretch: 0.1 %/' "$bar.yaml" >"$work/grips.yaml"
+sed -e 's/section: .*/section: 1 mm^2/; s/0.02 mm/0.12 mm/; s/40 mm/100 mm/; s/0.5 mm/1 mm/; s/number: 4/number: 10/; s/density: 2700/critical_stretch: 0.1 %, density: 2700/' "$bar.yaml" >"$work/grips.yaml"
 for name in weak grips; do "$cleave" run "$work/$name.yaml" -q -o "$work/$name" >"$work/out" 2>&1; done
 is "a bar in two pieces" "$(column "$work/weak" crack_area 2)" 1e-06
 is "a bar that leaves both grips" "$(column "$work/grips" crack_area 2)" 2e-06
