@@ -94,6 +94,8 @@ struct transfer_data {
     bool mean_dilatation;  /* at least one material has the mean dilatation of cells (elastic.mean_dilatation) */
     bool momentum_only;    /* transfers momentum only: grid-coupled peridynamic particles, which have no stress */
     const uint8_t *bonded; /* [n] not 0: the material point has bonds; NULL: none has */
+    real *dilatation;      /* [n] rate of dilatation of the points before it is averaged, stored by g2p [1/s]; NULL: no
+                              material has mean dilatation */
     bool second_map;       /* FLIP: all points move with the nodal velocities that remap has computed (second map) */
     real *turn[3]; /* [n] spin or angular momentum of points that rotate with a group (data/turning.h); in 2D only
                       turn[2] */
@@ -248,13 +250,19 @@ typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p,
 
 /* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
  * (x_I - x_p)) of the points to the nodes x_I of g, with the spin w of the point's group in transfer->turn [1/s], to
- * second order in w dt (mpm/turn.h). 2D and 3D. */
+ * second order in w dt (mpm/turn.h). In flight (g->ahead) adds their mass, too. 2D and 3D. */
 typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Moves the points with the nodal velocities, x_p += dt sum N v, and updates their stress, volume, stretch, plastic
  * strain and conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et al.
  * 2015). Returns the number of points that have entered another cell. */
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
+
+/* Adds `share` of the stress and volume that points receive in a step by the mean dilatation of their cells
+ * (mpm/dilatation.h), less what they would receive by their own. Called with -1/2 before points that have left their
+ * cells are sorted and with 1/2 afterwards: half of the step then has the old cells and half the new ones, so that
+ * changes of cells gain no energy. */
+KERNEL(void, points_add_mean_dilatation, (struct particles *p, const struct transfer_data *transfer, real share));
 
 /* Distributes one value per particle to nodes: adds value[k] N of particle list[k] to `field` ([g->n], in the unit of
  * value), for k = 0 .. n - 1. half_width: half the reference edge of a particle, l_p [m]. Serial. */

@@ -40,6 +40,8 @@ struct grid {
     real *momentum[DIM_MAX];   /* nodal momentum [kg m/s]; after grid_remapped the velocity of the second map [m/s] */
     real *force[DIM_MAX];      /* nodal force [N]; after grid_move the change of velocity [m/s] */
     real *velocity[DIM_MAX];   /* nodal velocity at the end of the step [m/s] */
+    real ahead[DIM_MAX]; /* added to the positions of the points where their weights are computed [node distances]:
+                          * half a step of common flight in the second map and g2p, else 0 */
     int64_t walls;
     struct wall *wall;            /* prescribed velocities of this step, in order */
     struct damping_shares damped; /* in this step, for the work of the walls */

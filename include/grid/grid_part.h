@@ -78,8 +78,9 @@ void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, cons
 
 /* Advances the material points on the background grids by one time step: moves the nodes under their forces, with
  * contact and boundary conditions, then updates positions, velocities, strain and stress of the points. t_middle: time
- * in the middle of the step [s]. */
-void grid_advance_material_points_one_step(struct run *e, real t_middle);
+ * in the middle of the step [s]. Returns FAILED, with a message, if points that have left their cells need a grid with
+ * too many nodes. */
+status grid_advance_material_points_one_step(struct run *e, real t_middle);
 
 /* Returns the power of all forces on the material points on the background grids, the sum of v . f over the nodes at
  * the current positions [W]. Nothing is moved, but the recorded reactions and work of the loads change. t_middle:

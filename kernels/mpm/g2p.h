@@ -104,11 +104,12 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
 }
 
 /* Returns in each lane -1 if the point moves with the nodal velocities that remapping has computed (remap.h), else 1.
- * Points with bonds do so; all points do if t->momentum_only or t->second_map is set. point: numbers of the points. */
-static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct transfer_data *t, const int32_t *point,
-                                                               const int dim)
+ * Points with bonds do so; all points do if t->momentum_only or t->second_map is set, and in flight: nodes ahead of
+ * them may have no other velocity. point: numbers of the points. */
+static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid *g, const struct transfer_data *t,
+                                                               const int32_t *point, const int dim)
 {
-    const bool all = t->momentum_only || t->second_map;
+    const bool all = t->momentum_only || t->second_map || grid_maps_ahead(g, dim);
     row_of_points bonded = points_broadcast(all ? -1 : 1);
     for (int k = 0; t->bonded && !all && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
     return bonded;
@@ -185,7 +186,7 @@ static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid 
 {
     struct cell_stencil s;
     cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
-    const row_of_points bonded = points_negative_if_remapped(t, s.point, dim);
+    const row_of_points bonded = points_negative_if_remapped(g, t, s.point, dim);
     if (HAS_CORNERS(dim, shape))
         points_interpolate_velocity_linear(g, c, &s, bonded, m->velocity, m->L, dim, transfer);
     else
@@ -229,13 +230,18 @@ static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct part
     }
 }
 
-/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell (dilatation.h). motion: motion of these
- * points, AT_ONCE of them in each entry; its velocity gradients are changed. */
+/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell (dilatation.h) and stores those before
+ * in t->dilatation. motion: motion of these points, AT_ONCE of them in each entry; its velocity gradients are
+ * changed. */
 static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                           const int32_t *list, struct points_motion *motion, int n,
                                                           const int dim)
 {
     row_of_points sum = points_broadcast(0), volume = points_broadcast(0);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        const struct points_motion *m = &motion[k / AT_ONCE(dim)];
+        points_store(t->dilatation, m->point, points_dilatation_rate(m, dim), dim);
+    }
     if (!points_all_share_mean_dilatation(p, list, n)) {
         points_average_mixed_dilatation_rates(p, t, list, motion, n, dim);
         return;

@@ -1,7 +1,14 @@
 /* The second map of MUSL for points in rotating groups (data/turning.h), in two halves. First points receive the change
  * of the nodal velocities, and the angular momentum that this interpolation loses is stored for each point. The caller
  * then distributes the angular momentum of each group to its points. At last nodes receive the momentum of the points,
- * whose velocity is extrapolated to the node with the spin of the group. */
+ * whose velocity is extrapolated to the node with the spin of the group.
+ *
+ * The strain of a step is a map of the velocities of the points, the change of these velocities a map of the stress,
+ * and both maps are adjoint in the mass: with the same positions, a step conserves an energy exactly, which has a term
+ * of first order in dt. In flight through the grid the maps change from step to step and this term with them, so that
+ * a stretched block gains the energy of its stress several times over within 30 cells. Weights of the strain at the
+ * middle of the flight of the step (g->ahead), of masses and momenta too, are to second order the mean of the maps
+ * before and after; the first-order term then cancels. */
 #ifndef CLEAVE_KERNELS_REMAP_TURN
 #define CLEAVE_KERNELS_REMAP_TURN
 
@@ -107,14 +114,15 @@ MAP_VARIANTS_TURNING(GATHER)
 
 /* ---- points to nodes --------------------------------------------------------------------------------------------- */
 
-/* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
-typedef row_of_nodes turn_rows[DIM_MAX][ROWS_MAX];
+/* Sums over the points of a cell for every node that they reach, by rows of four nodes: components of momentum
+ * [kg m/s], then mass [kg], which is summed in flight only. */
+typedef row_of_nodes turn_rows[DIM_MAX + 1][ROWS_MAX];
 
-/* Adds the momentum m N (v + L (x_I - x_p)) of point `at` of stencil s to the sums of its cell. slope: velocity
- * gradients L of the points of the stencil, from rotating_velocity_gradients [1/s]. */
+/* Adds the momentum m N (v + L (x_I - x_p)), with `massive` also the mass m N, of point `at` of stencil s to the sums
+ * of its cell. slope: velocity gradients L of the points of the stencil, from rotating_velocity_gradients [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g, const struct particles *p,
                                              const row_of_points *slope, const struct cell_stencil *s, int at,
-                                             const int dim, const enum shape shape)
+                                             const bool massive, const int dim, const enum shape shape)
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
@@ -135,19 +143,21 @@ static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g
                 given += mass * (slope[d * dim + e][at] * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2));
             sum[d][PATCH(dim, shape)] += weight * given;
         }
+        if (massive) sum[dim][PATCH(dim, shape)] += weight * mass;
     }
 }
 
 /* Adds the momentum of the n listed points of one cell to the nodes of the grid, with their velocity extrapolated to
- * each node (turn_scatter_point). */
+ * each node (turn_scatter_point), in flight also their mass. */
 static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                             const enum shape shape)
 {
     const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
+    const bool massive = grid_maps_ahead(g, dim);
     turn_rows sum;
     FOR_ROWS(dim, shape)
-    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_broadcast(0);
+    for (int d = 0; d <= dim; d++) sum[d][PATCH(dim, shape)] = row_broadcast(0);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
         const int points = points_at_once(n - k, dim);
@@ -157,13 +167,13 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
         rotating_velocity_gradients(t, s.point, -0.5 * t->dt, slope, dim);
         for (int at = 0; at < points; at++) {
             points_prefetch_motion(p, t->turn, list, k + at, dim);
-            turn_scatter_point(sum, g, p, slope, &s, at, dim, shape);
+            turn_scatter_point(sum, g, p, slope, &s, at, massive, dim, shape);
         }
     }
     FOR_ROWS(dim, shape)
-    for (int d = 0; d < dim; d++)
-        grid_add_node_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
-                          shape);
+    for (int d = 0; d < dim + massive; d++)
+        grid_add_node_row(g, (d < dim ? g->momentum[d] : g->mass) + cell_row_first_node(&c, g, k1, k2, dim),
+                          sum[d][PATCH(dim, shape)], dim, shape);
 }
 
 #define TURN_SCATTER(D, S)                                                                                             \

@@ -283,6 +283,14 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
     if (SKIPS(dim, shape) && d > 0) stencil_find_touched_rows(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
 }
 
+/* Returns true if points are mapped ahead of their positions (g->ahead). */
+static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
+{
+    bool ahead = false;
+    for (int d = 0; d < dim; d++) ahead |= g->ahead[d] != 0;
+    return ahead;
+}
+
 /* Computes the stencil s: weights and slopes of the shape functions of n listed points (n <= AT_ONCE) of cell c.
  * half_width: half the reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
@@ -293,7 +301,7 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
     for (int k = 0; k < POINTS; k++) s->point[k] = list[int_min(k % AT_ONCE(dim), n - 1)];
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
-        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d]; /* grid_coordinate_in_cells */
+        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d] + g->ahead[d]; /* grid_coordinate_in_cells */
     }
     if (HAS_CORNERS(dim, shape))
         stencil_compute_corner_weights(s, inverse, dim);

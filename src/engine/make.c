@@ -386,6 +386,7 @@ status engine_create_run_from_predecessor(struct run *e, const struct scene *s, 
                                                .dt_velocity = e->clock.dt,
                                                .laws = e->part.plastic_work != NULL};
     for (int m = 0; m < s->materials; m++) e->grid->transfer.mean_dilatation |= e->tables.elastic[m].mean_dilatation;
+    if (e->grid->transfer.mean_dilatation) e->grid->transfer.dilatation = NEW("engine.dilatation", e->part.n, real);
     grid_rotation_groups_make(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
     return make_probes(e);
 }

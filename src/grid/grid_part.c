@@ -12,7 +12,7 @@ static void grid_free_all(struct run *e)
         grid_free(&f->grid), transfer_order_free(&f->order);
         memory_free(f->held.held), memory_free(f->list);
     }
-    memory_free(g->field), grid_contact_free(&g->contact);
+    memory_free(g->field), memory_free(g->transfer.dilatation), grid_contact_free(&g->contact);
 }
 
 static status grid_state(struct run *e, struct archive *a)

@@ -148,19 +148,20 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
 }
 
 /* Moves the grids and their material points. Numbers in the code are the steps of the algorithm listed at the function
- * `step`. */
-static void move_grid(struct run *e, const struct step *now)
+ * `step`. Returns FAILED, with a message, if a grid would need too many nodes. */
+static status move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
     viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, true);
     grid_map_points_to_nodes(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
     viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, false);
     if (e->clock.step == 0) patch_test_store_largest_residual_force(e->probing, e->scene, &e->part, e->grid);
-    grid_advance_material_points_one_step(e, now->middle); /* 3, 4, 6, 7 */
+    TRY(grid_advance_material_points_one_step(e, now->middle)); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain)
         bonded_points_compute_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
     if (any) timer_add_elapsed_to_section(&e->timers, TIMER_GATHER);
     if (now->damps) e->damped += interface_zone_second_half_of_damped_energy(&e->coupling->zone, &e->part);
+    return OK;
 }
 
 /* Computes the forces on nodes of bodies in the reference frame and moves these nodes. Does nothing without such
@@ -258,8 +259,8 @@ status step(struct run *e)
     rigids_advance_one_step(e->rigid, now.middle, e->clock.dt,
                             now.dt_velocity / now.share); /* bulk damping does not act on rigid bodies */
     timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
-    move_grid(e, &now);  /* 1, 3, 4, 6, 7 */
-    move_frame(e, &now); /* 3, 4, 7 */
+    TRY(move_grid(e, &now)); /* 1, 3, 4, 6, 7 */
+    move_frame(e, &now);     /* 3, 4, 7 */
     step_hold(e, &now);
 
     conversion(e, &now); /* 8 */

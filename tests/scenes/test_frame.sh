@@ -26,9 +26,25 @@ same "on 2 threads, interrupted after 12 and 60 lines" "$work/flat1" "$work/stop
 
 # ---- flight through the grid -------------------------------------------------------------------------------------------
 
-# A stretched block at 200 m/s: what its stress gains is small beside its kinetic energy, and is said all the same.
+# vibration FOLDER: the last energy of stress and vibration of a block, over the first of its stress.
+vibration()
+{
+    awk -F, 'NR == 2 { kinetic = $3; strain = $4 } END { printf "%.4f", ($3 + $4 - kinetic) / strain }' "$1/history.csv"
+}
+
+# A stretched block vibrates alike at rest and at 200 m/s, of which its stress gained half of its energy in eleven cells (measured: less than
+# 0.007 of difference). With linear shapes it gains: little beside its kinetic energy, but said all the same.
 cp tests/scenes/claims/flight.yaml "$work"
-warned "flight" "$work/flight" "of the energy apart from that of flight, has been gained" "$work/flight.yaml"
+for poisson in 0.3 0.45; do
+    calm "$work/rest$poisson" "$work/flight.yaml" -s material.poisson=$poisson -s initial.0.velocity='[0, 0]'
+    calm "$work/flight$poisson" "$work/flight.yaml" -s material.poisson=$poisson
+    apart "flight at $poisson: energy" "$(vibration "$work/flight$poisson")" "$(vibration "$work/rest$poisson")" 0.01
+    between "flight at $poisson: angular momentum" "$(figure "$work/flight$poisson" angular_momentum_error)" 0 5e-4
+done
+calm "$work/flight1" "$work/flight.yaml" -t 3
+same "flight on 3 threads" "$work/flight0.45" "$work/flight1"
+warned "flight, linear shapes" "$work/linear" "of the energy apart from that of flight, has been gained" "$work/flight.yaml" \
+    -s mpm.shape=linear -s material.poisson=0.3 -s duration=20us
 
 # The same block at rest in the reference frame, stretched beyond yield: what flows in the first step is at the stress of the start, and the
 # balance closes to round-off.

@@ -69,12 +69,14 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
                                   .half_width = 0.5 * CLOUD_SPACING,
                                   .dt = STEP,
                                   .dt_velocity = STEP,
+                                  .dilatation = NEW("test.dilatation", p->n, real),
                                   .mean_dilatation = true};
     transfer_order_sort_points_by_cell(&s->order, p, p->list[KIND_MPM], p->n_of[KIND_MPM], &s->g);
 }
 
 static void setting_free(struct setting *s)
 {
+    memory_free(s->t.dilatation);
     transfer_order_free(&s->order);
     grid_free(&s->g);
     particle_cloud_free(&s->c);
@@ -209,12 +211,57 @@ static void test_several(void **state)
     }
 }
 
+/* Stores in mean[i], for each point, the mean of the rates of dilatation of the points of its cell, by volume [1/s]. */
+static void means_of_cells(const struct setting *s, real *mean)
+{
+    const struct particles *p = &s->c.p;
+    for (int64_t i = 0; i < p->n; i++) {
+        real sum = 0, volume = 0;
+        for (int64_t j = 0; j < p->n; j++) {
+            bool same = true;
+            for (int d = 0; d < p->dim; d++)
+                same &= grid_cell_index_at(&s->g, d, p->x[d][i]) == grid_cell_index_at(&s->g, d, p->x[d][j]);
+            if (same) volume += p->volume[j], sum += p->volume[j] * s->t.dilatation[j];
+        }
+        mean[i] = sum / volume;
+    }
+}
+
+/* Points that enter other cells replace half of the dilatation of the old cell by half of that of the new one. */
+static void test_cells_change(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= DIM_MAX; dim++) {
+        struct setting s;
+        uint64_t seed = 9;
+        setting_make(&s, dim, SHAPE_GIMP, TRANSFER_FLIP, false);
+        struct particles *p = &s.c.p;
+        real *old = NEW("test.old", p->n, real), *fresh = NEW("test.new", p->n, real), most = 0;
+        for (int64_t i = 0; i < p->n; i++) s.t.dilatation[i] = cloud_between(&seed, -1e3, 1e3), p->stress[0][i] = 0;
+        means_of_cells(&s, old);
+        points_add_mean_dilatation(p, &s.t, -0.5);
+        for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.4 * CLOUD_SPACING;
+        transfer_order_sort_points_by_cell(&s.order, p, p->list[KIND_MPM], p->n_of[KIND_MPM], &s.g);
+        means_of_cells(&s, fresh);
+        points_add_mean_dilatation(p, &s.t, 0.5);
+        for (int64_t i = 0; i < p->n; i++) {
+            const real right = 0.5 * STIFF * STEP * (fresh[i] - old[i]) / dim;
+            assert_true(fabs(p->stress[0][i] - right) <= 1e-6 * STIFF * STEP * 1e3);
+            most = fmax(most, fabs(right));
+        }
+        assert_true(most > 0.01 * STIFF * STEP * 1e3);
+        memory_free(old), memory_free(fresh);
+        setting_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_adjoint),
         cmocka_unit_test(test_uniform),
         cmocka_unit_test(test_several),
+        cmocka_unit_test(test_cells_change),
     };
     team_set_thread_count(2);
     int failures = 0;
