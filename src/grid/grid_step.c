@@ -241,7 +241,8 @@ static void mean_dilatation_add(struct grid_method *mpm, struct particles *p, re
 }
 
 /* Sorts points of which some have left their cells, and gives those with a mean dilatation half of that of the new
- * cells in place of half of that of the old ones. Positions that are not finite are left to the next step. */
+ * cells in place of half of that of the old ones. Positions that are not finite are left to the next step. Not for
+ * materials that yield: a bar that hits a wall loses 0.4 % of its energy with it and gains 0.14 % without. */
 static status points_enter_cells(struct grid_method *mpm, struct particles *p, enum coupling coupling)
 {
     bool lost = false;
@@ -271,7 +272,7 @@ status grid_advance_material_points_one_step(struct run *e, real t_middle)
     if (p->n_grid_coupled > 0) moved += e->kernels.g2p(&e->grid->field[0].grid, p, &grid_coupled);
     memory_free(side);
     e->grid->sort_needed = moved > 0;
-    if (!e->grid->sort_needed || !e->grid->transfer.dilatation) return OK;
+    if (!e->grid->sort_needed || !e->grid->transfer.dilatation || e->grid->transfer.laws) return OK;
     return points_enter_cells(e->grid, p, e->coupling_kind);
 }
 

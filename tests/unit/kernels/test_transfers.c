@@ -219,6 +219,7 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     scene_make(&s, k, spin);
     s.smallest_mass = smallest_mass * s.c.p.mass[0];
     s.t.mean_dilatation = averaged != 0;
+    s.t.dilatation = NEW("test.dilatation", s.c.p.n, real);
     for (int m = 0; m < CLOUD_MATERIALS; m++) s.elastic[m].mean_dilatation = averaged >> m & 1;
     for (int64_t i = 0; i < s.c.p.n && averaged; i++) s.c.p.body[i] = i % 7 == 0;
     struct partial_stress none = {0};
@@ -268,7 +269,7 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     assert_true(entered > 0 && entered < s.order.n);
     check_particles(&s, &p);
     reference_step_free(&r);
-    memory_free(bonded);
+    memory_free(bonded), memory_free(s.t.dilatation);
     particles_free(&p);
     particles_free(&before);
     scene_free(&s);
