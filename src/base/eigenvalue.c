@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define STATIONARY 1e-3 /* relative increase in the last ITERATIONS_SEEN iterations at which the iteration stops */
+#define STATIONARY 1e-4 /* relative increase in the last ITERATIONS_SEEN iterations at which the iteration stops */
 #define EXHAUSTED 1e-12 /* residual over eigenvalue below which the vectors found span an invariant space */
 enum { ITERATIONS_LEAST = 16, ITERATIONS_MOST = 200, ITERATIONS_SEEN = 8 };
 

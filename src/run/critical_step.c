@@ -9,7 +9,7 @@
 #include "loads/mirrors.h"
 
 #define STRAIN 1e-7 /* strain of the trial motion: its square is negligible, round-off relative to it about 1e-9 */
-/* Factor on the critical time step 2/omega_max found by iteration [1], empirical. The iteration ends a few parts in a
+/* Factor on the critical time step 2/omega_max found by iteration [1], empirical. The iteration ends a few parts in ten
  * thousand below omega_max^2, and omega_max^2 of a block of the lattice is 1 to 2 % below that of larger blocks. */
 #define MARGIN 0.98
 

@@ -39,6 +39,19 @@ costs "it is" '^run time' plate_crack -s method=pd
 holds "it is: no other time" sh -c "! grep -q 'were peridynamic' '$work/said'"
 says "no trial" '^time step' plate_crack
 holds "no trial: neither run time nor memory" sh -c "! grep -qE '^(run time|memory)' '$work/said'"
+# A plate turned by a right angle has the same step.
+cat >"$work/turned.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 40 us
+method: pd
+material: {young: 72 GPa, density: 2440, energy_release_rate: 20}
+body: {box: {from: [0, 0], to: [40 mm, 10 mm]}}
+particles: {spacing: 0.5 mm}
+initial: [{velocity_gradient: [[1, 0], [0, 1]]}]
+END
+step_of() { "$cleave" check --no-trial "$work/turned.yaml" -s "body.box.to=$1" 2>&1 | grep '^time step'; }
+is "a plate turned by a right angle: time step" "$(step_of '[40 mm, 10 mm]')" "$(step_of '[10 mm, 40 mm]')"
 # Short runs are tried completely. 1e7 steps are not tried, and the prediction assumes that all are like the first; a step above the
 # critical one fails in the trial.
 costs "tried" 'run time  *about .* the first steps take .* ns per particle; [0-9.e-]* s if all' bar_spall -t 1
