@@ -70,8 +70,8 @@ int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixel
  * the key must be below them. */
 bool picture_is_too_narrow_for_key(void);
 
-/* Returns the width of the first n bytes of `text`, which is in UTF-8, over the size of its letters in points [pixel]. It
- * follows from the widths of classes of letters of Helvetica. Letters of narrow pictures are smaller than stated. */
+/* Returns the width of the first n bytes of `text`, which is in UTF-8, over the size of its letters in points [pixel].
+ * It follows from the widths of classes of letters of Helvetica. Letters of narrow pictures are smaller than stated. */
 double text_width(const char *text, size_t n);
 
 /* Writes the commands for the title of a picture, which begins `left_margin` pixels from its left edge. A title that is

@@ -120,6 +120,71 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
     if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);
 }
 
+#define CLOSED                                                                                                         \
+    3            /* closing over the largest strain of the body above which faces have met: at corners it reaches 2.6  \
+                  */
+#define NEXT 1.2 /* largest reference distance of neighbours across a crack face [spacings] */
+
+/* How far crack faces have closed: the largest shortening [1] of the distance between neighbours on both sides of a
+ * crack, beyond the width of a notch, and the position [m] midway between these neighbours; the largest change of
+ * distance [1] between neighbours that no crack separates. */
+struct closing {
+    real most, place[DIM_MAX], strain;
+};
+
+/* Returns the first of the cracks of bond source s that lies between particles i and j, or NULL if there is none. */
+static const struct crack *crack_between(const struct bond_source *s, const struct particles *p, int64_t i, int64_t j)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    particle_reference_position(p, i, from);
+    particle_reference_position(p, j, to);
+    for (int c = 0; c < s->cracks; c++)
+        if (crack_cuts_bond(&s->crack[c], from, to, p->dim)) return &s->crack[c];
+    return NULL;
+}
+
+/* Updates *closing by particles i and j, neighbours on the lattice. s: bond source with the cracks. */
+static void closing_update(struct closing *closing, const struct bond_source *s, const struct particles *p, int64_t i,
+                           int64_t j)
+{
+    real now = 0, before = 0;
+    for (int d = 0; d < p->dim; d++) now += square(p->x[d][j] - p->x[d][i]), before += square(p->X[d][j] - p->X[d][i]);
+    const struct crack *crack = crack_between(s, p, i, j);
+    const real change = sqrt(now / before) - 1;
+    if (!crack) {
+        closing->strain = real_max(closing->strain, fabs(change));
+        return;
+    }
+    const real closed = -change - crack->width / sqrt(before);
+    if (closed <= closing->most) return;
+    closing->most = closed;
+    for (int d = 0; d < p->dim; d++) closing->place[d] = 0.5 * (p->x[d][i] + p->x[d][j]);
+}
+
+/* Adds and prints a warning if faces of a crack have closed in a static equilibrium, where they pass through each
+ * other: their particles have approached by more than the strain of the body explains. source: bond source with the
+ * cracks and the search cells of the particles p. */
+static void warn_of_closed_faces(const struct scene *s, const struct particles *p, const struct bond_source *source,
+                                 struct warnings *to)
+{
+    struct closing closing = {0};
+    struct neighbour_list near = {0};
+    char text[400];
+    if (s->cracks == 0 || s->method == METHOD_MPM || scene_silences_warning(s, ACCEPT_CONTACT)) return;
+    for (int64_t i = 0; i < p->n; i++) {
+        particles_list_neighbours_within_radius(&near, source->cells, p, i, NEXT * s->spacing, false);
+        for (int k = 0; k < near.n; k++)
+            if (near.at[k] > i) closing_update(&closing, source, p, i, near.at[k]);
+    }
+    memory_free(near.at);
+    if (closing.most <= CLOSED * closing.strain) return;
+    snprintf(text, sizeof text,
+             "faces of a crack close at (%s) m, by %.3g of a spacing, and pass through each other in this equilibrium, "
+             "which has no contact: use solver: static, whose load steps have it; if this is meant: accept: [contact]",
+             position_text(closing.place, p->dim, 4).text, closing.most);
+    warnings_add_and_print(to, text);
+}
+
 /* Completes a static solution: sets velocities to 0 and the time to the end of the duration, and updates work,
  * stresses, probes and warnings. */
 static void solver_finish(struct run *e)
@@ -141,6 +206,7 @@ static void solver_finish(struct run *e)
     warn_past_limit(&e->warnings, e->solver->past_limit);
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     warn_large_strain(&e->warnings, p, e->scene->material);
+    warn_of_closed_faces(e->scene, p, &e->source, &e->warnings);
     if (e->scene->solver == SOLVER_CG) warn_large_rotation(&e->warnings, &e->bonds, p);
 }
 

@@ -71,9 +71,9 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
         if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
             warnings_add_if_new(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
                                 s->body[b].name);
-    if ((s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM)) && !scene_silences_warning(s, ACCEPT_CONTACT))
-        warnings_add_if_new(to, "in a static equilibrium bodies and faces of cracks have no contact and pass through "
-                                "each other where they close; if they do not close, add accept: [contact]");
+    if (s->bodies > 1 && !scene_silences_warning(s, ACCEPT_CONTACT))
+        warnings_add_if_new(to, "bodies do not meet in a static equilibrium: they pass through each other where they "
+                                "close; if they do not close: accept: [contact]");
     if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add_if_new(to,
                             "nothing loads the body at t = %.4g s, the end of the duration: this solver applies the "
