@@ -116,6 +116,9 @@ void print_softening_and_horizon_limits(const struct scene *s, const struct mate
            m->onset_stretch, softening_end_stretch(&curve, m->onset_stretch, m->critical_stretch), kappa,
            strength.tension);
     say_horizons(s, m, kappa);
+    if (s->surface == SURFACE_VOLUME && s->dim > 1 && s->model == MODEL_BOND)
+        printf("               with pd.surface: volume bonds at faces are stronger: a strip without a notch carries "
+               "9.5 %% more with 10 layers, 3.5 %% with 20\n");
     print_rate(m);
 }
 
