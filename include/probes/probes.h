@@ -118,8 +118,8 @@ void probes_complete_sample_after_step(struct probes *s, const struct observed_r
 
 /* Appends to *warning_list and prints, once for each SIF probe, a warning that K_I, K_II and J have no value at the
  * last sample: the ring of a tip that has grown leaves the body, or its contours differ by more than 20 %.
- * in_equilibrium: also for tips at rest, where no wave can be the cause. t: time of the sample [s]. */
-void probes_warn_of_meaningless_sif(struct probes *s, bool in_equilibrium, real t, struct warnings *warning_list);
+ * single_equilibrium: also for tips at rest, where no wave can be the cause. t: time of the sample [s]. */
+void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list);
 
 /* Updates the probes that observe every time step. BREAK and SPALL probes search for bonds that broke in the step
  * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared forces.

@@ -437,7 +437,7 @@ static void describe_meaningless_factors(const struct probe *q, real t, char *te
     if (!isnan(q->memory.factors[0]))
         snprintf(why, sizeof why,
                  "its contours differ by %.3g %% (contour_spread), more than %.3g %%, as where a crack "
-                 "branches or kinks within them",
+                 "branches or kinks within them or K is near 0",
                  100 * q->memory.factors[SIF_FIGURES - 1], 100 * SPREAD_MOST);
     snprintf(text, size,
              "probe %s: K_I, K_II and J have no value at t = %.4g s and wherever this happens again: %s; a smaller "
@@ -445,13 +445,13 @@ static void describe_meaningless_factors(const struct probe *q, real t, char *te
              q->request.name, t, why, q->sif->contour[0].outer);
 }
 
-void probes_warn_of_meaningless_sif(struct probes *s, bool in_equilibrium, real t, struct warnings *warning_list)
+void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list)
 {
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
         char text[480];
         if (q->request.kind != PROBE_SIF || q->memory.said || sif_probe_factors_are_meaningful(q)) continue;
-        if (!q->memory.grew && !in_equilibrium) continue;
+        if (!q->memory.grew && !single_equilibrium) continue;
         q->memory.said = 1;
         describe_meaningless_factors(q, t, text, sizeof text);
         warnings_add_and_print(warning_list, text);

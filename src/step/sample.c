@@ -257,7 +257,7 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     if (wants_motion(e->scene)) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     struct observed_run o = observed_run_view_of(e);
     probes_complete_sample_after_step(&e->probing->probes, &o, now);
-    probes_warn_of_meaningless_sif(&e->probing->probes, !scene_is_dynamic(e->scene), o.t, &e->warnings);
+    probes_warn_of_meaningless_sif(&e->probing->probes, scene_is_single_equilibrium(e->scene), o.t, &e->warnings);
     if (scene_is_dynamic(e->scene)) {
         momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
         momentum_at(sampling, now, e->clock.t, e->part.dim, e->diagnostics->now.momentum);
@@ -509,8 +509,7 @@ void sample_record_broken_bonds(struct run *e, int64_t broken_bond_count)
 {
     /* a load step breaks bonds before its end, but is recorded at its end */
     const bool in_steps = scene_has_load_steps(e->scene);
-    const real step = e->scene->duration / (real)e->scene->steps.number;
-    const real t = in_steps ? step * (real)e->clock.load_step : e->clock.t;
+    const real t = in_steps ? e->scene->duration / (real)e->scene->steps.number * (real)e->clock.load_step : e->clock.t;
     struct observed_run o = observed_run_view_of(e);
     char when[48];
     if (in_steps)
