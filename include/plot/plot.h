@@ -62,7 +62,8 @@ struct plot_request {
     int panels;              /* number of frames to show, evenly spread; 0: a default, or all frames of a film */
     bool every;              /* show all frames; standard pictures: one file per frame */
     int times;               /* number of entries of `time` */
-    double time[PANELS_MAX]; /* show the frames nearest to these times instead [s] */
+    double time[PANELS_MAX]; /* show the frames nearest to these times instead [s]; INFINITY: the last frame */
+    bool bare[PANELS_MAX];   /* the time is a whole number without unit: in load steps the number of a step */
     const char *field;       /* name of the field; NULL: draw the standard pictures */
     struct projection projection;
     enum picture_format format;

@@ -1,4 +1,5 @@
-/* Implements `cleave plot`: reads the arguments of the command; the room `plot` draws. */
+/* Implements `cleave plot`: reads the words of the command; the room `plot` draws. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,8 +39,8 @@ static status read_frames_option(struct plot_words *w, const char *text)
     return option_read_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
-/* Reads the value of --times into w: numbers with units separated by commas, `all`, or `last`. Returns REFUSED if the
- * text contains anything that is no time, or more than PANELS_MAX times. */
+/* Reads the value of --times into w: numbers with units and `last`, separated by commas, or `all`. Returns REFUSED if
+ * the text contains anything that is no time, or more than PANELS_MAX times. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -51,12 +52,13 @@ static status read_times(struct plot_words *w, const char *text)
     while (s == OK && (word = strsep(&rest, ",")) != NULL) {
         real time = 0;
         if (r->times == PANELS_MAX)
-            s = status_set(REFUSED, "plot: --times: at most %d times; to see all frames make a film (animation)",
-                           PANELS_MAX);
+            s = status_set(REFUSED, "plot: --times: at most %d times; a film shows all frames", PANELS_MAX);
+        else if (strcmp(word, "last") == 0)
+            r->time[r->times++] = INFINITY;
         else if (!time_read(&time, word, what, sizeof what))
-            s = status_set(REFUSED, "plot: --times %s: %s; or all, or last", printable_name(word).text, what);
+            s = status_set(REFUSED, "plot: --times %s: %s; or last, or all alone", printable_name(word).text, what);
         else
-            r->time[r->times++] = time;
+            r->bare[r->times] = !word[strspn(word, "0123456789")], r->time[r->times++] = time;
     }
     memory_free(copy);
     return s;

@@ -80,6 +80,13 @@ int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_he
     return (int)(bar_from() + BAR_WIDE + numbers_from() + numbers + LABEL_HALF + lines * letter_wide());
 }
 
+/* Returns true if the picture states shares of particles beyond the ends of its colours: those of the field of its
+ * view. */
+static bool has_shares(const struct maps_shown *m)
+{
+    return m->map == MAP_FIELD || (m->map == MAP_DAMAGE && map_of_field(m->view->field) == MAP_DAMAGE);
+}
+
 /* Writes beside one end of the colour bar which percentage of the particles have values beyond this end. Writes nothing
  * if no particle has. end: 0 for the lower end, 1 for the upper one; particles: number of particles of a frame; x, y:
  * position of the text from the upper left corner of the picture [pixel]; adjust: `left` or `right`. */
@@ -124,7 +131,7 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
     draw_bar_label(to, l, s, x + BAR_WIDE + numbers_from() + tic_numbers_width(s->low, s->high, tics, s->format),
                    l->above + 0.5 * length, length);
     const bool edge = x - 6 + BEYOND_WIDE > l->width;
-    for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
+    for (int end = 0; end < 2 && has_shares(m); end++)
         draw_beyond(to, l, m->view, particles, end, edge ? l->width - 4 : x - 6,
                     end ? l->above - 12 : l->above + length + 14, edge ? "right" : "left");
     panel_write_image(to, pixel, BAR_ACROSS, BAR_STEPS, from, step, "");
@@ -146,7 +153,7 @@ static void draw_bar_under(FILE *to, const struct layout *l, const struct maps_s
             s->high, fmax(s->tics, tic_distance_on_horizontal_axis(s->low, s->high, wide)), s->format);
     fprintf(to, "set label '%s' at screen %.6g,%.6g center textcolor rgb '#333333'\n", s->label,
             (x + 0.5 * wide) / l->width, 1 - (y + UNDER_LABEL) / l->height);
-    for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
+    for (int end = 0; end < 2 && has_shares(m); end++)
         draw_beyond(to, l, m->view, particles, end, end ? x + wide + 4 : x - 4, y + UNDER_LABEL,
                     end ? "right" : "left");
     panel_write_image(to, pixel, BAR_STEPS, BAR_ACROSS, from, step, "");

@@ -59,23 +59,25 @@ static void say_categories(const struct categories *k)
 
 /* Prints which field was drawn to the file `path`, with the number of frames, the number of particles and the range of
  * the colours in SI units. Returns FAILED if standard output cannot be written. */
-static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames,
+static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames, int listed,
                         int64_t particles)
 {
+    char of_all[32] = "";
     const bool damage = map_of_field(r->projection.field) == MAP_DAMAGE;
-    printf("%s: %s of %d frame%s, %lld particles", printable_name(path).text, r->projection.field->name, frames,
-           frames > 1 ? "s" : "", (long long)particles);
+    if (r->every && frames < listed) snprintf(of_all, sizeof of_all, " of %d", listed);
+    printf("%s: %s of %d%s frame%s, %lld particles", printable_name(path).text, r->projection.field->name, frames,
+           of_all, frames > 1 ? "s" : "", (long long)particles);
     if (view->categories)
         say_categories(view->categories);
     else
         printf(", colours from %.4g to %.4g%s%s%s\n", damage ? view->bottom : view->low,
                damage ? view->top : view->high, *r->projection.field->unit ? " " : "", r->projection.field->unit,
-               !damage && view->beyond[0] + view->beyond[1] > 0 ? ", some values beyond" : "");
+               view->beyond[0] + view->beyond[1] > 0 ? ", some values beyond" : "");
     return ferror(stdout) || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
 static status draw_field_clouds(const struct plot_request *r, const char *path, const struct plotted_particles *cloud,
-                                int clouds)
+                                int clouds, int listed)
 {
     char title[TITLE_LENGTH];
     struct view view;
@@ -96,7 +98,7 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     const struct sheet sheet = {path, r->format};
     TRY(picture_is_film(r->format) ? film_draw_frames_as_video(sheet, r->fps, title, map, &view, cloud, clouds)
                                    : maps_draw_panels_of_frames(sheet, title, map, &view, cloud, clouds));
-    return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
+    return say_field(path, &view, r, clouds, listed, cloud[clouds - 1].n);
 }
 
 static status draw_field_map(const struct plot_request *r, const char *path, const struct run_frames *frames)
@@ -105,7 +107,7 @@ static status draw_field_map(const struct plot_request *r, const char *path, con
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++)
         s = plotted_particles_read(&cloud[k], r->folder, &frames->show[k], &r->projection);
-    if (s == OK) s = draw_field_clouds(r, path, cloud, frames->shown);
+    if (s == OK) s = draw_field_clouds(r, path, cloud, frames->shown, frames->listed);
     for (int k = 0; k < frames->shown; k++) plotted_particles_free(&cloud[k]);
     memory_free(cloud);
     return s;

@@ -55,7 +55,8 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
     r->show = NEW("plot.show", times, struct listed_frame);
     for (int k = 0; k < times; k++) {
         int best = 0;
-        for (int j = 1; j < r->listed; j++)
+        if (isinf(time[k])) best = r->listed - 1;
+        for (int j = 1; j < r->listed && !isinf(time[k]); j++)
             if (fabs(r->list[j].time - time[k]) < fabs(r->list[best].time - time[k])) best = j;
         if (r->shown == 0 || r->show[r->shown - 1].number != r->list[best].number) r->show[r->shown++] = r->list[best];
     }
@@ -70,22 +71,48 @@ static status times_within(const struct run_frames *f, const double *time, int t
     const double beside = f->listed > 1 ? (last - first) / (f->listed - 1) : INFINITY;
     const struct unit second = unit_for_largest_value(last, "s");
     for (int k = 0; k < times; k++)
-        if (time[k] < fmin(first - beside, 0) || time[k] > last + beside)
-            return status_set(
-                REFUSED, "plot: --times: %.4g %s is not in the run, whose frames are from %.4g to %.4g %s",
-                time[k] / second.factor, second.name, first / second.factor, last / second.factor, second.name);
+        if (!isinf(time[k]) && (time[k] < fmin(first - beside, 0) || time[k] > last + beside))
+            return status_set(REFUSED, "plot: --times: %.4g %s is not in the run: its frames go from %.4g to %.4g %s",
+                              time[k] / second.factor, second.name, first / second.factor, last / second.factor,
+                              second.name);
     return OK;
+}
+
+/* Replaces numbers of load steps among time[r->times] by their times [s], which history.csv states. Returns REFUSED if
+ * the run has no such step, FAILED if the file cannot be read. */
+static status steps_to_times(double *time, const struct plot_request *r)
+{
+    struct history h;
+    bool any = false;
+    for (int k = 0; k < r->times; k++) any |= r->bare[k];
+    if (!any || !r->projection.in_steps) return OK;
+    TRY(history_read(&h, r->folder));
+    const int step = history_find_column(&h, "step"), at = history_find_column(&h, "time");
+    status s = OK;
+    for (int k = 0; k < r->times && s == OK; k++) {
+        int64_t row = 0;
+        while (r->bare[k] && row < h.rows && history_value_at(&h, row, step) != r->time[k]) row++;
+        if (row < h.rows && r->bare[k]) time[k] = history_value_at(&h, row, at);
+        if (row == h.rows)
+            s = status_set(REFUSED, "plot: --times: load step %.0f is not in the run: its steps go from %.0f to %.0f",
+                           r->time[k], history_value_at(&h, 0, step), history_value_at(&h, h.rows - 1, step));
+    }
+    history_free(&h);
+    return s;
 }
 
 status run_frames_list_and_select(struct run_frames *f, const struct plot_request *r)
 {
     *f = (struct run_frames){0};
+    double time[PANELS_MAX];
+    memcpy(time, r->time, sizeof time);
+    TRY(steps_to_times(time, r));
     TRY(run_list_frames(r->folder, &f->listed, &f->list));
-    const status within = times_within(f, r->time, r->times);
+    const status within = times_within(f, time, r->times);
     if (within != OK) run_frames_free(f);
     TRY(within);
     if (r->times > 0)
-        nearest_frames(f, r->time, r->times);
+        nearest_frames(f, time, r->times);
     else
         spread_frames(f, r->panels);
     return OK;

@@ -175,12 +175,14 @@ static status range_end_read(real *value, const struct plot_request *r, int end,
  * over cloud[clouds] in v->beyond. */
 static void count_beyond(struct view *v, const struct plotted_particles *cloud, int clouds)
 {
+    const bool damage = map_of_field(v->field) == MAP_DAMAGE;
+    const float low = (float)(damage ? v->bottom : v->low), high = (float)(damage ? v->top : v->high);
     v->beyond[0] = v->beyond[1] = 0;
     for (int c = 0; c < clouds && cloud[c].value; c++) {
         int64_t below = 0, above = 0;
         for (int64_t i = 0; i < cloud[c].n; i++) {
-            below += cloud[c].value[i] < (float)v->low;
-            above += cloud[c].value[i] > (float)v->high;
+            below += cloud[c].value[i] < low;
+            above += cloud[c].value[i] > high;
         }
         if (below > v->beyond[0]) v->beyond[0] = below;
         if (above > v->beyond[1]) v->beyond[1] = above;
@@ -219,15 +221,22 @@ static bool view_shows_any(const struct view *v, const struct plotted_particles 
     return any;
 }
 
-/* Returns REFUSED if the view v is cropped to a rectangle in which there is nothing to draw, else OK. around: view of
+/* Largest size of the rectangle of --crop over that of the body. */
+static const double CROP_MOST = 200;
+
+/* Returns REFUSED if the view v is cropped to a rectangle in which there is nothing to see, else OK. around: view of
  * everything, whose rectangle the message states. */
 static status view_check_crop(const struct view *v, const struct view *around, const struct plot_request *r,
                               const struct plotted_particles *cloud, int clouds)
 {
-    if (!r->cropped || view_shows_any(v, cloud, clouds)) return OK;
+    bool huge = r->cropped;
+    for (int a = 0; a < 2; a++) huge = huge && v->to[a] - v->from[a] > CROP_MOST * (around->to[a] - around->from[a]);
+    if (!r->cropped || (!huge && view_shows_any(v, cloud, clouds))) return OK;
     const struct unit metre = panel_axis_unit(around);
     const double f = metre.factor;
-    return status_set(REFUSED, "plot: --crop: nothing is in this rectangle; the body is in %.6g%s:%.6g%s,%.6g%s:%.6g%s",
+    return status_set(REFUSED, "plot: --crop: %s; the body is in %.6g%s:%.6g%s,%.6g%s:%.6g%s",
+                      huge ? "the body would be a point in this rectangle, whose unit is m where none is given"
+                           : "nothing is in this rectangle",
                       around->from[0] / f, metre.name, around->to[0] / f, metre.name, around->from[1] / f, metre.name,
                       around->to[1] / f, metre.name);
 }
