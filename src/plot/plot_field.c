@@ -195,3 +195,9 @@ status plot_field_choose_default(const struct plot_field **field, const char *fo
     frame_free(&first);
     return s;
 }
+
+enum map map_of_field(const struct plot_field *field)
+{
+    if (strcmp(field->name, "damage") == 0) return MAP_DAMAGE;
+    return field->scale == CATEGORY ? MAP_CATEGORY : MAP_FIELD;
+}

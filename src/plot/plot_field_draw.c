@@ -26,12 +26,6 @@ static status field_path(struct path *path, const struct plot_request *r, const 
     return picture_choose_path(path, r->out, strrchr(usual.text, '/') + 1, r->overwrite);
 }
 
-enum map map_of_field(const struct plot_field *field)
-{
-    if (strcmp(field->name, "damage") == 0) return MAP_DAMAGE;
-    return field->scale == CATEGORY ? MAP_CATEGORY : MAP_FIELD;
-}
-
 static bool same_everywhere(const struct plotted_particles *cloud, int clouds)
 {
     for (int c = 0; c < clouds; c++)

@@ -148,8 +148,8 @@ static void reaction_append(struct reactions *r, const struct history *h, const 
 /* Appends to r the curves of a support or rigid body: one for each component along which it is driven. A body that
  * moves by `still` [m] or less is appended only if `resting` is true: the largest component of its force, without a
  * displacement. Nothing is appended if there is no force. */
-static void reactions_add_curves_of_body(struct reactions *r, const struct history *h, const char *name, bool rigid,
-                                         double still, bool resting)
+static void reactions_add_body(struct reactions *r, const struct history *h, const char *name, bool rigid, double still,
+                               bool resting)
 {
     const struct components force = components_of(h, name, rigid ? "_" : ".", "force_", false);
     const struct components displacement =
@@ -250,9 +250,9 @@ static void reactions_find(struct reactions *r, const struct history *h, double 
     *r = (struct reactions){0};
     for (int pass = 0; pass < 2 && r->n == 0; pass++) {
         for (int k = 0; (k = probe_from(h, k, "_force_x", name)) >= 0; k++)
-            reactions_add_curves_of_body(r, h, name, true, still, pass > 0);
+            reactions_add_body(r, h, name, true, still, pass > 0);
         for (int k = 0; (k = probe_from(h, k, ".force_x", name)) >= 0; k++)
-            reactions_add_curves_of_body(r, h, name, false, still, pass > 0);
+            reactions_add_body(r, h, name, false, still, pass > 0);
     }
     if (!r->moving) reactions_use_point(r, h);
     if (!r->moving && !r->over[0]) return;
