@@ -52,7 +52,7 @@ def rigid_points(frame):
     for body, at in zip(film["rigid"], frame["rigid"]):
         X, dim = values(body["X"]), film["dim"]
         for k in range(0, len(X), dim):
-            r = [X[k + d] - body["centre"][d] for d in range(dim)]
+            r = [X[k + d] for d in range(dim)]
             points.append([at["x"][d] + sum(t * v for t, v in zip(at["turn"][d], r)) for d in range(dim)])
     return points
 
