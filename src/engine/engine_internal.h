@@ -4,6 +4,7 @@
 
 #include "data/hollow.h"
 #include "engine/engine.h"
+#include "fracture/tips.h"
 
 /* Allocates the parts of a run (contact, cracks, mesh, probes and others), sets all of them to zero, and stores
  * pointers to them in *e. */
