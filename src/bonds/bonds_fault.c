@@ -37,7 +37,7 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     for (int l = 0; l < LANES; l++) {
         const int64_t q = column * LANES + l;
         const bool there = b->inverse_length[q] != 0, intact = b->w[q] != 0;
-        if (intact && !(b->inverse_length[q] > 0)) return "a bond with weight is broken or padding";
+        if (intact && !(b->inverse_length[q] > 0)) return "a bond that is broken or unused has a weight";
         if (intact != (common->intact >> l & 1)) return "intact is not what the weights say";
         if (there && b->first[column] >= 0 && b->nbr[q] != b->first[column] + l)
             return "neighbours are not consecutive";

@@ -24,7 +24,7 @@ status reversion_check_scene_allows_reversion(const struct scene *s)
     const char *why = NULL;
     if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
     if (!(s->conversion.criteria & CONVERT_ON_STRESS))
-        why = "conversion.criteria with stress, because only then it is known which stress is low";
+        why = "stress among conversion.criteria, since low_stress is a share of the stress at which points convert";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         why = "coupling: partial stress or handshake";
     if (s->growths > 0) why = "no key growth, whose bonds fade";

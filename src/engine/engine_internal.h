@@ -125,8 +125,8 @@ void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct p
 /* Adds a warning to *warnings about each pair of bodies that overlap at the start. */
 void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds warnings to *warnings about planes of symmetry with a gap between them and the bodies, and about initial states
- * or a pd.region whose region holds no particle. horizon: length of the longest bonds [m]. */
+/* Adds warnings to *warnings about planes of symmetry with a gap between them and the bodies, and about parts,
+ * initial states or a pd.region that hold no particle. horizon: length of the longest bonds [m]. */
 void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
                                               struct warnings *warnings);
 

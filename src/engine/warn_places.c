@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "data/extent.h"
+#include "base/memory.h"
 #include "engine_internal.h"
 
 enum { COMPARED_MOST = 64 }; /* largest number of bodies that are compared in pairs */
@@ -92,6 +93,46 @@ static bool region_holds_particle(const struct scene *s, const struct particles 
     return met;
 }
 
+/* Returns true if a region is beyond a plane of symmetry: it belongs to the half of a body that is not modelled. */
+static bool region_beyond_mirror(const struct scene *s, const struct region *region)
+{
+    real low[DIM_MAX], high[DIM_MAX];
+    bool beyond = false;
+    if (!region_compute_bounding_box_if_finite(region, s->dim, low, high)) return false;
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct boundary *mirror = &s->boundary[b];
+        const real near = ON_SURFACE * s->spacing;
+        if (mirror->kind == BOUNDARY_MIRROR)
+            beyond |= high[mirror->axis] < mirror->at + near || low[mirror->axis] > mirror->at - near;
+    }
+    return beyond;
+}
+
+/* Adds a warning to *to for each part of a body that holds no particle, since it is outside the body, too small or
+ * covered by a later part. Parts beyond planes of symmetry are meant to be empty. */
+static void warn_of_empty_parts(const struct scene *s, const struct particles *p, struct warnings *to)
+{
+    for (int b = 0; b < s->bodies && p->n == p->n_body; b++) {
+        const struct scene_body *body = &s->body[b];
+        bool *held = NEW("engine.parts", body->parts, bool);
+        for (int64_t i = 0; i < p->n && body->parts > 0; i++) {
+            real X[DIM_MAX];
+            if (p->body[i] != body->joined) continue;
+            particle_reference_position(p, i, X);
+            const int part = scene_part_at_position(s, body, X);
+            if (part >= 0) held[part] = true;
+        }
+        for (int k = 0; k < body->parts; k++)
+            if (!held[k] && !region_beyond_mirror(s, &body->part[k].region))
+                warnings_add_if_new(to,
+                                    "body %s: its part %d, of material %s, holds no particle, because it is outside "
+                                    "the body, thinner than the spacing, or covered by a later part: check its region "
+                                    "and the unit (mm?), or remove the part: its material counts in the time step",
+                                    body->name, k + 1, s->material[body->part[k].material].name);
+        memory_free(held);
+    }
+}
+
 /* Returns true if the initial state number k of the scene applies to at least one particle. Also returns true for a
  * pulse. */
 static bool initial_is_met(const struct scene *s, const struct particles *p, int k)
@@ -144,6 +185,7 @@ void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struc
             warnings_add_if_new(warnings,
                                 "initial[%d]: no particle is in its region; %s: check the region and its unit (mm?)", k,
                                 particles_extent_text(p).text);
+    warn_of_empty_parts(s, p, warnings);
     if (s->has_pd_region && !region_holds_particle(s, p, &s->pd_region, -1))
         warnings_add_if_new(warnings, "pd.region: no particle is in it; %s: check the region and its unit (mm?)",
                             particles_extent_text(p).text);

@@ -28,8 +28,8 @@ static bool any_yields(const struct scene *s)
 static status carries_method(const struct scene *s)
 {
     if (s->method == METHOD_MPM)
-        return lammps_refuse(
-            s, "method: mpm has no bonds, and LAMMPS has no material points of this kind; set method: pd or adaptive");
+        return lammps_refuse(s, "method: mpm cannot be exported: it has no bonds, and LAMMPS lacks its kind of "
+                                "material points; set method: pd or adaptive");
     if (s->dim == 1) return lammps_refuse(s, "space: line does not exist in LAMMPS; use a plane space or solid");
     if (!scene_is_dynamic(s))
         return lammps_refuse(s, "solver: peridynamics in LAMMPS has time steps only; set explicit");

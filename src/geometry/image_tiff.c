@@ -106,10 +106,10 @@ static status check_samples(const struct samples *a, const char *path)
         return status_set(REFUSED, "%s: pixels of %d bits are not supported; save it with grey values of 8 or 16 bits",
                           path, a->bits);
     if (a->bits == 16 && samples_used(a) == 0)
-        return status_set(
-            REFUSED,
-            "%s: pixels of 16 bits are neither grey nor red, green and blue; save it with such pixels, or with 8 bits",
-            path);
+        return status_set(REFUSED,
+                          "%s: an image with 16 bits must be grey or RGB, and this one is neither; save it as grey or "
+                          "RGB, or with 8 bits",
+                          path);
     if (a->orientation >= ORIENTATION_TOPLEFT && a->orientation <= ORIENTATION_BOTLEFT) return OK;
     return status_set(REFUSED, "%s: its rows are stored as columns (TIFF orientation %d); save it row by row", path,
                       a->orientation);

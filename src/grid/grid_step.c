@@ -162,25 +162,21 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
 /* Least flight in half a step for which points are mapped ahead of their positions [node distances]: slower bodies keep
  * their bits, and gain some per cent of the energy of their stress in 1e6 steps. */
 #define AHEAD_LEAST 1e-4
-/* Largest such flight, by which weights reach beyond a cell [node distances]: of GIMP exact up to here; of cubic ones,
- * whose fifth node is missing there, good enough. */
+/* Largest such flight, by which weights reach beyond a cell [node distances]: those of GIMP are exact up to here. */
 #define AHEAD_MOST 0.25
-#define AHEAD_MOST_CUBIC 0.05
 
 /* Sets f->grid.ahead, by which the points of f are mapped ahead of their positions (kernels/mpm/remap_turn.h): their
  * common flight in half a step, from the momentum of their rotating groups t. It is 0 if supports or planes of symmetry
- * act on them, whose nodes do not fly along, in contact on the grid, for the same reason, and for linear shapes, whose
- * slopes jump between cells. dt: time step [s]. */
-static void field_set_flight(struct grid_field *f, const struct rotation_groups *t, const struct grid_contact *contact,
-                             enum shape shape, real dt)
+ * act on them, whose nodes do not fly along, for bodies with grids of their own, which may meet, for linear shapes,
+ * whose slopes jump between cells, and for cubic ones, whose fifth node beyond a cell is missing. dt: time step [s]. */
+static void field_set_flight(struct grid_field *f, const struct rotation_groups *t, enum shape shape, real dt)
 {
     struct grid *g = &f->grid;
     real mass = 0, momentum[DIM_MAX] = {0}, far = 0;
-    const real most = shape == SHAPE_LINEAR ? 0 : shape == SHAPE_CUBIC ? AHEAD_MOST_CUBIC : AHEAD_MOST;
-    bool free = g->walls + g->mirror_nodes + g->dashpots + contact->touching == 0;
+    const real most = shape == SHAPE_LINEAR || shape == SHAPE_CUBIC ? 0 : AHEAD_MOST;
+    bool free = g->body == 0 && g->walls + g->mirror_nodes + g->dashpots == 0;
     for (int32_t k = 0; k < t->groups && free; k++) {
         const struct turning_group *own = &t->group[k];
-        if (g->body > 0 && own->body + 1 != g->body) continue;
         free = !own->held;
         mass += own->mass;
         for (int d = 0; d < g->dim; d++) momentum[d] += own->momentum[d];
@@ -210,7 +206,7 @@ static void grids_remap(struct run *e, const struct grid_contact_side *side)
     if (e->grid->turning.groups > 0) rotation_groups_restore_angular_momentum(&e->grid->turning, &e->part);
     for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
         const struct transfer_data own = field_data(e->grid, k);
-        field_set_flight(&e->grid->field[k], &e->grid->turning, &e->grid->contact, e->scene->shape, e->clock.dt);
+        field_set_flight(&e->grid->field[k], &e->grid->turning, e->scene->shape, e->clock.dt);
         e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
     }
     if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);

@@ -61,8 +61,11 @@ static status find_bar(struct probe *q, const struct observed_run *o)
     for (int64_t k = 1; k < b->n; k++) {
         real step = p->X[0][b->order[k]] - p->X[0][b->order[k - 1]];
         if (step <= 0 || step > 2.5 * o->spacing)
-            return refuse(q, step <= 0 ? "two particles are at one position; use a single bar"
-                                       : "the bodies do not touch; use a single bar");
+            return refuse(
+                q,
+                step <= 0
+                    ? "two particles are at the same position, so bodies overlap; use a single bar, or move them apart"
+                    : "the bodies do not touch; use a single bar");
     }
     const struct material *m = &o->material[p->material[0]];
     b->exact.left = p->X[0][b->order[0]] - 0.5 * o->spacing;
@@ -170,7 +173,8 @@ static status find_load(struct probe *q, const struct observed_run *o)
                          "or no boundary there");
     TRY(find_ends(q, o));
     if (q->request.form == EXACT_PULSE) {
-        if (o->pulses == 0) return refuse(q, "the scene starts no pulse; add one to initial");
+        if (o->pulses == 0)
+            return refuse(q, "needs a pulse, but the scene starts none; add a pulse under the key initial");
         if (probes_bar_make_count_of(o, BOUNDARY_TRACTION, &other) > 0)
             return refuse(q, "a traction acts on the bar; leave it out");
         q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;

@@ -32,7 +32,6 @@ static void draft_free(struct particle_draft *d)
     memory_free(d->material);
     memory_free(d->body);
     memory_free(d->id);
-    memory_free(d->part_holds);
 }
 
 static void draft_grow(struct particle_draft *d)
@@ -143,12 +142,10 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     return OK;
 }
 
-/* Counts in d->skipped a particle of the body with the index `body` that is not created, since coarse cells replace it,
- * and extends the bounding box d->low, d->high of these particles by the position place[dim] of the particle [m].
- * Returns OK. */
-static status place_skip(struct particle_draft *d, int body, const real *place)
+/* Counts in d->skipped a particle that is inside a body but not created, since coarse cells replace it, and extends the
+ * bounding box d->low, d->high of these particles by the position place[dim] of the particle [m]. Returns OK. */
+static status place_skip(struct particle_draft *d, const real *place)
 {
-    particle_draft_record_material(d, body, place, d->scene->body[body].material);
     for (int a = 0; a < d->scene->dim; a++) {
         d->low[a] = d->skipped > 0 ? real_min(d->low[a], place[a]) : place[a];
         d->high[a] = d->skipped > 0 ? real_max(d->high[a], place[a]) : place[a];
@@ -165,12 +162,12 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
 {
     const struct scene *s = d->scene;
     real X[DIM_MAX] = {0};
-    if (cells_without_particles_contain(d->hollow, place)) return place_skip(d, body, place);
+    if (cells_without_particles_contain(d->hollow, place)) return place_skip(d, place);
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
-    return particle_draft_append_particle(d, X, volume,
-                                          particle_draft_record_material(d, body, place, s->body[body].material), body);
+    return particle_draft_append_particle(
+        d, X, volume, scene_material_at_position(s, &s->body[body], place, s->body[body].material), body);
 }
 
 /* Adds the particles of the lattice in the shape of the body with the index `body` to d, the list of particles to be
@@ -212,12 +209,10 @@ static status draft_make(struct particle_draft *d)
     for (int body = 0; body < d->scene->bodies; body++) {
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
-        particle_draft_begin_body(d, body);
         TRY(listed ? particle_draft_append_body_from_file(d, body) : fill_lattice(d, body));
         if (d->n == before && d->skipped == 0) return particle_draft_refuse_empty_body(d, body, listed);
-        TRY(particle_draft_check_parts_hold_particles(d, body));
     }
-    return particle_draft_check_materials_have_particles(d);
+    return OK;
 }
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */

@@ -16,8 +16,6 @@ struct particle_draft {
     real *v[DIM_MAX], *mass;                      /* from a list [m/s], [kg]; NAN: from the body and its material */
     uint8_t *material, *body;
     int32_t *id;
-    bool consists[UINT8_MAX + 1]; /* for each material: particles consist of it */
-    bool *part_holds;             /* [parts of the body that is filled] the part holds particles */
 };
 
 /* Appends a particle at the position `position` (dim coordinates [m]) to d, the list of particles to be created.
@@ -29,25 +27,6 @@ status particle_draft_append_particle(struct particle_draft *d, const real *posi
 /* Returns REFUSED with the message that a body has no particles. body: index in the scene. listed: true if its
  * particles were to come from a list; otherwise the message gives the extents of the body's shape. */
 status particle_draft_refuse_empty_body(const struct particle_draft *d, int body, bool listed);
-
-/* Returns the index of the material of a particle of the body with the index `body_number` at the position `position`
- * (dim coordinates [m]), that of the last part there, else `default_material`, and stores in d that the part and the
- * material have a particle. */
-int particle_draft_record_material(struct particle_draft *d, int body_number, const real *position,
-                                   int default_material);
-
-/* Starts the record of the parts of a body that hold particles, before its particles are appended to d. body_number:
- * index of the body. */
-void particle_draft_begin_body(struct particle_draft *d, int body_number);
-
-/* Returns REFUSED, with a message, if a part of the body with the index `body_number` holds no particle. Call it after
- * all particles of the body have been appended to d. */
-status particle_draft_check_parts_hold_particles(struct particle_draft *d, int body_number);
-
-/* Returns REFUSED, with a message, if no particle in d consists of a material that a body of the scene has. Such a
- * material would count in the time step and in the choice of methods. Call it after all particles have been appended.
- */
-status particle_draft_check_materials_have_particles(const struct particle_draft *d);
 
 /* Returns REFUSED with a message that names the body with the index `body_number` and ends with the text `reason`. */
 status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason);

@@ -80,7 +80,7 @@ static status take_entry(struct particle_draft *d, int body, const struct partic
     TRY(entry_material(s, l, b, i, &material));
     for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
     TRY(particle_draft_append_particle(d, X, l->volume ? l->volume[i] : volume,
-                                       particle_draft_record_material(d, body, X, material), body));
+                                       scene_material_at_position(s, b, X, material), body));
     const int64_t last = d->n - 1;
     for (int a = 0; a < s->dim; a++)
         if (l->v[a]) d->v[a][last] = l->v[a][i];

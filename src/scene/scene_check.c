@@ -318,8 +318,9 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
     if (s->body[body].list.mass) return "particles with a mass from a list need the current frame";
     if (!body_yields(s, body)) return NULL;
     if (s->method != METHOD_MPM)
-        return scene_has_load_steps(s) ? "its material yields; load steps can do this with method: mpm or pd only"
-                                       : "materials that yield need method: mpm in this frame";
+        return scene_has_load_steps(s)
+                   ? "its material has a yield_stress, which load steps allow with method: mpm or pd only"
+                   : "materials that yield need method: mpm in this frame";
     if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic in this frame";
     if (scene_is_dynamic(s) && s->levels != LEVELS_AUTO && s->levels > 0)
         return "materials that yield need mpm.levels: 0 (one time step) in this frame";

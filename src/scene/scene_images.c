@@ -164,5 +164,6 @@ status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *s
     }
     if (found == wanted) return OK;
     return fault(r, shape_node,
-                 "has materials, but is inside another solid; put the image itself into the list of the shape");
+                 "is an image with materials, which cannot be nested in another solid; put it directly into the list "
+                 "of the shape");
 }

@@ -47,7 +47,11 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
         return fault(r, n,
                      "each joined body needs a material of its own, and the limit of 255 materials is reached; use "
                      "fewer interfaces");
-    GROW("materials", s->material, s->materials + 1);
+    const int all = s->materials + s->unused_materials;
+    GROW("materials", s->material, all + 1);
+    GROW("materials.numbers", s->material_number, all + 1);
+    s->material[all] = s->material[s->materials]; /* one that no body consists of makes room */
+    s->material_number[all] = s->material_number[s->materials], s->material_number[s->materials] = all;
     struct material *own = &s->material[s->materials];
     *own = s->material[b->material];
     char name[2 * NAME_MAX_LENGTH + 8];

@@ -24,8 +24,7 @@ KEY("bodies", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or body
     KEY("bodies.parts", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 10000), NONE,
         "regions of it that are of another material; later entries overwrite earlier ones"),
     KEY("bodies.parts.region", KEY_REGION, UNIT_NONE, AT(scene_part, region), ANY, REQUIRED,
-        "region, by the reference positions of the particles; what of it is outside the body has no effect, but a part "
-        "holds particles"),
+        "region, by the reference positions of the particles; what of it is outside the body has no effect"),
     KEY("bodies.parts.material", KEY_MATERIAL, UNIT_NONE, AT(scene_part, material), ANY, REQUIRED,
         "name of the material there"),
     KEY("bodies.frame", KEY_CHOICE, UNIT_NONE, AT(scene_body, frame), ANY, "(mpm.frame)", "its own mpm.frame",

@@ -170,7 +170,7 @@ static status read_polarisation(struct reader *r, const struct yaml_node *n, str
     if (!n)
         memcpy(moved, w->direction, sizeof w->direction);
     else if (!(length > 0))
-        return fault(r, n, "has no length; give direction, or a vector across it");
+        return fault(r, n, "has zero length and so no direction; give `direction`, or move one of its ends");
     for (int d = 0; n && d < dim; d++) moved[d] /= length;
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;

@@ -47,9 +47,10 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
         if (edit_distance(s->boundary[k].name, p->boundary) < edit_distance(s->boundary[nearest].name, p->boundary))
             nearest = k;
     }
-    return fault(r, n,
-                 "there is no boundary %s; the nearest of %d is %s (the key `name` of a boundary gives it its name)",
-                 p->boundary, s->boundaries, s->boundary[nearest].name);
+    return fault(
+        r, n,
+        "there is no boundary named %s; of the %d in the scene %s has the most similar name (key `name` of a boundary)",
+        p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
 /* Checks a probe p that compares with a closed-form solution; returns OK for other probes. n: node of the probe; map:

@@ -53,7 +53,8 @@ static status pattern_add(struct reader *r, const struct yaml_node *n, struct sh
         globfree(&found);
         return fault(r, n, "no file matches this name; give the image slices, such as slice_*.png");
     }
-    if (found.gl_pathc > SLICES_MOST) s = fault(r, n, "more than %d files match; join them into fewer", SLICES_MOST);
+    if (found.gl_pathc > SLICES_MOST)
+        s = fault(r, n, "more than %d files match; use a narrower pattern, or files of several pages", SLICES_MOST);
     array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, compare_paths);
     for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
         struct yaml_node one = *n;

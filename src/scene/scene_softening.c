@@ -211,7 +211,7 @@ status check_softening_is_supported(struct reader *r, const struct yaml_node *ro
     if (!soft || s->model == MODEL_BOND) return OK;
     if (growth)
         return fault(r, growth,
-                     "cannot cut bonds that soften with this model; set model: bond, or remove tensile_strength");
+                     "with this model cannot cut bonds that soften; set model: bond, or remove tensile_strength");
     for (int m = 0; m < s->materials; m++)
         if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, model,

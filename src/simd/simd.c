@@ -97,7 +97,8 @@ status simd_select_kernels(void)
         if (asked && !strcmp(asked, s->name)) wanted = s;
     }
     if (!widest)
-        return status_set(REFUSED, "this build has kernels for other processors only: %s; `make` builds the others",
+        return status_set(REFUSED,
+                          "this build has no kernels for this processor, only %s; run `make` to build the missing ones",
                           names(false, text, sizeof text));
     simd_use_kernels(wanted && wanted->runs() ? wanted : widest);
     if (!asked || in_use == wanted) return OK;

@@ -193,8 +193,10 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
     double value;
     for (int k = 0; k < w->wanteds; k++)
         if (summary_read_number(folder.text, w->wanted[k], &value) != OK)
-            fprintf(stderr, "warning: the first run has no figure %s; choose one of %s/summary.json\n", w->wanted[k],
-                    printable_name(folder.text).text);
+            fprintf(
+                stderr,
+                "warning: the summary of the first run has no value named %s; choose one listed in %s/summary.json\n",
+                w->wanted[k], printable_name(folder.text).text);
 }
 
 /* Makes the first run of a study at the coarsest spacing level. If the scene is invalid at that spacing, refines all

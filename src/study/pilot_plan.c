@@ -105,7 +105,7 @@ status pilot_list_applicable_methods(struct pilot_search *search)
 const char *pilot_name_of_requested_result(const struct pilot_search *search)
 {
     if (search->wish.figure[0]) return search->wish.figure;
-    if (search->wish.provisional.probes > 0) return "the first figure of its probes that is not zero";
+    if (search->wish.provisional.probes > 0) return "the first result of its probes that is not zero";
     if (may_crack(&search->wish.provisional) && !search->wish.at_rest)
         return "crack.start_time, or the largest of its energies if nothing breaks";
     return "the largest of its energies";

@@ -170,7 +170,7 @@ static void refused(void **state)
 {
     (void)state;
     static const char *const key[][2] = {
-        {"solver=static", "explicit"}, {"mpm.levels=2", "levels: 0"}, {"model=ospd", "model bond"}};
+        {"solver=static", "explicit"}, {"mpm.levels=2", "levels: 0"}, {"model=ospd", "model: bond"}};
     struct solution a;
     for (size_t k = 0; k < COUNT_OF(key); k++) {
         solution_make(&a, flat, "method=adaptive", "material.viscosity={}", key[k][0], NULL);

@@ -4,7 +4,7 @@ test_name=test_little_memory
 . tests/support/summary.sh
 . tests/support/trust.sh
 # Without surface weights, whose fit would take most of so short a run.
-solid="inputs/kalthoff_winkler_3d.yaml -s pd.surface=none -s particles.spacing=2mm -s duration=1us -s accept=[steps,particles] -s output.frames=2 -s output.samples=4 -s output.checkpoint=0"
+solid="inputs/kalthoff_winkler_3d.yaml -s pd.surface=none -s particles.spacing=2mm -s duration=1us -s accept=[steps,particles,reach] -s output.frames=2 -s output.samples=4 -s output.checkpoint=0"
 (ulimit -v 4000000 && "$cleave" info >/dev/null 2>&1) || { echo "ulimit -v is not to be had here"; exit 77; }
 
 # within MEGABYTES THREADS: runs under that limit; $result: its status.

@@ -138,7 +138,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, gc: 100}|6:43|here it is `energy_release_rate`
 6|material: {bulk: 190 GPa, density: 7800}|6:12|here it is `young`
 19|output: {length: 2}|19:10|`cleave help length` lists the 2 keys of that name
-20|probes: [{reaction: {boundary: bottom}}]|20:22|there is no boundary bottom; the nearest of 1 is pull
+20|probes: [{reaction: {boundary: bottom}}]|20:22|there is no boundary named bottom; of the 1 in the scene pull has
 2|space: plane|2:1|plane stress
 2|space: solid|3:1|thickness
 2||1:1|space: missing

@@ -113,7 +113,7 @@ says "a support outside" "^warning: boundary f holds no particle; $between its r
     -s "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: f, fixed: all, region: {$(box '100, 0' '200, 50')}}]"
 says "a velocity outside" "^warning: initial\[0\]: no particle is in its region; $between the region" "$glass" -s "initial=[{velocity: [1, 0], region: {$(box '100, 0' '200, 50')}}]"
 says "peridynamics outside" "^warning: pd.region: no particle is in it; $between the region" "$glass" -s "pd.region={$(box '100, 0' '200, 50')}"
-refuses "a part outside" "its part 1, of material material, holds no particle" "$glass" -s "parts=[{region: {$(box '100, 0' '200, 50')}, material: material}]"
+says "a part outside" '^warning: body body: its part 1, of material material, holds no particle, because it is outside' "$glass" -s "parts=[{region: {$(box '100, 0' '200, 50')}, material: material}]"
 silent "a velocity inside" 'initial' "$glass" -s "initial=[{velocity: [0.1, 0], region: {$(box '0, 0' '1 mm, 1 mm')}}]"
 says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle, but should be half a spacing (0.0005 m) away: it has no effect (${between%: check})" "$glass" \
     -s 'boundary.down={name: m, mirror: {axis: y, at: -30 mm}}' -s cracks=[] -s contact.between=none

@@ -243,11 +243,11 @@ probes: [reaction: {boundary: u}]
 END
 "$cleave" run "$work/arms.yaml" -q -o "$work/tough" 2>/dev/null
 "$cleave" run "$work/arms.yaml" -q -o "$work/brittle" -s materials.0.energy_release_rate=300 -s materials.1.energy_release_rate=400 2>/dev/null
-"$cleave" run "$work/arms.yaml" -q -o "$work/weak" -s interfaces.0.energy_release_rate=30 2>/dev/null
+"$cleave" run "$work/arms.yaml" -q -o "$work/frail" -s interfaces.0.energy_release_rate=30 2>/dev/null
 peak() { figure "$work/$1" probes.reaction.force_max; }
 between "interface: load" "$(peak tough)" 3.30 3.36
 between "interface: whatever the arms" "$(awk -v a="$(peak brittle)" -v b="$(peak tough)" 'BEGIN { print a / b }')" 0.999 1.001
-between "interface: root of its toughness" "$(awk -v a="$(peak tough)" -v b="$(peak weak)" 'BEGIN { print a / b / sqrt(75 / 30) }')" 0.998 1.002
+between "interface: root of its toughness" "$(awk -v a="$(peak tough)" -v b="$(peak frail)" 'BEGIN { print a / b / sqrt(75 / 30) }')" 0.998 1.002
 
 # ---- a crack in 3D without a tracked front -----------------------------------------------------------------------------
 

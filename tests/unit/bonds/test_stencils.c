@@ -222,7 +222,7 @@ static void test_fault(void **state)
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_describe_first_inconsistency(b));
     b->inverse_length[q] *= -1;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond with weight is broken or padding");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond that is broken or unused has a weight");
     b->inverse_length[q] *= -1;
     b->common[column].intact ^= 1;
     assert_string_equal(bonds_describe_first_inconsistency(b), "intact is not what the weights say");

@@ -324,7 +324,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     assert_false(path_exists("again/frames/000001.hdf.cleave.tmp"));
     assert_false(path_exists("again/checkpoint.h5.cleave.tmp"));
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_FIRST, false), REFUSED);
-    assert_message("again holds an interrupted run of this scene; go on with --resume, replace it with --overwrite");
+    assert_message("again holds an interrupted run of this scene; continue with --resume, replace it with --overwrite");
     assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK); /* the run has only begun */
     assert_int_equal(output_write_text(&o, "history.csv", "time [s],step\n0,0\n", 18), OK);
@@ -385,7 +385,7 @@ static void history_is_cut_back(void **state)
     assert_int_equal(output_open(&o, "history", scene_text, OUTPUT_RESUME, false), OK);
     o.history_bytes = kept, o.history_hash = hash ^ 1;
     assert_int_equal(output_history_open(&o, column, 3, true), FAILED);
-    assert_message("is not what it was at the checkpoint");
+    assert_message("is different from what it was at the checkpoint");
     o.history_hash = hash;
     assert_int_equal(output_history_open(&o, column, 3, true), OK);
     assert_int_equal(output_write_history(&o, (real[]){2.5, 1, 2}), OK);

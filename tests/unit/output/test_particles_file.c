@@ -173,7 +173,7 @@ static void frames_alone_are_refused(void **state)
     assert_int_equal(unlink(file), 0);
     assert_failed(frame_read(&f, frame), "is missing");
     assert_int_equal(link(frame, file), 0);
-    assert_failed(frame_read(&f, frame), "particles_000000.h5 beside it, to which it links, is of another run");
+    assert_failed(frame_read(&f, frame), "particles_000000.h5 beside it, to which it links, belongs to another run");
 }
 
 /* A restart beside the particles file of another run leaves out the frames that link to it, names the file, and begins
@@ -201,7 +201,7 @@ static void foreign_file_is_left(void **state)
     assert_int_equal(output_remove_lost_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_non_null(
-        strstr(text, "frames/000000.hdf links to frames/particles_000000.h5, which is of another run, and 1"));
+        strstr(text, "frames/000000.hdf links to frames/particles_000000.h5, which belongs to another run, and 1"));
     assert_int_equal(unlink("left/frames/particles_000000.h5"), 0);
     assert_int_equal(link("left/frames/000000.hdf", "left/frames/particles_000000.h5"), 0);
     o.series[0].particles.number = 0;

@@ -451,7 +451,7 @@ static void bars_that_have_no_closed_form(void **state)
     b.boundary[1].value[0] = 1, b.p.v[0][7] = 1, refused(&b, EXACT_STEP_BAR, "let it start at rest"), b.p.v[0][7] = 0;
     b.material.yield_tangent = 0, refused(&b, EXACT_PLASTIC_BAR, "without hardening");
     b.material.yield_stress = INFINITY, refused(&b, EXACT_PLASTIC_BAR, "does not yield");
-    refused(&b, EXACT_PULSE, "starts no pulse");
+    refused(&b, EXACT_PULSE, "the scene starts none; add a pulse");
     const struct wave_pulse pulse = {{0.5}, {1}, 0.1, 1, {1}, false};
     b.o.pulse = &pulse, b.o.pulses = 1, refused(&b, EXACT_PULSE, "a traction acts");
     b.loads.n = 1, refused(&b, EXACT_PULSE, "not that of its pulses"), b.loads.n = 2;

@@ -341,8 +341,8 @@ static void test_renamed(void **state)
     struct scene s = read_ok(text, o, COUNT_OF(o));
     assert_true(s.interface_damping == 0.75 && !s.active_set && s.conversion.reverts);
     assert_true(s.conversion.hold_time == 3 && s.conversion.low_stress == 0.25);
-    assert_non_null(strstr(s.renamed, "rim_damping is now called interface_damping"));
-    assert_non_null(strstr(s.renamed, "conversion.dwell is now called conversion.hold_time"));
+    assert_non_null(strstr(s.renamed, "rim_damping has been renamed to interface_damping"));
+    assert_non_null(strstr(s.renamed, "conversion.dwell has been renamed to conversion.hold_time"));
     assert_null(strstr(s.text, "rim_damping"));
     struct scene again = read_ok(s.text, NULL, 0);
     assert_string_equal(again.renamed, "");

@@ -243,8 +243,8 @@ static const struct {
      "30:5: boundary[1]: impact is already the name of another boundary; give each boundary its own name"},
     {"name: impact\n", "name: impact\n    body: plat\n", "27:5: body: there is no body plat; the nearest is plate"},
     {"boundary: impact", "boundary: impct",
-     "36:16: boundary: there is no boundary impct; the nearest of 2 is impact (the key `name` of a boundary gives it "
-     "its name)"},
+     "36:16: boundary: there is no boundary named impct; of the 2 in the scene impact has the most similar name "
+     "(key `name` of a boundary)"},
     {"  - tip\n", "  - tip\n  - tip\n", "35:5: probes[1]: tip is already the name of another probe; give each its own"},
     {"  - tip\n", "  - sif: {inner: 20 mm, contours: [10 mm, 15 mm]}\n",
      "34:11: inner: the inner radius 20 mm is not smaller than the outer radius, 0.015 m; use about half the outer "
@@ -259,7 +259,7 @@ static const struct {
      "it"},
     {"probes:\n",
      "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [0, 0]}}]\nprobes:\n",
-     "33:74: polarisation: has no length; give direction, or a vector across it"},
+     "33:74: polarisation: has zero length and so no direction; give `direction`, or move one of its ends"},
     {"probes:\n", "initial: [{velocity: [x/s, 1 m/s*t/s]}]\nprobes:\n",
      "33:28: velocity[1]: 1 m/s*t/s contains t, which this key does not have"},
     {"  - tip\n", "  - exact: step bar\n",

@@ -1,0 +1,27 @@
+/* Refusals of bodies. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "fill_draft.h"
+
+status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason)
+{
+    const struct scene_body *b = &d->scene->body[body_number];
+    return status_prepend_location(b->place, status_set(REFUSED, "body %s: %s", b->name, reason));
+}
+
+status particle_draft_refuse_empty_body(const struct particle_draft *d, int body, bool listed)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    char why[200] = "holds no particle: its shape is at most ";
+    size_t used = strlen(why);
+    if (listed) return particle_draft_refuse_body(d, body, "its list has no entry for it: check its column body");
+    region_compute_bounding_box_if_finite(&d->scene->body[body].shape, d->scene->dim, from, to);
+    for (int a = 0; a < d->scene->dim; a++)
+        used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
+    snprintf(why + used, sizeof why - used,
+             " m, the spacing %.4g m: use a spacing below its thickness, or check the units of both (mm?)",
+             d->scene->spacing);
+    return particle_draft_refuse_body(d, body, why);
+}
