@@ -7,7 +7,7 @@
 #include "data/grid.h"
 #include "data/particles.h"
 
-/* What moves a particle: bond forces, background grid or mesh. The wave impedance of a material differs between them.
+/* The method that moves a particle: bond forces, background grid or mesh. The wave impedance of a material differs between them.
  * MOVERS: number of these methods. */
 enum moved_by { MOVED_BY_BONDS, MOVED_BY_GRID, MOVED_BY_MESH, MOVERS };
 

@@ -327,7 +327,7 @@ void categories_list_named_values(struct categories *k, const struct plot_field 
  * index of the body, material and so on. */
 struct colour category_colour(const struct plot_field *field, float category_value);
 
-/* What a map shows: the rectangle of the body, the range of the colours, and further options. */
+/* View of a map: the rectangle of the body, the range of the colours, and further options. */
 struct view {
     double from[2], to[2];               /* lower left and upper right corner [m] */
     double bottom, top;                  /* damage at the ends of the colour scale */

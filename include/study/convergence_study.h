@@ -57,7 +57,7 @@ struct scalar_result_study {
     double horizon_moves; /* change for a horizon one spacing longer, at level 1; NAN: unknown */
 };
 
-/* What the user requests of a convergence study (`cleave converge`). */
+/* Request for a convergence study (`cleave converge`). */
 struct convergence_request {
     const char *words;          /* text of study_options_compose_from_arguments; NULL: unknown */
     const char *scene, *folder; /* path of the scene; folder of the study, NULL: default */

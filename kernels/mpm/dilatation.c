@@ -1,4 +1,4 @@
-/* What changes of cells change in the mean dilatation of points. */
+/* Changes of the mean dilatation of points that change their cells. */
 #include "dilatation.h"
 #include "row.h"
 

@@ -136,8 +136,9 @@ static void advise_growth(const struct run *e, FILE *out)
     if (most > 0 && first > AT_ONCE * most)
         fprintf(out,
                 "accuracy       %.3g %% of the largest loads act before the first load step: let loads grow from 0, by "
-                "time: {ramp: {until: %.4g s}} or a formula of t\n",
-                100 * first / most, s->duration);
+                "time: {ramp: {until: %.4g s}} or a formula of t%s\n",
+                100 * first / most, s->duration,
+                dot(s->gravity, s->gravity, s->dim) > 0 ? " (gravity, which has no time: as a body_force)" : "");
     if (!isnan(falls) && s->steps.control != CONTROL_LOAD)
         fprintf(out,
                 "accuracy       loads fall before t = %.4g s, but steps.control: %s searches for the pseudo-time of "

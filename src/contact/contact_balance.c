@@ -12,7 +12,7 @@
 #include "contact_internal.h"
 
 /* Largest force against the rate of the gap, relative to the change of the contact force in a step [1]; empirical. */
-#define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
+#define BALANCE_DRAG 0.1
 
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made)
 {

@@ -10,7 +10,7 @@ struct map_key {
     struct category of[CATEGORIES_MOST + 2];
 };
 
-/* What a picture of maps shows: quantity, view, key (legend) and heading. title: "" for no heading. */
+/* Content of a picture of maps: quantity, view, key (legend) and heading. title: "" for no heading. */
 struct maps_shown {
     enum map map;
     const struct view *view;

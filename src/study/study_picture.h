@@ -1,4 +1,4 @@
-/* What one picture of a study shows: its figures (scalar results), varied keys, points and layout. */
+/* Content of one picture of a study: its figures (scalar results), varied keys, points and layout. */
 #ifndef CLEAVE_STUDY_PICTURE
 #define CLEAVE_STUDY_PICTURE
 

@@ -264,7 +264,7 @@ done <<'END'
 19|output: {every: 0}|19:10|every
 19|output: {fields: [von_mise]}|19:19|the nearest is von_mises
 19|output: {fields: heat}|19:10|none, all or a list
-20|probes: [{reaction: {boundary: push}}]|20:22|no boundary push
+20|probes: [{reaction: {boundary: push}}]|20:22|no boundary named push
 20|probes: [{line: {from: [0, 0], to: [1, 1], points: 1}}]|20:44|out of range
 20|probes: {tip}|20:1|list
 20|probes: tip|20:1|tip is not a list such as [{tip: {at: [0.5 mm, 0]}}]

@@ -114,7 +114,7 @@ END
 "$cleave" run crack.yaml 2>err >out
 is "edge crack" $? 0
 near "edge crack" "$(figure results/crack probes.sif.K_I)" "$(compute "3.009e6*sqrt(3.14159265*8e-3)")" 0.03
-holds "its first probe is judged: $(cat err)" grep -q "for an error of the first figure of its probes that is not zero within 3 %" err
+holds "its first probe is judged: $(cat err)" grep -q "for an error of the first result of its probes that is not zero within 3 %" err
 
 # A pulse in steel 0.1 m wide, exp(-(x/r)^2), travels 0.3 m: its crest is at 0.7 m.
 cat >pulse.yaml <<'END'
