@@ -7,8 +7,8 @@
 #include "data/grid.h"
 #include "data/particles.h"
 
-/* The method that moves a particle: bond forces, background grid or mesh. The wave impedance of a material differs between them.
- * MOVERS: number of these methods. */
+/* The method that moves a particle: bond forces, background grid or mesh. The wave impedance of a material differs
+ * between them. MOVERS: number of these methods. */
 enum moved_by { MOVED_BY_BONDS, MOVED_BY_GRID, MOVED_BY_MESH, MOVERS };
 
 /* Wave impedances of a material: normal, rho c_p, and tangential, rho c_s [kg/(m^2 s)], with the speeds c_p, c_s of
