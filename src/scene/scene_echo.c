@@ -390,15 +390,16 @@ static void write_interfaces(struct writer *w)
     const struct scene *s = w->scene;
     if (s->interfaces) fputs("interfaces:\n", w->out);
     for (int k = 0; k < s->interfaces; k++) {
-        const struct scene_interface *face = &s->interface[k];
+        struct scene_interface face = s->interface[k];
+        if (!(face.energy_release_rate > 0)) face.energy_release_rate = NAN; /* not given */
         writer_begin_list_item(w);
         writer_begin_key(w, "bodies");
         fputs(" [", w->out);
-        yaml_write_quoted_text(w, s->body[face->body[0]].name);
+        yaml_write_quoted_text(w, s->body[face.body[0]].name);
         fputs(", ", w->out);
-        yaml_write_quoted_text(w, s->body[face->body[1]].name);
+        yaml_write_quoted_text(w, s->body[face.body[1]].name);
         fputs("]\n", w->out);
-        yaml_write_keys_of_group(w, "interfaces", face);
+        yaml_write_keys_of_group(w, "interfaces", &face);
     }
 }
 
