@@ -235,6 +235,13 @@ struct scene_override {
 /* Returns true if the run of the scene integrates in time, false if it solves one equilibrium or load steps. */
 static inline bool scene_is_dynamic(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
 
+/* Returns the number, from 0, of the part of the duration that contains the time t [s], if there are `parts` equal
+ * parts. Costly searches for faults of a run are made once in each part. */
+static inline int scene_part_of_duration(const struct scene *s, real t, int parts)
+{
+    return (int)(parts * t / s->duration * (1 + 1e-9));
+}
+
 /* Returns true if the run of the scene solves a single static equilibrium, without load steps. */
 static inline bool scene_is_single_equilibrium(const struct scene *s)
 {

@@ -16,8 +16,8 @@
 struct law_points {
     lanes s[SYM_MAX];      /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
     lanes before[SYM_MAX]; /* stress at the start of the step, rotated by its spin [Pa] */
-    lanes volume_before,
-        volume;          /* volume at the start and at the end of the step, divided by the reference volume [1] */
+    /* volume at the start and at the end of the step, divided by the reference volume [1] */
+    lanes volume_before, volume;
     real duration;       /* of an explicit step [s]; 0: the rate has no effect */
     lanes a;             /* accumulated equivalent plastic strain, updated [1] */
     lanes back[SYM_MAX]; /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */

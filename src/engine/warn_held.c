@@ -79,7 +79,7 @@ uint8_t *engine_find_prescribed_components(const struct loads *loads, const stru
     for (int b = 0; b < loads->n; b++) {
         const struct load *l = &loads->load[b];
         for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k++)
-            prescribed[l->particle[k]] |= l->boundary->rotates ? (1u << DIM_MAX) - 1 : l->boundary->components;
+            prescribed[l->particle[k]] |= l->prescribes[k];
     }
     return prescribed;
 }

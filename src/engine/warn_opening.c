@@ -5,9 +5,8 @@
 #include "engine_internal.h"
 #include "fracture/tips.h"
 
-#define ACROSS                                                                                                         \
-    0.15 /* extent of a crack along the axis of a load, over its largest extent, that counts as across [1]             \
-          */
+/* Largest extent of a crack along the axis of a load, divided by its largest extent, with which it lies across [1]. */
+#define ACROSS 0.15
 
 /* Returns true if nothing but the boundaries of scene s sets its bodies in motion: they are at rest and without stress
  * at the start, no rigid body touches them, and no crack grows by a rule. */

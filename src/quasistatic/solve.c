@@ -120,9 +120,8 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
     if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);
 }
 
-#define CLOSED                                                                                                         \
-    3            /* closing over the largest strain of the body above which faces have met: at corners it reaches 2.6  \
-                  */
+/* Closing divided by the largest strain of the body above which faces have met; it reaches 2.6 at corners [1]. */
+#define CLOSED 3
 #define NEXT 1.2 /* largest reference distance of neighbours across a crack face [spacings] */
 
 /* How far crack faces have closed: the largest shortening [1] of the distance between neighbours on both sides of a

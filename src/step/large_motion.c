@@ -74,7 +74,7 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
                                         real horizon, real t, struct warnings *warning_list)
 {
     const real reach = INSIDE * s->spacing, held = real_max(horizon, APART * s->spacing);
-    const int part = (int)(PARTS_OF_DURATION * t / s->duration * (1 + 1e-9));
+    const int part = scene_part_of_duration(s, t, PARTS_OF_DURATION);
     int64_t first = 0;
     char text[420];
     if (m->passed || part == m->checked || !scene_is_dynamic(s) || p->n == 0 || p->n < p->n_body) return;

@@ -216,7 +216,7 @@ bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct par
                                      struct warnings *warning_list)
 {
     real most = 0;
-    const int part = 1 + (int)(PARTS_OF_DURATION * t / s->duration * (1 + 1e-9));
+    const int part = 1 + scene_part_of_duration(s, t, PARTS_OF_DURATION);
     if (p->n_free == 0 || !p->plastic_strain || scene_silences_warning(s, ACCEPT_STRAIN)) return false;
     if (part == pairs->compared) return false;
     pairs->compared = part;
