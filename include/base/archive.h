@@ -15,8 +15,9 @@ enum archive_scope {
     ARCHIVE_ACCOUNTS, /* sums since the start, saved before forces are computed that no step follows */
 };
 
-/* A store of named entries, in a checkpoint file or in memory. `saving` determines whether a call of `exchange` saves
- * an entry (true) or restores it (false), so that one function describes both. */
+/* A store of named entries, in a checkpoint file or in memory. scope: part of the state that it holds. `saving`
+ * determines whether a call of `exchange` saves an entry (true) or restores it (false), so that one function describes
+ * both. */
 struct archive {
     bool saving;
     /* Saves or restores `size` bytes under a name that is unique in the archive ('/' and letters). Restoring fails if

@@ -37,16 +37,16 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 /* Returns the number of components of a symmetric tensor in dim dimensions: 1, 3 or 6. */
 static inline int symmetric_component_count(int dim) { return dim * (dim + 1) / 2; }
 
-/* Computes row and column (0 .. 2) of component number `component` of a symmetric tensor. Order of the components: xx,
- * yy, zz, xy, yz, zx in 3D; xx, yy, xy in 2D; xx in 1D. */
+/* Computes *row and *column (0 .. 2) of component number `component` (from 0) of a symmetric tensor in dim dimensions.
+ * Order of the components: xx, yy, zz, xy, yz, zx in 3D; xx, yy, xy in 2D; xx in 1D. */
 static inline void symmetric_component_axes(int dim, int component, int *row, int *column)
 {
     *row = component < dim ? component : component == dim ? 0 : component == dim + 1 ? 1 : 2;
     *column = component < dim ? component : (*row + 1) % DIM_MAX;
 }
 
-/* Returns a hash that combines the hash `hash` of previous words with one more word, by one step of Splitmix64 (Steele,
- * Lea, Flood 2014). */
+/* Returns the hash of a sequence of words: `hash` is the hash of the words before, `word` the last word. Uses one step
+ * of Splitmix64 (Steele, Lea, Flood 2014). */
 static inline uint64_t hash_add_word(uint64_t hash, uint64_t word)
 {
     hash += (word + 1) * UINT64_C(0x9e3779b97f4a7c15);
@@ -55,7 +55,8 @@ static inline uint64_t hash_add_word(uint64_t hash, uint64_t word)
     return hash ^ hash >> 31;
 }
 
-/* Result of a function that can fail; the values are the exit statuses of the program. */
+/* Result of a function that can fail: FAILED by the computation, a file or memory, REFUSED because the input (scene,
+ * file, command line) is not valid, INTERRUPTED by a signal. The values are the exit statuses of the program. */
 typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 
 /* Composes the message of a failure (one line) as printf does, stores it for status_message, and returns `s`. It is
@@ -69,8 +70,8 @@ void status_add_line(const char *format, ...) __attribute__((format(printf, 1, 2
 /* Returns the message of the last failure in this thread. */
 const char *status_message(void);
 
-/* Capacity of the text `file:line:column: key: ` at the beginning of a message about a scene; the text is empty if the
- * position is unknown. */
+/* Capacity [bytes], with the final zero byte, of the text `file:line:column: key: ` at the beginning of a message about
+ * a scene; the text is empty if the position is unknown. */
 enum { PLACE_LENGTH = 512 };
 
 /* Prepends `location`, a position in the scene file such as `file:line:column: key: `, to the message set by
@@ -93,7 +94,7 @@ _Noreturn void invariant_report_violation_and_abort(const char *condition, const
                                                     const char *function);
 
 /* Sets the function that invariant_report_violation_and_abort calls before the program ends, in the thread that has
- * found the fault; it removes half-written files. NULL: none. */
+ * found the fault. cleanup: removes half-written files; NULL: no function. */
 void invariant_set_cleanup_callback(void (*cleanup)(void));
 
 /* Replaces every control character of a text from outside (names of files, columns, scenes) by `?`, so that a terminal
@@ -113,7 +114,8 @@ struct printable_name {
 /* Returns a copy of `name` for messages, cut to at most 511 bytes, with `?` in place of control characters. */
 struct printable_name printable_name(const char *name);
 
-/* Compares the numbers *a and *b (double), for array_sort in ascending order: returns -1, 0 or 1. */
+/* Compares the numbers *a and *b (of type double) for array_sort in ascending order. Returns -1 if *a < *b, 1 if *a >
+ * *b, else 0. */
 int compare_doubles(const void *a, const void *b);
 
 /* Sorts the `count` numbers in `value`, at least one, in place, and returns their median; for even `count` the upper of

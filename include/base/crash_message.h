@@ -6,8 +6,8 @@
  * then prints one line on standard error and exits with status 1. */
 void crash_message_install_signal_handlers(void);
 
-/* Announces that HDF5 is about to read the file `path`; NULL: it has finished. A crash in between is reported as a
- * damaged file. */
+/* Announces that HDF5 is about to read the file `path` or, if `path` is NULL, that HDF5 has finished reading. A crash
+ * between these two calls is reported as a damaged file. */
 void crash_message_set_file_in_use(const char *path);
 
 #endif

@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-/* Kinds of temporary files that are removed if a signal ends the process; LEAVINGS is their number. */
+/* Kinds of temporary files that are removed if a signal ends the process: a picture, a frame of an animation, an
+ * animation. LEAVINGS is their number. */
 enum cleanup_kind { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
 
 /* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this process: first the child with the id

@@ -16,8 +16,9 @@ enum {
     RISE_VALUES = 64
 };
 
-/* Values of a quantity recorded at some time steps. n: number of records so far; at: the last RISE_VALUES of them,
- * record k = 0 .. n - 1 is at[k % RISE_VALUES], with the number of its time step. */
+/* Values of a quantity recorded at some time steps. n: number of records so far, of which the last RISE_VALUES are
+ * kept; record k (0 .. n - 1) is at[k % RISE_VALUES]. step: number of the time step of a record; value: the
+ * quantity. */
 struct growth_samples {
     int64_t n;
     struct {
@@ -26,7 +27,8 @@ struct growth_samples {
     } at[RISE_VALUES];
 };
 
-/* Growth of a quantity: tenfold within RISE_STEPS steps, slower, or undecided. */
+/* Growth of a quantity: tenfold within RISE_STEPS time steps (as by a time step that is too long), slower, or undecided
+ * because there are too few records. */
 enum growth_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
 /* Records `value` at time step number `step` in `samples`, unless the last record is less than RISE_CLOSEST steps old.

@@ -40,8 +40,8 @@ int machine_physical_core_count(void);
  * core_shares_free. */
 struct core_shares *core_shares_make(int share_count);
 
-/* Binds the calling thread, and processes that it starts later, to the cores of share number `share_number` of s; -1
- * restores its previous binding. Does nothing if s is NULL. */
+/* Binds the calling thread, and processes that this thread starts later, to the cores of share number `share_number`
+ * (from 0) of s; -1 restores the binding that the thread had before. Does nothing if s is NULL. */
 void core_share_bind_calling_thread(const struct core_shares *s, int share_number);
 
 /* Releases the shares of cores s. */
@@ -53,7 +53,8 @@ double wall_clock_seconds(void);
 /* Returns the processor time that the calling thread has used [s]; time taken by other programs does not count. */
 double thread_cpu_clock_seconds(void);
 
-/* SUM_BLOCK: number of terms per block of a reproducible sum; TERMS_MAX: largest number of sums in one pass. */
+/* SUM_BLOCK: number of terms per block of a reproducible sum; TERMS_MAX: largest number of sums that reproducible_sums
+ * computes in one call. */
 enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 
 /* Returns the sum of the terms term(context, i) for i = 0 .. term_count - 1. Terms are added in blocks of SUM_BLOCK,
@@ -61,14 +62,17 @@ enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
  * by several threads at once and must not write. */
 real reproducible_sum(int64_t term_count, real (*term)(const void *context, int64_t i), const void *context);
 
-/* Computes `sum_count` <= TERMS_MAX sums over `term_count` terms in one pass, with bit-identical results for any number
- * of threads. add_block_of_terms(context, first, end, sum) must add the terms first .. end - 1 of all sums to
- * sum[sum_count]; threads call it at once for different ranges. sum: receives the results. */
+/* Computes `sum_count` <= TERMS_MAX sums over `term_count` terms in one pass into sum[sum_count], with bit-identical
+ * results for any number of threads. add_block_of_terms(context, first, end, partial) must add the terms first .. end -
+ * 1 of all sums to partial[sum_count]; several threads call it at once for different ranges, so that it must not write
+ * to `context`. */
 void reproducible_sums(int64_t term_count, int sum_count,
                        void (*add_block_of_terms)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum);
 
-/* Timed sections of a time step; timer_name has their names. */
+/* Timed sections of a time step: forces of bonds, particles to grid, motion of grid nodes, grid to particles,
+ * conversion of material points, samples of time series, files. timer_name[TIMERS]: names of the sections for
+ * tables. */
 enum timer { TIMER_BONDS, TIMER_SCATTER, TIMER_GRID, TIMER_GATHER, TIMER_CONVERT, TIMER_SAMPLE, TIMER_OUTPUT, TIMERS };
 extern const char *const timer_name[TIMERS];
 

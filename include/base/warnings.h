@@ -7,13 +7,15 @@
 #include "archive.h"
 #include "base.h"
 
-/* A list of `n` different warnings, text[k] in the order of their first occurrence; it owns the texts. */
+/* A list of `n` different warnings, text[k] (k from 0) in the order of their first occurrence. The list owns the
+ * texts. */
 struct warnings {
     int n;
     bool silent; /* pilot run: warnings are stored, but not printed while it runs */
     char **text;
-    /* Writes where the scene file gives the key with which the warning `text` begins to place[PLACE_LENGTH]; "" if
-     * unknown. scene: the member below, not owned. The printed line ends with it; `text` does not have it. */
+    /* Writes to place[PLACE_LENGTH] the location in the scene file of the key with which the warning `text` begins; ""
+     * if unknown. The printed line ends with this location; `text` does not contain it. scene: the member below, not
+     * owned. */
     void (*locate)(const void *scene, const char *text, char *place);
     const void *scene;
 };
@@ -26,8 +28,8 @@ bool warnings_add_if_new(struct warnings *w, const char *format, ...) __attribut
  * contains already. */
 void warnings_append_new_from_list(struct warnings *w, const struct warnings *source_list, int first_warning);
 
-/* Prints the warnings of the list w, from number `first_warning` on, to `out`, each as one line `warning: text`, with
- * the location in the scene file, if w->locate finds one, in brackets at its end. */
+/* Prints the warnings of the list w, from number `first_warning` (from 0) on, to `out`, each as one line `warning:
+ * text`. The line ends with the location in the scene file, in brackets, if w->locate is set and finds the location. */
 void warnings_print(const struct warnings *w, int first_warning, FILE *out);
 
 /* Appends a warning to the list w while a run is in progress and, if the list did not contain it and is not silent,

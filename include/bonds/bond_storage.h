@@ -89,14 +89,15 @@ struct softened {
     real gate;     /* stretch from which on the strength surface may be near [1] */
 };
 
-/* Origin of a mirror image: its source, and the axis normal to its plane of symmetry (-1: clamped plane). */
+/* Origin of a mirror image, a copy of a particle beyond a plane of symmetry. source: index of that particle; axis: axis
+ * normal to the plane, -1 if the plane is clamped instead. */
 struct state_image {
     int32_t source;
     int axis;
 };
 
-/* One reaction that a particle receives from a bond to its image in a clamped plane. bond: index in struct clamped;
- * sign: factor +-1 on each component of the reaction. */
+/* One reaction force that a particle receives from a bond to its image in a clamped plane. bond: index of the bond in
+ * the arrays of struct clamped, from 0; sign: factor +1 or -1 on each component of the reaction. */
 struct clamp_end {
     int32_t bond;
     int8_t sign[DIM_MAX];
@@ -140,7 +141,8 @@ struct state {
     struct state_image *image;   /* [n_all - n] origins of the mirror images */
 };
 
-/* Number of bond lengths of a lattice that are tabulated: shell k < BOND_SHELLS has the length spacing sqrt(k). */
+/* Number of bond lengths of a lattice that are tabulated, and an entry of the table. Entry k < BOND_SHELLS describes
+ * bonds of the length r = spacing sqrt(k). */
 enum { BOND_SHELLS = 256 };
 struct bond_length {
     real inverse, length, square; /* 1/r [1/m], r [m], r^2 [m^2] */
@@ -160,7 +162,8 @@ struct bond_column {
     uint8_t begun; /* bit l: the bond of lane l has begun to soften; valid if the row block has (softened.begun) */
 };
 
-/* One column, common to all row blocks that follow a stencil. */
+/* One column of a stencil: eight bonds, one of each of eight consecutive particles, that many row blocks (the bonds of
+ * eight particles) have in common. */
 struct stencil_column {
     int32_t offset;                  /* index of the neighbours less index of the particles of the rows */
     uint8_t intact, shell;           /* as in struct bond_column */
@@ -187,19 +190,23 @@ struct stencil {
 struct stencils; /* all stencils (bonds_stencils.c) */
 struct site_map; /* particle at each site of a lattice (bonds_site_map.c) */
 
-/* Columns of a removed row block, free for others when rows are rebuilt: `columns` columns from `column` on. */
+/* Free columns of a removed row block (the bonds of eight particles), to be used when rows are rebuilt: `columns`
+ * columns, the first of which is number `column`. */
 struct bond_hole {
     int64_t column;
     int32_t columns;
 };
 
-/* Ranges of columns that are free, because their row blocks were removed. */
+/* List of n free ranges of columns (eight bonds each), whose row blocks (the bonds of eight particles) were removed:
+ * hole[n]. */
 struct bond_holes {
     int64_t n;
     struct bond_hole *hole;
 };
 
-/* The bonds of a body. All arrays are owned. */
+/* The bonds of all particles. All arrays are owned. rows: particles with bonds; row_blocks: groups of eight rows stored
+ * together, columns: groups of eight bonds, one of each row of a row block. [columns 8]: one entry per bond, [row
+ * blocks 8]: per row. */
 struct bonds {
     int64_t rows, row_blocks, columns;
     int64_t used, room; /* columns that are or were in use; capacity */
@@ -244,22 +251,23 @@ struct bonds {
     real stiffness; /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
-/* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of peridynamic
- * particles, which store their complete families. */
+/* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of them of
+ * peridynamic particles, so that each row stores the bonds to all neighbours of its particle. */
 static inline bool bond_row_block_has_eight_pd_particles(const struct bonds *b, int64_t row_block)
 {
     return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
-/* State of a bond that softens [1]. most: largest stretch so far; onset, end: stretches at which softening begins and
- * the bond breaks; whole: weight before softening, 0 for bond-based models, which do not store it. */
+/* Softening state of one bond, all members dimensionless. most: largest stretch so far; onset, end: stretches at which
+ * softening begins and the bond breaks; whole: weight before softening, 0 for bond-based models, which do not store
+ * it. */
 struct bond_softness {
     float most, onset, end, whole;
 };
 
-/* Returns the softening state to be stored for a bond that is brittle or has not begun to soften. range: stretches at
- * which softening begins and the bond breaks [1]. The member `end` of the result is just below range.onset; when the
- * stretch exceeds it, the bond is examined. */
+/* Returns the softening state (struct bond_softness) to be stored for a bond that is brittle or has not begun to
+ * soften. range: stretches at which softening begins and the bond breaks [1]. The member `end` of the result is just
+ * below range.onset; when the stretch exceeds it, the bond is examined. */
 static inline struct bond_softness bond_softness_before_onset(struct softening_range range)
 {
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
@@ -272,8 +280,9 @@ static inline struct bond_softness bond_softness_load(const struct softened *sof
                                   softened->whole ? softened->whole[bond] : 0};
 }
 
-/* Stores `state` as the softening state of the bond with index `bond`, and whether it has begun to soften in the column
- * (the bonds with equal number of eight particles) of the bond. */
+/* Stores `state` as the softening state of the bond with index `bond` in the bond arrays. Also sets or clears the mark
+ * that this bond has begun to soften in the properties of its column (eight bonds, one of each of eight particles,
+ * stored together). */
 static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bond_softness state)
 {
     struct bond_column *column = &b->common[bond / LANES];
@@ -283,10 +292,11 @@ static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bon
     column->begun = (uint8_t)(state.onset < SOFTENING_NEVER ? column->begun | lane : column->begun & ~lane);
 }
 
-/* Softening state of an entry of the bond arrays that contains no bond (padding of a short row). */
+/* Softening state of an entry of the bond arrays that contains no bond, because the particle has fewer bonds than
+ * others of its row block (eight particles stored together): never softens. */
 static const struct bond_softness bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
 
-/* Returns true if a bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
+/* Returns true if at least one bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
 static inline bool bond_row_block_has_begun_softening(const struct bonds *b, int64_t row_block)
 {
     return b->soft.curve && b->soft.begun[row_block];
@@ -338,8 +348,9 @@ static inline real bond_half_softening_energy(const struct bonds *b, int64_t row
            fabs(b->inverse_length[bond]);
 }
 
-/* Marks particle i, a bond of which begins to soften, for conversion if it is a material point, since the stress of a
- * material point does not include the softening of bonds. */
+/* Marks particle i of p, one of whose bonds begins to soften, for conversion to a peridynamic particle if it is a
+ * material point, since the stress of a material point does not include the softening of bonds. May be called by
+ * several threads at once for different particles. */
 static inline void softening_mark_point_for_conversion(struct bonds *b, struct particles *p, int32_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
@@ -358,19 +369,20 @@ void bond_column_update_common_properties(const struct bonds *b, int64_t column_
  */
 void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
 
-/* Initialises the stored softening state of all bonds of a row block (the bonds of eight particles), none of which has
- * begun to soften. limit: critical stretches and softening by pair of materials. */
+/* Initialises the stored softening state of all bonds of row block `row_block` (the bonds of eight particles of p),
+ * none of which has begun to soften. limit: critical stretches and softening by pair of materials. */
 void bond_row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                          int64_t row_block);
 
-/* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
- * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be
- * called by several threads at once. */
+/* Writes the columns of row block `row_block` (the bonds of eight particles), which stored none and followed a stencil
+ * (a pattern of bonds shared by many row blocks of a lattice), so that its bonds can be changed. Does nothing if the
+ * columns are already written. May be called by several threads at once. */
 void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
 
 /* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane
- * `lane` (0 to 7) of a row block, so that the caller may write to it. Expands the row block first if its columns are
- * not written. After a change of w or of the sign of inverse_length the caller calls
+ * `lane` (0 to 7) of row block `row_block` (the bonds of eight particles), so that the caller may write to this entry.
+ * If the row block only follows a stencil (a pattern of bonds shared by many row blocks), its bonds are written to the
+ * arrays first. After a change of w or of the sign of inverse_length the caller calls
  * bond_column_update_after_bond_change. */
 static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {

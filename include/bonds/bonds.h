@@ -9,8 +9,9 @@
 
 #define BYTES_PER_BOND 24.0 /* memory of a stored bond with padding [bytes]; measured on blocks of 10^6 particles */
 
-/* Sums over the springs around one particle, from which an upper bound of the largest eigenvalue of their stiffness
- * matrix follows (block-Gershgorin): row-sum norm of `block` plus `total`. */
+/* Sums over the springs (bonds) of one particle, of stiffness K and direction n: block = sum K n n, total = sum K. From
+ * both follows an upper bound of the largest eigenvalue of the stiffness matrix (block-Gershgorin): row-sum norm of
+ * `block` + `total`. */
 struct spring_bound {
     real block[DIM_MAX][DIM_MAX], total; /* sum K n n and sum K over springs of stiffness K, direction n [N/m] */
 };
@@ -60,27 +61,27 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
 void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *source);
 
 /* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. source:
- * inputs, of which the list of images is used. */
+ * inputs of the bonds, of which only the list of mirror images is used. */
 void mirror_images_copy_particle_kinds(struct particles *p, const struct bond_source *source);
 
 /* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
  * peridynamic). source: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
 void bonds_rebuild_after_particle_kind_change(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Returns an upper bound of the largest eigenvalue of the stiffness matrix of the bonds of one row, i.e. of all bonds
- * of one particle [N/m], by block-Gershgorin. */
+/* Returns an upper bound [N/m] of the largest eigenvalue of the stiffness matrix of the bonds of row number `row` of b,
+ * i.e. of all bonds of one particle of p, by block-Gershgorin. For the critical time step. */
 real bonds_row_stiffness_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
-/* Releases all arrays of b. */
+/* Releases all arrays of the bonds b, not b itself. */
 void bonds_free(struct bonds *b);
 
-/* Returns a lower bound of the critical time step 2/omega_max of the body if all its particles were peridynamic and no
- * bond broken [s], with the block-Gershgorin bound of the largest angular frequency omega_max. The bonds are made from
- * `source` for this; no stored bonds are needed. */
+/* Returns a lower bound [s] of the critical time step 2/omega_max that the particles p would have if all of them were
+ * peridynamic and no bond broken, with the block-Gershgorin bound of the largest angular frequency omega_max. source:
+ * inputs of the bonds, from which bonds are computed for this purpose; no stored bonds are needed. */
 real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, const struct bond_source *source);
 
-/* Returns the critical time step 2/omega_max of the existing bonds b [s]. Valid only while all particles are
- * peridynamic and no bond is broken. */
+/* Returns a lower bound [s] of the critical time step 2/omega_max of the existing bonds b of the particles p. Valid
+ * only while all particles are peridynamic and no bond is broken. */
 real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const struct particles *p);
 
 /* Copies what load has done to bonds from the bonds `old_bonds` of the particles `old_particles` to the bonds b of p,
@@ -107,11 +108,11 @@ real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t 
  * reference lengths r of its intact bonds. Only for state-based models. source: inputs as in bonds_make. */
 void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
-/* Checks the invariants of stored bonds that are listed in bond_storage.h. Returns a text that describes the first
+/* Checks the stored bonds b against the invariants listed in bond_storage.h. Returns a text that describes the first
  * violated one, or NULL if all hold. */
 const char *bonds_describe_first_inconsistency(const struct bonds *b);
 
-/* Returns the energy that bonds which still exist have dissipated by softening [J]. */
+/* Returns the energy [J] that the intact bonds of b have dissipated by softening so far. */
 real bonds_dissipated_softening_energy(const struct bonds *b);
 
 /* Returns the energy released by the broken bonds of row `row` (all bonds of one particle) since the start, plus half
@@ -142,7 +143,8 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
  * neighbour; 0 if row is -1. */
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row);
 
-/* Returns the energy released by all bonds broken since the start plus the energy dissipated by softening bonds [J]. */
+/* Returns the energy [J] released by all bonds of b broken since the start plus that dissipated by intact bonds which
+ * soften. */
 real bonds_fracture_energy(const struct bonds *b);
 
 /* Returns eight bits: bit l is set if particle l (0 to 7) of the eight particles whose bonds row block `row_block`
@@ -158,20 +160,21 @@ static inline unsigned bond_row_block_lanes_with_intact_bonds(const struct bonds
     return bits;
 }
 
-/* Returns true if particle i has an intact bond. (Storage is made for eight particles at once, so a particle may have
- * an empty row.) */
+/* Returns true if particle i has at least one intact bond. (A particle may have a row of b and yet no bond, because
+ * storage is made for eight particles at once.) */
 static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
 {
     const int64_t row = b->row_of[i];
     return row >= 0 && bond_row_block_lanes_with_intact_bonds(b, row / LANES) >> row % LANES & 1;
 }
 
-/* Clears the bits of all particles and mirror images to which the particle of row `row` has intact bonds.
- * particle_bits: one bit for each particle or image, bit i % 64 of particle_bits[i / 64]. Does nothing if row is -1. */
+/* Clears the marks of all particles and mirror images to which the particle of row `row` of b has intact bonds.
+ * particle_bits: the marks, for particle or image i bit i % 64 of particle_bits[i / 64]. Does nothing if row is -1 (a
+ * particle without bonds). */
 void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
 
-/* Returns the sum of the numbers of bonds of the eight particles of row block `row_block`, broken bonds included. A
- * bond between two of these particles counts twice. */
+/* Returns the number of bonds of the eight particles of row block `row_block` together, broken bonds included. A bond
+ * between two of these particles counts twice. */
 static inline int32_t bond_row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
 /* Returns the number of columns of row block `row_block`, which stores the bonds of eight particles. Column k holds at
@@ -181,8 +184,8 @@ static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t
     return b->column_count[row_block];
 }
 
-/* Returns the first neighbour of column `column` of a row block, i.e. the neighbour to which bond number `column` of
- * the first of eight particles leads, if the eight neighbours are consecutive particles; else -1. */
+/* Returns the index of the particle to which bond number `column` of the first of the eight particles of row block
+ * `row_block` leads, if the bonds number `column` of all eight particles lead to consecutive particles; else -1. */
 static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, int64_t row_block, int64_t column)
 {
     const struct stencil *stencil = b->stencil[row_block];
@@ -198,9 +201,9 @@ struct column_copy {
     real inverse_length[LANES], w[LANES];
 };
 
-/* Reads neighbours, inverse lengths and weights of one column of a row block (bond number `column` of each of its eight
- * particles) into *copy. They come from the stencil, the pattern of bonds that row blocks share, if the row block
- * stores no columns of its own. Does not change b. */
+/* Reads neighbours, inverse lengths and weights of column number `column` of row block `row_block` (bond number
+ * `column` of each of eight particles) into *copy. If the row block stores no columns of its own, the data come from
+ * its stencil, a pattern of bonds that many row blocks share. Does not change b. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t column);
 
 /* A bond of a particle as stored. nbr: its neighbour; inverse_length: 1/r, negative if load has broken the bond [1/m];

@@ -51,8 +51,9 @@ enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FOR
  * soften; empirical. */
 enum { SOFTENING_RETRY_STEPS = 8 };
 
-/* Limits at which bonds break or begin to soften. critical_stretch: stretch at which a brittle bond breaks, for each
- * pair of materials: entry m materials + q for the materials m and q; INFINITY for bonds that never break. */
+/* Stretches at which bonds break or begin to soften. materials: number of materials. critical_stretch: stretch at which
+ * a brittle bond breaks, for each pair of materials: entry m materials + q for the materials m and q; INFINITY for
+ * bonds that never break. */
 struct bond_limit {
     const real *critical_stretch; /* [1] */
     int materials;
@@ -63,8 +64,8 @@ struct bond_limit {
     bool retries; /* bonds that were not allowed to soften are examined again in this step (kernels/pd/bond_begin.c) */
 };
 
-/* Limits with which no bond breaks or begins to soften, for any pair of materials: for static solutions, and for forces
- * that no step follows. */
+/* Limits with which no bond breaks or begins to soften, whatever its materials. Used for static equilibrium, and where
+ * forces are computed without a time step after them. */
 extern const struct bond_limit bond_limit_never;
 
 /* Returns the stretch at which the bond between particles i and j breaks if it is brittle [1]: the critical stretch of
@@ -90,9 +91,10 @@ static inline struct softening_range bond_softening_range(const struct particles
                                       critical);
 }
 
-/* Returns the stretches [1] at which the bond between particles i and j begins to soften and breaks, at the strain rate
- * `rate` [1/s]. The rate changes the onset, and the stretch at which the bond breaks such that the dissipated energy
- * stays the same. */
+/* Returns the stretches [1] at which the bond between particles i and j of p begins to soften and breaks, at the strain
+ * rate `rate` [1/s]. limit: critical stretches and softening by pair of materials, with softening (limit->softening not
+ * NULL). The rate changes the onset, and the stretch at which the bond breaks such that the dissipated energy stays the
+ * same. */
 static inline struct softening_range
 bond_softening_range_at_rate(const struct particles *p, const struct bond_limit *limit, int64_t i, int64_t j, real rate)
 {
@@ -112,13 +114,13 @@ struct bond_yield {
     int materials;
 };
 
-/* Moduli A and B of a state-based material (kernels/pd/state_laws.h) [Pa]. */
+/* Moduli A and B [Pa] of a material in state-based peridynamics; kernels/pd/state_laws.h defines them. */
 struct state_modulus {
     real A, B;
 };
 
-/* Returns the moduli A and B [Pa] of a state-based model (kernels/pd/state_laws.h) for material m. with_rotations: true
- * for the model with particle rotations (PD_MOSPD). */
+/* Returns the moduli A and B [Pa] (kernels/pd/state_laws.h) of material m in a state-based model. space: line, plane
+ * stress, plane strain or solid; with_rotations: true for the model with particle rotations (PD_MOSPD). */
 static inline struct state_modulus state_based_moduli_of_material(const struct material *m, enum space space,
                                                                   bool with_rotations)
 {
@@ -160,14 +162,14 @@ struct bond_source {
  * delta/spacing [1]; section: cross-section in 1D [m^2], thickness in 2D [m], 1 in 3D. */
 void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 
-/* Returns the micro-modulus c of bond-based peridynamics for material m and the complete family f, by the calibration
- * rule of f [N/m^6]. */
+/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for the material m, calibrated by the rule
+ * f->calibration for a particle with all neighbours of the family f. */
 real family_micro_modulus(const struct family *f, const struct material *m);
 
 /* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete families has under uniform strain: C_abcd
- * = c V/2 sum w r e_a e_b e_c e_d over the bonds of a particle. c: micro-modulus; V: volume of a particle; r, e: length
- * and direction of a bond; w: its weight, with partial volume and weight by direction (family_bond_weight). The result
- * is cubic, and its shear modulus equals c12. */
+ * = c V/2 sum w r e_a e_b e_c e_d over the bonds of a particle. f: family and rules of the weights; m: material; c:
+ * micro-modulus; V: volume of a particle; r, e: length and direction of a bond; w: its weight, with partial volume and
+ * weight by direction (family_bond_weight). The result is cubic, and its shear modulus equals c12. */
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
 /* Returns G/s_c^2 [N/m] of state-based peridynamics, with the work G per area that separates the two halves of a
@@ -177,8 +179,9 @@ void family_elastic_constants(const struct family *f, const struct material *m, 
 real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
                                                  bool particles_rotate, bool intact_bonds_only);
 
-/* Returns the energy that the bonds across a lattice plane normal to an axis store, per area of the plane, if each has
- * the critical stretch of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
+/* Returns the energy per area [J/m^2] stored in the bonds that cross a lattice plane normal to an axis if each has the
+ * critical stretch of material m: the energy release rate of a crack along the plane. f: family of the lattice.
+ * Bond-based models only (Silling & Askari 2005). */
 real family_crack_energy_per_area(const struct family *f, const struct material *m);
 
 /* Returns true if all bonds of family f have one weight: no partial volumes, influence function 1, and equal weights in
@@ -189,7 +192,8 @@ static inline bool family_has_equal_weights(const struct family *f)
 }
 
 /* Returns the weight of a bond in the reference state, the product of volume fraction beta, influence function omega
- * and weight by direction [1]. bond_vector: reference vector, dim components [m]; bond_length: of this vector [m]. */
+ * and weight by direction [1]. f: rules of the weights; bond_vector: reference vector of the bond, dim components [m];
+ * bond_length: its length [m]. */
 real family_bond_weight(const struct family *f, const real *bond_vector, real bond_length);
 
 #endif

@@ -24,8 +24,8 @@ struct site_map {
                      bonds follow from sites alone */
 };
 
-/* Returns the index of the lattice site at which the particle with index `particle` is, -1 if its position is not a
- * lattice site of `map`. */
+/* Returns the index in `map` of the lattice site at which the particle with index `particle` of p is in the reference
+ * state; -1 if its position is not a site of the lattice. */
 int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle);
 
 /* Creates the map `map` from lattice sites to the particles and images of p. source: inputs of the bonds (spacing,
@@ -52,12 +52,12 @@ void site_map_release(struct site_map *map);
 int site_map_list_neighbours_of_particle(const struct site_map *map, const struct particles *p, int32_t particle,
                                          int32_t *neighbour);
 
-/* Returns true if a pre-crack of `source` may cut a bond of the particle with index `particle`; false if all are too
- * far away. */
+/* Returns true if a pre-crack of `source` (the inputs of the bonds) may cut a bond of the particle with index
+ * `particle` of p; false if all pre-cracks are too far away. */
 bool particle_is_near_precrack(const struct bond_source *source, const struct particles *p, int64_t particle);
 
-/* Returns true if one of the bonds in row block `row_block` (the bonds of eight particles) may be to a mirror image.
- * Most row blocks follow a stencil, of which this reads the last column only. */
+/* Returns true if a bond of row block `row_block` (the bonds of eight particles of p) may lead to a mirror image; false
+ * if certainly none does. In most row blocks only the last bonds are read. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block);
 
 #endif

@@ -19,7 +19,8 @@
 
 #include "bonds/family.h"
 
-/* Factors of the weights of bonds near faces, by class of particle and offset. */
+/* Factors of the weights of bonds near faces. They are tabulated by class of the particle (particles with equal
+ * surroundings) and by offset (lattice vector from the particle to its neighbour). */
 struct surface_weights {
     real spacing;   /* lattice spacing [m] */
     real residual;  /* residual of the least-squares problem divided by that with all factors 1; large if the solver did
@@ -46,7 +47,7 @@ status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, 
 /* Releases the arrays of w, the factors on the weights of bonds near faces. */
 void surface_weights_free(struct surface_weights *w);
 
-/* Returns the integer nearest to a number of spacings; quicker than nearbyint. */
+/* Returns the integer nearest to `spacings`, halves rounded away from 0. It is quicker than nearbyint. */
 static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
 
 /* Returns the factor by which the weight of a bond of particle i is multiplied near faces [1]; 1 if the particle is far

@@ -26,16 +26,17 @@
 #include "rigid/rigid.h"
 #include "scene/requests.h"
 
-/* Table of the depth of a face below a particle as a function of the density of the face's particles at this particle
- * (contact_face.c). */
+/* Table by which contact of the form `surface` finds the face beside a particle: depth of the face below the particle
+ * as a function of the density of the face's particles at this particle (contact_face.c). PROFILE_NODES: number of its
+ * entries. */
 enum { PROFILE_NODES = 86 };
 struct contact_profile {
     /* nodes of the table: density [1], depth [spacings], derivative of the depth by the density [spacings] */
     real density[PROFILE_NODES], depth[PROFILE_NODES], slope[PROFILE_NODES];
 };
 
-/* Law of contact between particles: between which particles and in which form contact acts, stiffness and friction, and
- * the geometry that it depends on. `stiffness` is owned. */
+/* Law of contact between particles: which particles can be in contact, form of the law, stiffness, friction, and the
+ * geometry that these depend on. `stiffness` is owned. */
 struct contact_law {
     enum contact_between between;   /* allowed between: no particles, different bodies, all particles */
     enum contact_form form;         /* surface or pair */
@@ -52,8 +53,8 @@ struct contact_law {
     const struct region *const *shape; /* [bodies] kept by reference, NULL for a body made from a list */
 };
 
-/* Friction of a particle in contact, modelled by a spring along the face: sliding of the particle stretches the spring
- * until its force reaches the coefficient of friction times the normal force. */
+/* Friction of a particle in contact, modelled by a spring along the face: the particle stretches the spring until the
+ * force of the spring reaches the coefficient of friction times the normal force, and slides from then on. */
 struct contact_spring {
     real length[DIM_MAX]; /* elongation [m] */
     real drag[DIM_MAX];   /* force on the particle [N] */
@@ -69,8 +70,8 @@ struct contact_reaction {
     real turn[DIM_MAX]; /* moment of the drag about that position, divided by the moment of inertia [N/m] */
 };
 
-/* Contact of a particle with the faces of other bodies or fragments beside it. Its energy is 1/4 k gap^2 with the
- * stiffness k if gap < 0, else 0 (contact_face.c). */
+/* Contact of a particle with the faces of other bodies or fragments beside it. The energy of this contact is 1/4 k
+ * gap^2 if gap < 0, else 0, with the stiffness k and the gap in spacings (contact_face.c). */
 struct contact_face {
     real zero;      /* height above the face at which contact begins [spacings] */
     real stiffness; /* stiffness k [J] */
@@ -88,9 +89,10 @@ struct contact_balance {
     real account;    /* energy added minus energy removed [J] */
 };
 
-/* Particles near one rigid body. row: [n] their rows in the contact list, ascending; zero: [n] gap at which contact
- * begins, 0 or less [m]; x, turn: position [m] and rotation matrix of the body at the last search; spring, balance: [n]
- * friction and energy correction; touch: [n] 1 if the contact is selected to act in an equilibrium. */
+/* The n particles near one rigid body. row: [n] entries of these particles in the contact list (struct contact),
+ * ascending; zero: [n] gap at which contact begins, 0 or less [m]; x, turn: position [m] and rotation matrix of the
+ * body at the last search; spring, balance: [n] friction and energy correction; touch: [n] 1 if the contact is selected
+ * to act in an equilibrium. */
 struct contact_near {
     int64_t n;
     int32_t *row;
@@ -110,8 +112,8 @@ struct contact_term {
     real stiffness;         /* [N/m], form `surface`: [J] */
 };
 
-/* All contact of a run. Pairs that may come into contact before the next search are listed row by row; each pair is in
- * the rows of both its particles, so that one thread owns a row. */
+/* All contact of a run. Pairs of particles that may come into contact before the next search are listed in rows, one
+ * for each particle. A pair is in the rows of both its particles, so that each row is computed by one thread. */
 struct contact {
     struct contact_law law;
     bool made;         /* a search has been done */
@@ -163,32 +165,35 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
                   const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
                   int rigid_body_count);
 
-/* Frees the arrays of c; rigid bodies and shapes stay with the caller. */
+/* Frees the arrays of the contact c. The rigid bodies and shapes that were passed to contact_make stay with the
+ * caller. */
 void contact_free(struct contact *c);
 
-/* Returns the critical time step of particles that contact forces push on one side and bonds hold on the other [s].
- * materials: array of the materials; bonds_time_step: critical time step of the bonds alone [s]. */
+/* Returns the critical time step [s] of particles of p that are pushed by contact forces on one side and held by bonds
+ * on the other. materials: array of the materials; bonds_time_step: critical time step of the bonds alone [s]. */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,
                                 real bonds_time_step);
 
-/* Updates the list of pairs of particles that may come into contact, before step number `step_number`. A new search is
- * done in three cases: particles have moved farther than contact_pair_list_safe_displacement since the last search;
- * bonds have been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested (c->due).
- * Particles on which contact forces may act are marked as loaded in `loads`, and their bonds in b as active, i.e. to be
- * computed. family: horizon and lattice; broken_bond_count: number of bonds broken so far, each counted once for each
- * of its particles; conversion_count: number of conversions and reversions so far. */
+/* Updates the list of pairs of particles of p that may come into contact, before time step number `step_number`. A new
+ * search is done in three cases: particles have moved farther than contact_pair_list_safe_displacement since the last
+ * search; bonds have been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested
+ * (c->due). Particles on which contact forces may act are marked as loaded in `loads`, and their bonds in b as active,
+ * i.e. to be computed. family: horizon and lattice; broken_bond_count: number of bonds broken so far, each counted once
+ * for each of its particles; conversion_count: number of conversions and reversions so far. */
 void contact_update_pair_list_if_outdated(struct contact *c, const struct particles *p, struct bonds *b,
                                           struct loads *loads, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count);
 
-/* Requests a search for contact pairs before the next step if one of the particles in particle_list[particle_count]
- * (indices), which have become peridynamic, is at the surface of a body, i.e. some of the bonds of a complete family
- * are missing. family: horizon and lattice. Does nothing if contact is not possible in this run. */
+/* Requests a search for contact pairs before the next time step if one of the particles in
+ * particle_list[particle_count] (indices), which have become peridynamic, is at the surface of a body, i.e. has fewer
+ * bonds in b than a particle inside a body. family: horizon and lattice. Does nothing if contact is not possible in
+ * this run. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *particle_list, int64_t particle_count);
 
-/* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds in b as active, i.e. to be
- * computed. Needed after a restart; in all other cases contact_update_pair_list_if_outdated does it. */
+/* Marks the particles of p on which contact forces may act as loaded in `loads`, and the bonds of these particles in b
+ * as active, i.e. to be computed. Needed after a restart; in all other cases contact_update_pair_list_if_outdated does
+ * it. */
 void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
                                               struct loads *loads);
 
@@ -197,38 +202,38 @@ void contact_activate_particles_after_restart(struct contact *c, const struct pa
  * for which particles have moved with p->v since the last call [s], by which friction springs are stretched. */
 void contact_compute_forces(struct contact *c, struct particles *p, real dt);
 
-/* Allocates c->push, in which contact_compute_forces stores the contact force on each particle while c->recorded is
- * set. Does nothing if contact is not possible in this run, or if the array exists. */
+/* Allocates c->push, in which contact_compute_forces stores the contact force on each particle of p while c->recorded
+ * is true. Does nothing if contact is not possible in this run, or if the array exists. */
 void contact_allocate_force_record(struct contact *c, const struct particles *p);
 
 /* Records the times of first and last contact of the run: if particles were in contact at the last call of
  * contact_compute_forces, c->ended becomes t [s], and c->began, too, if it is still NAN. */
 void contact_record_first_and_last_contact_time(struct contact *c, real t);
 
-/* Returns the elastic energy of all contacts at the present positions [J], including contacts with rigid bodies and
- * friction springs. A pair with a mirror image of a particle counts half. */
+/* Returns the elastic energy [J] of all contacts c at the present positions of the particles p, including contacts with
+ * rigid bodies and friction springs. A pair with a mirror image of a particle counts half. */
 real contact_elastic_energy(const struct contact *c, const struct particles *p);
 
-/* Returns the diagonal of the bounding box of all particles that touch rigid body number `rigid_body` at present [m],
- * or 0 if no particle does. */
+/* Returns the diagonal [m] of the bounding box of all particles of p that touch rigid body number `rigid_body` (from 0)
+ * at present; 0 if none does. */
 real contact_patch_bounding_box_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
 
-/* Returns the energy dissipated by friction since the start of the run [J]. */
+/* Returns the energy [J] that friction in the contact c has dissipated since the start of the run. */
 real contact_friction_dissipated_energy(const struct contact *c);
 
-/* Searches for the pairs that may come into contact, and selects the contacts that act in an equilibrium solution:
- * those that overlap, and those between different bodies whose gap is less than `max_gap` [spacings]. Selected
- * contacts act as linear springs, also with a positive gap, until the next selection, so that forces are smooth. An
- * equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces that correct the
- * energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and lattice. Returns the
- * number of contacts whose selection changed. */
+/* Searches for the pairs of particles of p that may come into contact, and selects the contacts that act in an
+ * equilibrium solution: those that overlap, and those between different bodies whose gap is less than `max_gap`
+ * [spacings]. Selected contacts act as linear springs, also with a positive gap, until the next selection, so that
+ * forces are smooth. An equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces
+ * that correct the energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and
+ * lattice. Returns the number of contacts whose selection changed. */
 int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
                                                 struct loads *loads, const struct family *family, real max_gap);
 
 /* Selects the contacts that act in an equilibrium solution, from the existing list of pairs: contacts that overlap, and
- * contacts between different bodies whose gap is less than `max_gap` [spacings]. They act as linear springs until the
- * next selection. A contact whose gap is 0 within round-off stays as it was. Returns the number of contacts whose
- * selection changed. */
+ * contacts between different bodies whose gap is less than `max_gap` [spacings]. Selected contacts act as linear
+ * springs, also with a positive gap, until the next selection. A contact whose gap is 0 within round-off stays as it
+ * was. Returns the number of contacts whose selection changed. */
 int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap);
 
 /* Chooses which contacts act when forces are computed next. selected_only: true for the contacts that
@@ -236,8 +241,8 @@ int64_t contact_select_active_and_count_changes(struct contact *c, const struct 
  * of the gap; false for all contacts that overlap. */
 void contact_restrict_forces_to_selection(struct contact *c, bool selected_only);
 
-/* Ends the selection of contacts for an equilibrium: the contacts that overlap act again, and a search for pairs is
- * requested. */
+/* Ends the selection of contacts for an equilibrium: from now on all contacts that overlap act again. Requests a search
+ * for pairs before the next time step. */
 void contact_discard_equilibrium_selection(struct contact *c);
 
 /* Returns true if particles or rigid bodies have moved so far since the last search that pairs missing in the list
@@ -245,22 +250,23 @@ void contact_discard_equilibrium_selection(struct contact *c);
  * search. */
 bool contact_search_is_needed(struct contact *c, const struct particles *p);
 
-/* Returns the largest distance that each particle may move after a search for pairs [m]. As long as no particle has
- * moved farther, no pair that is missing in the list can come into contact. */
+/* Returns the largest distance [m] that each particle may move before a new search for contact pairs is due. As long as
+ * no particle has moved farther, no pair that is missing in the list can come into contact. */
 real contact_pair_list_safe_displacement(const struct contact *c);
 
-/* Calls visit(context, term) for each contact selected by contact_select_active_and_count_changes. term: the contact as
- * a linear spring, valid during the call only. Does nothing if no selection has been made. */
+/* Calls visit(context, term) for each contact selected by contact_select_active_and_count_changes, for the assembly of
+ * a stiffness matrix or similar. term: the contact between particles of p as a linear spring, valid during the call
+ * only. Does nothing if no selection has been made. */
 void contact_visit_selected_as_springs(const struct contact *c, const struct particles *p,
                                        void (*visit)(void *context, const struct contact_term *term), void *context);
 
-/* Returns the root of the sum of squares of the contact forces of rigid bodies on particles [N]. Serves as a scale for
- * the residual of an equilibrium. */
+/* Returns the root of the sum of squares [N] of the contact forces that rigid bodies exert on particles of p. Serves as
+ * a scale for the residual of an equilibrium. */
 real contact_rigid_force_norm(const struct contact *c, const struct particles *p);
 
-/* Saves the list of pairs with contact distances, friction springs and energies to the archive if a->saving, else
- * restores them. Returns FAILED, with a message, if the archive cannot be read or written, or if a restored list has
- * indices or counts that do not fit the particles. */
+/* Saves the list of pairs of c with contact distances, friction springs and energies to the archive `a` if a->saving,
+ * else restores it. p: the particles. Returns FAILED, with a message, if the archive cannot be read or written, or if a
+ * restored list has indices or counts that do not fit the particles. */
 status contact_save_or_load(struct contact *c, const struct particles *p, struct archive *a);
 
 #endif

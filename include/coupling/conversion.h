@@ -13,7 +13,8 @@
 #include "loads/loads.h"
 #include "scene/requests.h"
 
-/* Results of conversion and reversion so far. */
+/* Counts and times of conversion (material point to peridynamic particle) and reversion (the opposite) since the
+ * start. */
 struct conversion {
     real first_time;                  /* time of the first conversion [s], NAN: none so far */
     real first_place[DIM_MAX];        /* reference position of the particle that triggered the first conversion [m] */
@@ -25,9 +26,9 @@ struct conversion {
     real reversion_energy;        /* change of the total energy by reversions [J] */
 };
 
-/* Functions that convert_flagged_points calls, with `context` as first argument. sync: brings the motion of n listed
- * particles up to date before bonds to them are made, where nodes of a mesh have their motion; each particle is listed
- * once. converted: reports that n listed particles have become peridynamic and have bonds; NULL: no report. */
+/* Functions that convert_flagged_points calls, with `context` as first argument. sync: brings position and velocity of
+ * the particles list[n] (indices, each once) up to date from the nodes of a mesh, before bonds of these particles are
+ * made. converted: is told that the particles list[n] have become peridynamic and have bonds; NULL: not called. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;
@@ -44,15 +45,15 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t);
 
-/* Makes every particle peridynamic, before step 0, that has a bond cut by a pre-crack (Zeng et al. 2022, eq. 28), and
- * the particles in `region` (NULL: none). */
+/* Makes those particles of p peridynamic, before step 0, that have a bond cut by a pre-crack (Zeng et al. 2022, eq. 28)
+ * or are in `region` (NULL: no region). source: inputs of the bonds, with the pre-cracks. */
 void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_source *source,
                                          const struct region *region);
 
-/* Computes the region that is peridynamic from step 0 on: the region that the scene gives, and a ball round each end of
- * a pre-crack inside the body (in 3D a cylinder round each edge). region: receives it; the caller frees region->solid,
- * and a region without solids is empty. scene_region: region of the scene, NULL: none; tip_radius: radius of the balls
- * and cylinders [m]. */
+/* Computes the region whose particles are peridynamic from step 0 on into *region: the region that the scene gives, and
+ * a ball round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller frees
+ * region->solid; a region without solids is empty. source: inputs of the bonds, with the pre-cracks. scene_region:
+ * region of the scene, NULL: none; tip_radius: radius of the balls and cylinders [m]. */
 void initial_pd_region_make(struct region *region, const struct region *scene_region, const struct particles *p,
                             const struct bond_source *source, real tip_radius);
 
@@ -61,7 +62,8 @@ void initial_pd_region_make(struct region *region, const struct region *scene_re
  * by which the stress of the point must be multiplied to obtain it: M = T C^-1 with the elastic stiffness C of the
  * material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds, with stiffness K, length
  * xi, direction e and share l of the length inside the cell; V: volume of the point. changed[n]: indices of the
- * particles converted since the last call; only points near them are recomputed. NULL: all points are. */
+ * particles converted since the last call; only points near them are recomputed. If `changed` is NULL, all points
+ * are. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 
@@ -72,7 +74,8 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                               const struct material *material);
 
-/* Releases all arrays of `partial`. */
+/* Releases all arrays of `partial`, the partial stresses of material points (the part of the stress that bonds
+ * carry). */
 void partial_stress_free(struct partial_stress *partial);
 
 /* Saves the counts, times and energy of c to the archive `a` if a->saving, else restores them from it. Returns FAILED

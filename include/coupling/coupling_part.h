@@ -24,14 +24,15 @@ struct coupling_state {
     struct region start_region; /* peridynamic from the start; no solids: empty */
 };
 
-/* Determines how peridynamic particles and material points of run e are coupled: by partial stress, hand-shake or
- * another method of the scene; by hand-shake unless the method is adaptive. Then computes, for the present bonds, the
+/* Sets how peridynamic particles and material points of run e are coupled: by the method that the scene names (partial
+ * stress, hand-shake, ...) if particles can convert, else by hand-shake. Then computes, for the present bonds, the
  * partial stresses of material points and the interface zone, in which motion is damped. */
 void coupling_choose_and_compute_partial_stress(struct run *e);
 
-/* Makes the mesh of the bodies in the reference frame, with the present partial stresses and the slits of pre-cracks.
- * caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards, false to fit them to
- * those of the particles. Returns REFUSED or FAILED, with a message, if no mesh is possible (mesh_make). */
+/* Makes the mesh of run e for the bodies in the reference frame, with the present partial stresses (parts of the stress
+ * that bonds carry) and with pre-cracks as slits (free surfaces of the mesh). caller_sets_motion: true if the caller
+ * sets displacement and velocity of the nodes afterwards, false to fit them to those of the particles. Returns REFUSED
+ * or FAILED, with a message, if no mesh is possible (mesh_make). */
 status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion);
 
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
@@ -48,27 +49,29 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
 void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
                                  struct particles *p, const struct material *material);
 
-/* Decides whether each pre-crack becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its length, and
- * makes peridynamic the particles that are so from the start: those near the ends of slits, those with bonds cut by a
- * pre-crack, those beside narrow voids, and those in the region that the scene gives. Returns REFUSED, with a message,
- * if the scene requires slits where they are impossible. */
+/* Decides whether each pre-crack of run e becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
+ * length, and makes peridynamic the particles that are so from the start: those near the ends of slits, those with
+ * bonds cut by a pre-crack, those beside narrow voids, and those in the region that the scene gives. Returns REFUSED,
+ * with a message, if the scene requires slits where they are impossible. */
 status precracks_apply_as_slits_or_cut_bonds(struct run *e);
 
-/* Writes how pre-crack number `crack_number` is represented, in words, to `text` (`capacity` bytes): as a slit of the
- * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. spacing: of the particles
- * [m]. */
+/* Writes in words how pre-crack number `crack_number` (from 0) is represented to text[capacity]: as a slit of the mesh,
+ * with the size of the zones of bonds at its ends, or by cut bonds, with the reason. A longer text is truncated. n:
+ * decisions on all pre-cracks; spacing: of the particles [m]. */
 void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_number, real spacing, char *text,
                                          size_t capacity);
 
 /* Marks (FLAG_NEAR) material points beside slits (pre-cracks as free surfaces of the mesh) and narrow voids whose faces
- * approach each other, so that they convert before the faces touch. spacing: of the particles [m]; time_ahead: time
- * until the next call [s]. Returns true if there are such faces, whether or not points were marked. */
+ * approach each other, so that they convert before the faces touch. n: the slits, with points beside slits and voids;
+ * frame: the mesh, whose motion particles receive first; spacing: of the particles [m]; time_ahead: time until the next
+ * call [s]. Returns true if n has such slits or voids, whether or not points were marked. */
 bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
                                   const struct loads *loads, real spacing, real time_ahead);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
- * sides. v: voids; NULL: nothing is done. include_meshed: true to include particles of the mesh of the reference frame,
- * needed if this mesh has no free surfaces at voids (mesh_cannot_double_nodes_at_voids). */
+ * sides. p: the particles; v: voids (narrow gaps of a body); NULL: nothing is done. include_meshed: true to include
+ * particles of the mesh of the reference frame, needed if this mesh has no free surfaces at voids
+ * (mesh_cannot_double_nodes_at_voids). */
 void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
 
 /* Returns true if a mesh with the nodes of grid g has no free surfaces at voids (narrow gaps of a body): in 1D, and if
@@ -81,21 +84,21 @@ bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene 
  * body can be in the reference frame, which is then named as a remedy. */
 void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possible, struct warnings *warning_list);
 
-/* Adds warnings to `warning_list` for bodies that will pass through each other or stick together, and for voids that
- * are too narrow to stay open (warn_of_voids_treated_as_closed). */
+/* Adds warnings to `warning_list` for bodies of run e that will pass through each other or stick together, and for
+ * voids that are too narrow to stay open (warn_of_voids_treated_as_closed). */
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list);
 
-/* Prepares the conversion of material points in a step: marks points (FLAG_NEAR) that are near other bodies, or beside
- * crack faces that approach each other, in each load step or once in APPROACH_STEPS time steps. Also updates the list
- * of active row blocks (the bonds of eight particles each), whose particles may move. Returns true if the faces of
- * cracks and voids were examined in this step, so that points beside them may be marked. */
+/* Prepares the conversion of material points of run e in a step: marks points (FLAG_NEAR) that are near other bodies,
+ * or beside crack faces that approach each other, in each load step or once in APPROACH_STEPS time steps. Also updates
+ * the list of active row blocks (the bonds of eight particles each), whose particles may move. Returns true if the
+ * faces of cracks and voids were examined in this step, so that points beside them may be marked. */
 bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
-/* Converts the marked material points to peridynamic particles, and updates all that depends on it: bonds, contact,
- * partial stresses, interface zone and mesh. broken_bond_count: number of bonds broken in this step, each counted once
- * for each of its particles; faces_examined: value that conversion_flag_points_near_bodies_or_faces returned in this
- * step; bonds_fade: true if bonds of growing cracks lose strength gradually. Returns the number of particles
- * converted. */
+/* Converts the marked material points of run e to peridynamic particles, and updates all that depends on it: bonds,
+ * contact, partial stresses, interface zone and mesh. broken_bond_count: number of bonds broken in this step, each
+ * counted once for each of its particles; faces_examined: value that conversion_flag_points_near_bodies_or_faces
+ * returned in this step; bonds_fade: true if bonds of growing cracks lose strength gradually. Returns the number of
+ * particles converted. */
 int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
                                                  bool bonds_fade);
 
@@ -104,9 +107,10 @@ int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_b
  * changed. Energy lost by removing points from the mesh is added to e->damped. */
 void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count);
 
-/* Checks that the other settings of a scene allow reversion (`conversion.reversion: true`). Returns REFUSED, with a
- * message, if it has no conversion by stress, another coupling than partial stress or hand-shake, growing cracks, a
- * solver of a single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
+/* Checks that the other settings of scene s allow reversion (`conversion.reversion: true`), in which peridynamic
+ * particles become material points again. Returns REFUSED, with a message, if the scene has no conversion by stress,
+ * another coupling than partial stress or hand-shake, growing cracks, a solver of a single equilibrium, or a material
+ * that yields. Returns OK if the scene has no reversion. */
 status reversion_check_scene_allows_reversion(const struct scene *s);
 
 /* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no

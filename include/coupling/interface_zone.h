@@ -39,7 +39,8 @@ struct interface_zone {
 void interface_zone_find_points_and_neighbours(struct interface_zone *r, const struct particles *p,
                                                const struct bond_source *source);
 
-/* Releases all arrays of r, the interface zone of material points beside peridynamic particles. */
+/* Releases all arrays of r, the interface zone (material points beside peridynamic particles, whose motion is
+ * damped). */
 void interface_zone_free(struct interface_zone *r);
 
 /* Damps the motion in the interface zone r before the forces of a step are computed: changes the momentum of the points

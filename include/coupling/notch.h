@@ -9,15 +9,15 @@
  * [spacings]. */
 #define NOTCH_GAP 1e-4
 
-/* How a pre-crack is represented. slit: true as a slit, a free surface of the mesh; false by cut bonds along all its
- * length; reason: why it is no slit, in words, NULL if it is one. */
+/* How a pre-crack is represented. slit: true: as a slit, i.e. a free surface of the mesh, false: by cut bonds along all
+ * its length; reason: why it is no slit, in words, NULL if it is a slit. */
 struct notch {
     bool slit;
     const char *reason;
 };
 
-/* All pre-cracks of a run, those that are slits and those that cut bonds, and the particles beside slits and narrow
- * voids. */
+/* All pre-cracks of a run: which of them are slits (free surfaces of the mesh) and which cut bonds; and the particles
+ * beside slits and narrow voids (gaps of a body). */
 struct notches {
     int n;
     struct notch *notch; /* [n] for each pre-crack */
@@ -42,18 +42,19 @@ struct notches {
 void notches_choose_slits_or_cut_bonds(struct notches *n, const struct particles *p, const struct bond_source *source,
                                        real tip_radius, const char *reason_against_slits);
 
-/* Makes peridynamic, before step 0, the particles within n->radius of an end of a slit (a pre-crack as free surface of
- * the mesh) if the slit separates them from some of their neighbours. source: inputs of the bonds. */
+/* Makes peridynamic, before step 0, the particles of p within n->radius of an end of a slit (a pre-crack as free
+ * surface of the mesh) if the slit separates them from some of their neighbours. source: inputs of the bonds. */
 void notches_make_slit_ends_peridynamic(const struct notches *n, struct particles *p, const struct bond_source *source);
 
-/* Releases all arrays of n; cracks and voids stay with their owners. */
+/* Releases all arrays of n, the pre-cracks of a run. The corners of the cracks and the voids stay with their owners. */
 void notches_free(struct notches *n);
 
-/* Sets FLAG_NEAR, by which material points convert, of points beside slits and narrow voids whose opposite faces are
- * about to touch. Tests the distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from
- * present positions and velocities, which must be up to date. At a slit, points are marked if this distance is less
- * than spacing (1 - NOTCH_GAP); at a notch of width `width`, if it is less than spacing (1 + NOTCH_GAP) - width; at a
- * void, if the faces are close to contact. spacing: of the particles [m]. */
+/* Sets FLAG_NEAR, by which material points convert, of points of p beside slits (pre-cracks as free surfaces of the
+ * mesh) and narrow voids whose opposite faces are about to touch. n: lists these points. Tests the distance of
+ * particles on opposite faces after the time `time_ahead` [s], extrapolated from present positions and velocities,
+ * which must be up to date. At a slit, points are marked if this distance is less than spacing (1 - NOTCH_GAP); at a
+ * notch of width `width`, if it is less than spacing (1 + NOTCH_GAP) - width; at a void, if the faces are close to
+ * contact. spacing: of the particles [m]. */
 void notches_flag_points_at_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
 
 #endif

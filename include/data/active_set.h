@@ -14,8 +14,8 @@
 
 #include "base/archive.h"
 
-/* Activity levels of blocks (eight particles or eight nodes), and the list of those that computations visit; the other
- * blocks are still at rest. All arrays are owned. */
+/* Activity levels of blocks (eight particles or eight nodes), and the list of the blocks that computations visit. All
+ * other blocks are still at rest. All arrays are owned. */
 struct active_set {
     bool is_current;               /* `level` is up to date; until then all blocks are active */
     int64_t blocks, active, empty; /* number of blocks; active ones; ones without particles */
@@ -36,13 +36,13 @@ void active_set_free(struct active_set *r);
  * with an activity level above 0, and sets r->active to their number. Call it after r->level has changed. */
 void active_set_rebuild_active_block_list(struct active_set *r);
 
-/* Saves the activity levels of the blocks (groups of eight particles or nodes) to the archive under `name` if
- * a->saving, else restores them. After restoring, computations include all blocks in the next step, because the forces
- * of inactive blocks are not stored. Returns FAILED if the archive cannot be read or written. */
+/* Saves the activity levels of the blocks (groups of eight particles or nodes) of r to the archive `a` under the name
+ * `name` if a->saving, else restores them. After restoring, computations include all blocks in the next step, because
+ * the forces of inactive blocks are not stored. Returns FAILED if the archive cannot be read or written. */
 status active_set_save_or_load(struct active_set *r, const char *name, struct archive *a);
 
-/* Returns the fraction of the blocks with particles that are inactive [1], i.e. still at rest and skipped by
- * computations. A block is a group of eight particles or nodes. */
+/* Returns the fraction (0 to 1) of the blocks of r that are still at rest and skipped by computations. A block is a
+ * group of eight particles or nodes; blocks without particles are not counted. */
 static inline real active_set_inactive_fraction(const struct active_set *r)
 {
     const int64_t blocks = r->blocks - r->empty;

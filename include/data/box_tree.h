@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* A box between the corners `low` and `high`; coordinates may be infinite [m]. */
+/* A box with edges parallel to the axes between the corners `low` and `high` [m]; coordinates may be infinite. */
 struct bounds {
     real low[DIM_MAX], high[DIM_MAX];
 };
@@ -23,12 +23,12 @@ struct box_tree {
  * box_search_find_next_box_within then find the boxes near a point. Release with box_tree_free. */
 void box_tree_make(struct box_tree *t, const struct bounds *boxes, int box_count, int dim);
 
-/* Releases the nodes of the tree. */
+/* Releases the nodes of the tree t of boxes. */
 void box_tree_free(struct box_tree *t);
 
-/* State of a search for boxes near the point X (borrowed). wait[0 .. waiting - 1]: numbers of the nodes of the tree
- * still to be visited, each with the least distance that a box below this node can have from X [m]. BOXES_WAITING:
- * capacity of `wait`. */
+/* State of a search in `tree` for boxes near the point X (both kept by reference). wait[0 .. waiting - 1]: nodes of the
+ * tree still to be visited: number of the node, and least distance from X that a box below this node can have [m].
+ * BOXES_WAITING: length of `wait`. */
 enum { BOXES_WAITING = 48 };
 struct box_search {
     const struct box_tree *tree;

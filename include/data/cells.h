@@ -20,7 +20,7 @@ struct cells {
  * a radius of up to `cell_edge` [m] can be found. Release with cells_free. */
 void cells_make_for_neighbour_search(struct cells *c, const struct particles *p, real cell_edge);
 
-/* Releases all arrays of c. */
+/* Releases all arrays of the search cells c. */
 void cells_free(struct cells *c);
 
 /* Lists the particles and mirror images of p within `radius` [m] (at most c->edge) of the point X (dim components [m])
@@ -29,9 +29,9 @@ void cells_free(struct cells *c);
 int cells_list_particles_near_point(const struct cells *c, const struct particles *p, const real *X, real radius,
                                     int32_t excluded_particle, int32_t *found, int capacity);
 
-/* Returns an upper bound of the number of particles and mirror images within `radius` [m] of any particle, itself
- * included: the largest number of particles in the search cells around any cell. It is fast, because no distances are
- * computed. */
+/* Returns an upper bound of the number of particles and mirror images within `radius` [m] (at most c->edge) of any
+ * particle, including the particle itself. The bound is the largest number of particles in a cell and the cells around
+ * it; no distances are computed. */
 int cells_neighbour_count_bound(const struct cells *c, real radius);
 
 /* List of particle indices at[0 .. n - 1] that grows as needed; room: allocated length of `at`. Initialise it with {0}
@@ -41,17 +41,17 @@ struct neighbour_list {
     int n, room;
 };
 
-/* Lists the particles and mirror images within `radius` [m] of the particle with index `particle` in near->at, in
- * ascending order, and their number in near->n. c: search cells, whose edge must be at least the radius;
- * include_itself: true to include this particle itself. */
+/* Lists the particles and mirror images of p within `radius` [m] of the particle with index `particle` in near->at, in
+ * ascending order, and stores their number in near->n. near->at is enlarged if necessary. c: search cells, whose edge
+ * must be at least the radius; include_itself: true to include this particle itself. */
 void particles_list_neighbours_within_radius(struct neighbour_list *near, const struct cells *c,
                                              const struct particles *p, int64_t particle, real radius,
                                              bool include_itself);
 
-/* Lists the particles and mirror images within `radius` [m] of the particle with index `particle` in near->at, and
- * their number in near->n, in the order of the search cells: slightly faster than the ascending order of
- * particles_list_neighbours_within_radius if there are images. c: search cells, whose edge must be at least the radius;
- * include_itself: true to include this particle itself. */
+/* Lists the particles and mirror images of p within `radius` [m] of the particle with index `particle` in near->at, and
+ * stores their number in near->n. near->at is enlarged if necessary. The order is that of the search cells: slightly
+ * faster than the ascending order of particles_list_neighbours_within_radius if there are images. c: search cells,
+ * whose edge must be at least the radius; include_itself: true to include this particle itself. */
 void particles_list_neighbours_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
                                          int64_t particle, real radius, bool include_itself);
 

@@ -43,7 +43,8 @@ enum expression_op {
 
 enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 }; /* largest stack and largest number of steps */
 
-/* One step of an expression: an operation on the topmost values of a stack. */
+/* One step of a compiled expression: it pushes a value on a stack, or replaces the topmost one or two values by a
+ * result. */
 struct expression_step {
     enum expression_op op;
     real value; /* value of a NUMBER [SI] */
@@ -59,22 +60,24 @@ struct expression {
     bool in_space, in_time; /* contains x, y or z; contains t */
 };
 
-/* Creates the expression e from copies of its steps, steps[step_count], in the order of evaluation on a stack, and of
- * the text from which it was compiled. Release with expression_free. */
+/* Creates the expression e from a copy of steps[step_count], its steps in the order of evaluation on a stack, and a
+ * copy of `text`, the source from which it was compiled. Release with expression_free. */
 void expression_make(struct expression *e, const struct expression_step *steps, int step_count, const char *text);
 
-/* Creates an expression that is the constant `value` [SI], with a copy of its text. Release with expression_free. */
+/* Creates in *e an expression that is the constant `value` (SI units), with a copy of its text `text`. Release with
+ * expression_free. */
 void expression_make_constant(struct expression *e, real value, const char *text);
 
 /* Releases the steps and the text of e. */
 void expression_free(struct expression *e);
 
-/* Returns the value of the expression [SI] at the position X (dim components [m]) and the time t [s]. X may be NULL if
- * the expression does not contain x, y or z. The value may be infinite or NaN, for example after a division by 0. */
+/* Returns the value (SI units) of the expression e at the position X (dim components [m]) and the time t [s]. X may be
+ * NULL if the expression does not contain x, y or z. The value may be infinite or NaN, for example after a division by
+ * 0. */
 real expression_evaluate(const struct expression *e, const real *X, int dim, real t);
 
-/* Returns the result of the operation op on the operands a and b [SI]; b is ignored by functions of one argument. op
- * must not be an operation that pushes a value on the stack (a number, a coordinate, the time). */
+/* Returns the result of the operation op on the operands a and b (SI units); b is ignored by functions of one argument.
+ * op must not be an operation that pushes a value on the stack (a number, a coordinate, the time). */
 real expression_op_apply(enum expression_op op, real a, real b);
 
 /* Returns true if the operation has no operands: it pushes a number, a coordinate or the time on the stack. */

@@ -9,12 +9,13 @@ struct extent_text {
     char text[240];
 };
 
-/* Returns "the particles are between (..) and (..) m": the corners of the box around the reference positions of all
- * particles. */
+/* Returns the text "the particles are between (..) and (..) m" with two corners: those of the smallest box round the
+ * reference positions of all particles of p. */
 struct extent_text particles_extent_text(const struct particles *p);
 
-/* Returns "; the body is .. m from the origin, .. times its size, and ..: move it to the origin" if the particles are
- * so far from the origin that round-off of their positions limits solvers, else "". */
+/* Returns the text "; the body is .. m from the origin, .. times its size, and ..: move it to the origin" if the
+ * particles of p are so far from the origin that round-off of their positions limits the accuracy of solvers, else
+ * "". */
 struct extent_text particles_far_from_origin_text(const struct particles *p);
 
 #endif

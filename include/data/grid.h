@@ -5,8 +5,8 @@
 
 #include "base/base.h"
 
-/* Dashpots on a node of an absorbing face. rate: force divided by velocity, for each component [kg/s]; 0 if there is no
- * dashpot or if the component is prescribed. */
+/* Dashpots on one grid node of an absorbing face, one for each velocity component. node: index of the grid node; rate:
+ * force divided by velocity, for each component [kg/s]; 0 if there is no dashpot or if the component is prescribed. */
 struct dashpot {
     int32_t node;
     real rate[DIM_MAX];
@@ -57,15 +57,15 @@ struct grid {
     struct absorbed absorbed; /* their effect in this step */
 };
 
-/* A node of very small mass (GRID_MASS_LIGHT), whose acceleration is extrapolated from two heavier nodes. leader: the
- * adjacent heavier node; behind: the next node in the same direction, equal to `leader` if there is none. All three are
- * node indices. */
+/* A grid node of very small mass (below GRID_MASS_LIGHT), whose acceleration is extrapolated from two heavier nodes.
+ * leader: the adjacent heavier node; behind: the next node in the same direction, equal to `leader` if there is none.
+ * All three are node indices. */
 struct follower {
     int32_t node, leader, behind;
 };
 
-/* A node beyond a plane of symmetry. It moves as the mirror image of a node on the body's side. What material points
- * contribute to it is added to that node. */
+/* A grid node beyond a plane of symmetry. It moves as the mirror image of a node on the body's side of the plane, to
+ * which the mass and impulse that material points give to the node beyond the plane are added. */
 struct mirror_node {
     int32_t node, image;            /* node beyond the plane; node on the body's side */
     int8_t sign[DIM_MAX];           /* sign of each component of the image: -1 or 1 */
@@ -92,60 +92,62 @@ struct wall {
  * far away, or if the box would have more than `max_nodes` nodes. */
 status grid_extend_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes, bool *changed);
 
-/* Releases all arrays of g. */
+/* Releases all arrays of the grid g. */
 void grid_free(struct grid *g);
 
-/* Appends a copy of `prescribed_velocity`, a prescribed velocity component of a node, to the list of this step. */
+/* Appends a copy of `prescribed_velocity`, a prescribed velocity component of a node, to the list g->wall of this
+ * step. */
 void grid_add_prescribed_velocity(struct grid *g, const struct wall *prescribed_velocity);
 
 /* Appends a copy of `mirror_node`, a node beyond a plane of symmetry that moves as the image of another one, to the
  * list of g. */
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
 
-/* Appends a copy of `dashpot`, the dashpots of one node on an absorbing face, to the list of this step. */
+/* Appends a copy of `dashpot`, the dashpots of one node on an absorbing face, to the list g->dashpot of this step. */
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 
-/* Sets the numbers of walls (prescribed nodal velocities) and dashpots of this step, and the reactions of mirror nodes,
- * to 0, for a step without points on the grid. */
+/* Sets the numbers of walls (prescribed nodal velocities) and dashpots of g in this step to 0, and the reactions of
+ * mirror nodes (nodes beyond planes of symmetry), too. For a step without points on the grid. */
 void grid_clear_constraints(struct grid *g);
 
-/* Nodes whose mass, divided by the mass of a full node, is below this value are left at rest. The usual value is 1e-9;
+/* Mass ratio below which grid nodes are left at rest: mass divided by that of a full node [1]. Other programs use 1e-9;
  * but the impulse of the force on such a node is lost, so that momentum is conserved to 1e-12 only if no node with mass
- * is left out. Light nodes do no harm, since after the second map to the nodes their velocity is that of their
- * particle. */
+ * is left out. Light nodes do no harm, since after the second map from points to nodes the velocity of such a node is
+ * that of its material point. */
 #define GRID_MASS_SMALLEST 1e-30
 
-/* Nodes that one of two bodies reaches with less than this share of the mass of a full node are not in contact [1].
- * Round-off leaves such masses where the shape of a point just ends, and normals would depend on it. */
+/* Mass ratio below which two bodies are not in contact at a grid node: the mass that either body has there, divided by
+ * that of a full node [1]. Round-off leaves such masses where the shape function of a material point just ends, and
+ * normals would depend on them. */
 #define GRID_MASS_CONTACT 1e-8
 
-/* The acceleration of nodes whose mass, divided by the mass of a full node, is below this value is extrapolated from
- * heavier neighbours (struct follower). Empirical: with values below 1e-6, motions of a hundredth of a spacing act
+/* Mass ratio below which the acceleration of a grid node is extrapolated from heavier neighbours (struct follower):
+ * mass divided by that of a full node [1]. Empirical: with values below 1e-6, motions of a hundredth of a spacing act
  * across gaps; with values above 1e-3, rotating bodies gain more than 1e-3 of their energy in four turns. */
 #define GRID_MASS_LIGHT 1e-5
 
-/* Value used in place of GRID_MASS_LIGHT, the mass ratio of light nodes, in static solutions. There, the equilibrium of
- * a node that the edge of a point just reaches would set the stress of the point to zero. If such nodes were left at
- * rest, they would support the body: a cantilever of 15 times its depth bent by a quarter. */
+/* Mass ratio of light nodes in static solutions, in place of GRID_MASS_LIGHT: mass of a node divided by that of a full
+ * node [1]. In a static solution, the equilibrium of a node that the edge of a point just reaches would set the stress
+ * of the point to zero. If such nodes were left at rest, they would support the body: a cantilever of 15 times its
+ * depth bent by a quarter. */
 #define GRID_MASS_STATIC 1e-3
 
-/* Returns the coordinate along direction `axis` [m] of node number `node`, counted in this direction from the lowest
- * node of the box of g. */
+/* Returns the coordinate [m] along axis `axis` of the grid node number `node`, counted along this axis from the lowest
+ * node (0) of the box of g. */
 static inline real grid_node_position(const struct grid *g, int axis, int64_t node)
 {
     return g->anchor[axis] + g->h * (real)(g->first[axis] + node);
 }
 
-/* Returns the coordinate of position x [m] in direction `axis` in units of the node distance, counted from node 0 at
- * g->anchor; its floor is the index of the cell that contains x. All callers use this function, so that they round
- * alike. */
+/* Returns the coordinate x [m] along axis `axis` in node distances from node 0 at g->anchor. The floor of the result is
+ * the number of the cell that contains x. All callers use this function, so that they round alike. */
 static inline real grid_coordinate_in_cells(const struct grid *g, int axis, real x)
 {
     return (x - g->anchor[axis]) * (1 / g->h);
 }
 
-/* Returns the index in direction `axis` of the cell that contains position x [m], counted from node 0 at g->anchor: the
- * floor of grid_coordinate_in_cells, without a library call. */
+/* Returns the number, along axis `axis` and counted from node 0 at g->anchor, of the cell of g that contains the
+ * coordinate x [m]: the floor of grid_coordinate_in_cells, without a library call. */
 static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, real x)
 {
     const real place = grid_coordinate_in_cells(g, axis, x);
@@ -153,9 +155,9 @@ static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, 
     return k - (place < (real)k);
 }
 
-/* Returns the coordinate along direction `axis` [m] of one of the 2^dim particles of cell `cell`, which are at a
- * quarter and three quarters of each edge. corner: number of the corner of the cell nearest to the particle; bit `axis`
- * is set on the upper side in direction `axis`. */
+/* Returns the coordinate [m] along axis `axis` of one of the 2^dim particles of cell number `cell` of g, which are at a
+ * quarter and three quarters of each edge. corner: number of the corner of the cell that is nearest to the particle;
+ * bit d of it is set if the corner is on the upper side along axis d. */
 static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t cell, int corner, int axis)
 {
     return grid_node_position(g, axis, cell / g->stride[axis] % g->count[axis]) +

@@ -39,27 +39,29 @@ struct hull {
 
 enum { HULL_CORNERS_MAX = INT32_MAX / 4 };
 
-/* Creates a closed surface from `face_count` faces of `dim` corners; takes ownership of both arrays, which memory_new
- * must have allocated. Pairs of coincident opposite faces, as between two elements of a mesh, and faces without area
- * are removed; a surface with inward normals is reversed. Stores what it finds, such as open edges, in s. Release with
- * hull_free. */
+/* Creates the closed surface s in 3D (dim 3) or 2D (dim 2) from corner_positions[corner_count] [m] and
+ * face_corners[face_count], the numbers of the `dim` corners of each face. s takes ownership of both arrays, which
+ * memory_new must have allocated. Pairs of coincident opposite faces, as between two elements of a mesh, and faces
+ * without area are removed; a surface with inward normals is reversed. Faults of the surface, such as open edges, are
+ * stored in s. Release with hull_free. */
 void hull_make_closed_surface(struct hull *s, int dim, int64_t corner_count, real (*corner_positions)[DIM_MAX],
                               int64_t face_count, int32_t (*face_corners)[DIM_MAX]);
 
-/* Creates an open surface, which has no inside, from `face_count` faces of `dim` corners. The faces are not changed:
- * none is removed or reversed, and a face with equal corners is a line or a point. s takes ownership of the arrays
- * `corner_positions` and `face_corners`, which memory_new must have allocated. Release with hull_free. */
+/* Creates the open surface s, which has no inside, from corner_positions[corner_count] [m] and
+ * face_corners[face_count], the numbers of the `dim` corners of each face. The faces are not changed: none is removed
+ * or reversed, and a face with equal corners is a line or a point. s takes ownership of both arrays, which memory_new
+ * must have allocated. Release with hull_free. */
 void hull_make_open_surface(struct hull *s, int dim, int64_t corner_count, real (*corner_positions)[DIM_MAX],
                             int64_t face_count, int32_t (*face_corners)[DIM_MAX]);
 
-/* Releases all arrays of s. */
+/* Releases all arrays of the surface s. */
 void hull_free(struct hull *s);
 
-/* Returns the winding number of the surface around the point X (s->dim components [m]) [1]: 1 inside and 0 outside a
+/* Returns the winding number of the surface s around the point X (s->dim components [m]): 1 inside and 0 outside a
  * closed surface with outward normals, in between near a hole. */
 real hull_winding_number(const struct hull *s, const real *X);
 
-/* Returns the signed distance of the point X (s->dim components [m]) from the surface [m], negative inside (an open
+/* Returns the signed distance [m] of the point X (s->dim components [m]) from the surface s, negative inside (an open
  * surface has no inside). normal: NULL, or receives the unit vector that points away from the surface, outwards. */
 real hull_signed_distance(const struct hull *s, const real *X, real *normal);
 
@@ -74,8 +76,8 @@ bool hull_point_is_within_distance(const struct hull *s, const real *X, real max
  * faces are that near. */
 bool hull_is_convex_within_distance(const struct hull *s, const real *X, real reach);
 
-/* Returns the maximum [m] of the scalar product X . direction for the corners X of the hull (support function): how far
- * it extends in this direction. direction: unit vector. */
+/* Returns how far the surface s extends in a direction (support function): the maximum [m] of the scalar product X .
+ * direction over its corners X. direction: unit vector, s->dim components. */
 real hull_support_function(const struct hull *s, const real *direction);
 
 /* Findings at about 4000 sample points in the bounding box of a surface. unclear: share of the points at which inside
@@ -96,8 +98,8 @@ struct hull_samples hull_sample_winding_numbers(const struct hull *s);
  * are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */
 void hull_build_face_search_tree(struct hull *s);
 
-/* Computes the area vector of the face, its outward normal times its area [m^2]; in 2D, where a face is a segment, the
- * normal times the length [m]. */
+/* Computes the area vector of face number `face` of s: outward normal times area [m^2]; in 2D, where a face is a
+ * segment, outward normal times length [m]. */
 void hull_compute_face_area_vector(const struct hull *s, int64_t face, real area_vector[DIM_MAX]);
 
 #endif
