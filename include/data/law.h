@@ -25,8 +25,9 @@
 #define FLOW_NAME(upper, ...) FLOW_##upper,
 enum flow { FLOWS(FLOW_NAME) FLOW_LAWS };
 
-/* Properties of a flow law. word: its key below `material.hardening`, NULL if it has a key of its own; own_yield: its
- * constants contain the first yield stress; steep: its slope at plastic strain 0 is infinite or unbounded. */
+/* Properties of a flow law (yield stress as a function of plastic strain). flow_properties is indexed by enum flow.
+ * word: its key below `material.hardening`, NULL if it has a key of its own; own_yield: its constants contain the first
+ * yield stress; steep: its slope at plastic strain 0 is infinite or unbounded. */
 struct flow_properties {
     const char *word;
     bool own_yield, steep;
@@ -34,15 +35,16 @@ struct flow_properties {
 extern const struct flow_properties flow_properties[FLOW_LAWS];
 
 /* How the nonlinear equation for the plastic strain of a step is solved. LAW_EXPLICIT: one evaluation, linearised at
- * the start of the step, for steps with small strain increments; the yield stress of the next step is exact again, so
- * that errors do not add up. LAW_LOAD_STEP: to round-off, for increments of any size. */
+ * the start of the step, for small strain increments. Errors do not add up, because the next step computes the yield
+ * stress exactly. LAW_LOAD_STEP: to round-off, for increments of any size. */
 enum law_mode { LAW_EXPLICIT, LAW_LOAD_STEP };
 
 /* Largest number of points of a hardening curve. */
 enum { FLOW_POINTS = 16 };
 
-/* A concave hardening curve through `points` points: plastic strain [1] and stress [Pa]; constant beyond the last.
- * Segment k is the line start[k] + slope[k] a [Pa] in the plastic strain a; the last segment is constant. */
+/* A concave hardening curve through `points` points of plastic strain, strain[k] [1], and yield stress, stress[k] [Pa];
+ * constant beyond the last point. Segment k is the line start[k] + slope[k] a [Pa] in the plastic strain a; the last
+ * segment is constant. */
 struct flow_curve {
     int points;
     real strain[FLOW_POINTS], stress[FLOW_POINTS];
@@ -79,12 +81,13 @@ struct law {
     real rate_sensitivity, reference_rate;
 };
 
-/* Computes the derived members of a law from constants of its material. yield_stress: used unless the flow law has its
- * own [Pa]; young, shear [Pa] (shear 0 in 1D); poisson [1]; density [kg/m^3]. Does nothing if law->given is false. */
+/* Computes the derived members of `law` from constants of the material. yield_stress: initial yield stress [Pa],
+ * ignored if the constants of the flow law contain it; young, shear: moduli [Pa], shear 0 in 1D; poisson [1]; density
+ * [kg/m^3]. Does nothing if law->given is false. */
 void law_compute_derived_constants(struct law *law, real yield_stress, real young, real poisson, real shear,
                                    real density);
 
-/* Returns true if plastic work heats the material. */
+/* Returns true if plastic work heats the material with this law: the law is given and has a specific heat. */
 static inline bool law_heats_material(const struct law *law) { return law->given && law->specific_heat > 0; }
 
 #endif

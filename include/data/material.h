@@ -12,14 +12,15 @@
 
 enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
 
-/* Returns the dimension of a space. */
+/* Returns the dimension of the space s: 1 for a line, 2 for plane stress and plane strain, 3 for a solid. */
 static inline int space_dim(enum space s) { return s == SPACE_LINE ? 1 : s == SPACE_SOLID ? 3 : 2; }
 
-/* Shape of the curve by which the force of a softening bond decreases after its maximum (softening.h). */
+/* Shape of the curve by which the force of a softening bond decreases with its stretch after the maximum
+ * (softening.h). */
 enum softening { SOFTENING_LINEAR, SOFTENING_BILINEAR, SOFTENING_EXPONENTIAL };
 
-/* Dependence of the tensile strength of softening bonds on the strain rate (softening.h): a factor on the strength at
- * each of `points` rates, linear in the logarithm of the rate between them, constant beyond. */
+/* Dependence of the tensile strength of softening bonds on the strain rate (softening.h): factor[k] on the strength at
+ * rate[k], k = 0 .. points - 1, linear in the logarithm of the rate between these rates, constant beyond. */
 enum { RATE_POINTS = 16 };
 struct strength_rate {
     int points;                                  /* number of rates; 0: the strength does not depend on the rate */
@@ -68,27 +69,28 @@ static inline bool material_has_softening_bonds(const struct material *m) { retu
  * (strength_surface.h), not at a stretch. */
 static inline bool material_has_strength_surface(const struct material *m) { return m->surface.g0 > 0; }
 
-/* Returns true if the material yields: it has a finite yield stress or a flow law. */
+/* Returns true if the material m yields: it has a positive, finite yield stress or a flow law (yield stress as a
+ * function of plastic strain). */
 static inline bool material_yields(const struct material *m)
 {
     return (m->yield_stress > 0 && isfinite(m->yield_stress)) || m->law.given;
 }
 
-/* Returns true if all material points of a cell shall use the mean of their dilatations. This is so if the material
- * yields or is nearly incompressible (Poisson's ratio above 0.4), since linear cells would be too stiff otherwise
+/* Returns true if all material points of a grid cell shall use the mean of their dilatations: if material m yields or
+ * is nearly incompressible (Poisson's ratio above 0.4), since linear cells would be too stiff otherwise
  * (kernels/mpm/dilatation.h). In plane stress and 1D the volume is not constrained. */
 static inline bool material_uses_mean_dilatation(const struct material *m, enum space space)
 {
     return (space == SPACE_PLANE_STRAIN || space == SPACE_SOLID) && (material_yields(m) || m->poisson > 0.4);
 }
 
-/* Returns true if the bulk and shear moduli of two materials are the same to the last bit. */
+/* Returns true if the materials a and b have equal bulk moduli and equal shear moduli, to the last bit. */
 static inline bool materials_have_equal_stiffness(const struct material *a, const struct material *b)
 {
     return reals_are_bitwise_equal(a->bulk, b->bulk) && reals_are_bitwise_equal(a->shear, b->shear);
 }
 
-/* Returns the stress at which the material begins to yield [Pa]. Only for materials that yield (material_yields). */
+/* Returns the stress [Pa] at which material m begins to yield. Only for materials that yield (material_yields). */
 static inline real material_initial_yield_stress(const struct material *m)
 {
     return m->law.given ? m->law.yield : m->yield_stress;
@@ -104,48 +106,48 @@ static inline bool material_has_viscosity(const struct material *m)
  * plane strain and in 3D, NAN in 1D, where there is none. */
 real bond_based_poisson_ratio(enum space space);
 
-/* Returns the micro-modulus c of bond-based peridynamics, for a family of discrete particles [N/m^6]: 2 k/family_sum in
+/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for a family of discrete particles: 2 k/family_sum in
  * 1D, 8 k/family_sum in 2D, 18 k/family_sum in 3D, with k = m->bulk. Bonds then have the energy of the continuum under
  * uniform dilatation (Silling & Askari 2005). family_sum: sum of r V_j beta over a full family [m^4], where beta is the
  * fraction of the volume of neighbour j within the horizon. */
 real material_micro_modulus_of_discrete_family(const struct material *m, enum space space, real family_sum);
 
-/* Returns the micro-modulus c of bond-based peridynamics, for a continuous family [N/m^6]: 2 k/(A d^2) in 1D, 12 k/(pi
- * h d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m]; section: cross-section A
+/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for a continuous family: 2 k/(A d^2) in 1D, 12 k/(pi h
+ * d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m]; section: cross-section A
  * in 1D [m^2], thickness h in 2D [m], ignored in 3D. */
 real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section);
 
-/* Returns the critical stretch of the bonds of material m [1]: at this stretch, all bonds that cross a unit area of a
- * plane have the energy release rate G_c. horizon [m]; model: STRETCH_BOND bond-based with the continuum micro-modulus
- * (Silling & Askari 2005), STRETCH_OSPD ordinary state-based (Madenci & Oterkus 2014). For the model with particle
- * rotations use family_fracture_energy_over_stretch_squared. */
+/* Returns the critical stretch [1] of the bonds of material m: if all bonds that cross a plane have this stretch, their
+ * energy per area of the plane is the energy release rate G_c. horizon: radius of families [m]; model: STRETCH_BOND
+ * bond-based with the continuum micro-modulus (Silling & Askari 2005), STRETCH_OSPD ordinary state-based (Madenci &
+ * Oterkus 2014). For the model with particle rotations use family_fracture_energy_over_stretch_squared. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
-/* Returns the stress in monotonic uniaxial loading at the given strain [Pa]: Young's modulus times strain up to the
- * yield stress, then with the slope m->yield_tangent. strain: total strain [1]. Only for materials whose law m->law is
- * not given. */
+/* Returns the stress [Pa] of material m in monotonic uniaxial loading at the total strain `strain` [1]: Young's modulus
+ * times strain up to the yield stress, beyond it a line of the slope m->yield_tangent. Only for materials whose law
+ * m->law is not given. */
 real material_uniaxial_stress(const struct material *m, real strain);
 
 /* Computes the members of m that follow from those given by the scene: hardening modulus, elastic constants and wave
  * speeds, for the given space (1D, plane stress, plane strain, 3D). */
 void material_compute_derived_constants(struct material *m, enum space space);
 
-/* Strengths by the strength surface of a material [Pa]: uniaxial tension, equal biaxial tension, shear, hydrostatic
- * tension. In plane strain the first two states include the stress normal to the plane. */
+/* Strengths [Pa] that follow from the strength surface of a material: in uniaxial tension, equal biaxial tension, shear
+ * and hydrostatic tension. In plane strain the first two states include the stress normal to the plane. */
 struct surface_strengths {
     real tension, biaxial, shear, hydrostatic;
 };
 
-/* Returns the strengths that follow from the strength surface of material m: the stresses at which the surface is
- * reached under uniaxial, biaxial, shear and hydrostatic loading [Pa]. m must have a strength surface. space: plane
- * stress, plane strain or solid. */
+/* Returns the strengths [Pa] that follow from the strength surface of material m: the stresses at which the surface is
+ * reached under uniaxial, biaxial, shear and hydrostatic loading. m must have a strength surface. space: plane stress,
+ * plane strain or solid. */
 struct surface_strengths material_strength_surface_strengths(const struct material *m, enum space space);
 
-/* Returns the smallest strain at which the strength surface of material m can be reached [1]: the minimum, over all
+/* Returns the smallest strain [1] at which the strength surface of material m can be reached: the minimum, over all
  * stress states on the surface, of the largest principal strain, which is the stretch of the most stretched bond. Bonds
- * with smaller stretches need no check of the surface. space: of the body. Returns 0 if some stress state on the
- * surface stretches no bond. */
+ * with smaller stretches need no check of the surface. space: plane stress, plane strain or solid. Returns 0 if some
+ * stress state on the surface stretches no bond. */
 real material_smallest_strain_at_strength(const struct material *m, enum space space);
 
 /* Sets m->surface to `surface`, the strength surface of Drucker and Prager at which the bonds of material m begin to
@@ -153,16 +155,17 @@ real material_smallest_strain_at_strength(const struct material *m, enum space s
  * on which the stress normal to the plane depends. The elastic constants of m must be set. */
 void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface);
 
-/* Returns the stress `stress` divided by the stress on the strength surface of material m in the same direction (the
- * value U) [1]: 1 on the surface, 0 without stress. stress: symmetric components, 3 in the plane, 6 in space [Pa];
- * space: determines the stress normal to a plane. */
+/* Returns the ratio U of the stress `stress` to the stress on the strength surface of material m that has the same
+ * direction: 1 on the surface, below 1 inside, 0 without stress. stress: components xx yy xy in 2D, xx yy zz xy yz zx
+ * in 3D [Pa]; space: determines the stress normal to a plane. m must have a strength surface. */
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress);
 
-/* Computes the elastic stiffness [Pa] as a row-major n x n matrix for the n = symmetric_component_count(dim) components
- * of stress and strain. Strains are tensor components, so that shear rows contain 2G. */
+/* Computes the elastic stiffness of material m [Pa] into `matrix`, row-major n x n, for the n =
+ * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
+ * contain 2G. */
 void material_stiffness_matrix(const struct material *m, int dim, real *matrix);
 
-/* Computes the inverse of the elastic stiffness [1/Pa], as a row-major n x n matrix for the n =
+/* Computes the inverse of the elastic stiffness of material m [1/Pa] into `matrix`, row-major n x n, for the n =
  * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
  * contain 1/(2G). */
 void material_compliance_matrix(const struct material *m, int dim, real *matrix);

@@ -30,20 +30,21 @@ struct mesh_run {
     bool stressed; /* a point may have exceeded the conversion stress */
 };
 
-/* Points of cell `cell` whose position and velocity are needed in every step. Bit c of `places` is set for the point
- * next to corner c. */
+/* Material points of one mesh cell whose position and velocity are needed in every step. cell: index of the cell;
+ * places: bit c is set if the point next to corner c of the cell is one of them. */
 struct mesh_exposed {
     int32_t cell;
     uint8_t places;
 };
 
-/* A material point with state-based bonds to peridynamic particles, and the position (0 to 7) of its cell in its group
- * of eight partial cells. */
+/* A material point of the mesh with state-based bonds to peridynamic particles. point: index of the particle; lane:
+ * position (0 to 7) of its cell in a group of eight partial cells (cells with missing or bonded points) that are
+ * processed together. */
 struct mesh_end {
     int32_t point, lane;
 };
 
-/* Slits: pre-cracks as free surfaces of the mesh, between points (mesh_slits.c). A cell divided by a slit becomes
+/* Slits are pre-cracks as free surfaces of the mesh, between points (mesh_slits.c). A cell divided by a slit becomes
  * several cells, each with the points on one side: one keeps the index of the cell, the others have indices behind
  * those of the box. Around a node on a slit the cells form groups: one keeps the node of the grid, every other has an
  * extra node. Extra nodes are in rows behind those of the box, so that loops over all nodes include them. A cell with
@@ -123,18 +124,18 @@ struct mesh {
     real match;        /* alpha, share of consistent inertia in matched cells [1] */
 };
 
-/* Returns the array of the 2^dim nodes at the corners of cell `cell` if one of them is an extra node, i.e. a second
- * node at the position of a grid node, where a slit (a pre-crack) divides the mesh. Returns NULL otherwise: the corners
- * are then the nodes `cell` + mesh->corner[c] of the grid. */
+/* Returns the array of the 2^dim nodes at the corners of cell `cell` of the mesh if one of these nodes is an extra
+ * node, i.e. a second node at the position of a grid node, where a slit (a pre-crack) divides the mesh. Returns NULL
+ * otherwise: the corners are then the nodes `cell` + mesh->corner[c] of the grid. */
 static inline const int32_t *mesh_cell_corner_nodes_at_slit(const struct mesh *mesh, int64_t cell)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && s->cell[cell] >= 0 ? s->corner + ((int64_t)s->cell[cell] << mesh->grid.dim) : NULL;
 }
 
-/* Returns the index of the node at corner `corner` of cell `cell`, which may be an extra node (second node at the
- * position of a grid node, where a pre-crack divides the mesh). corner: 0 .. 2^dim - 1, bit d is set on the upper side
- * in direction d. */
+/* Returns the index of the node at corner `corner` of cell `cell` of the mesh; it may be an extra node (second node at
+ * the position of a grid node, where a pre-crack divides the mesh). corner: 0 .. 2^dim - 1, bit d is set on the upper
+ * side along axis d. */
 static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cell, int corner)
 {
     const int32_t *own = mesh_cell_corner_nodes_at_slit(mesh, cell);
@@ -150,49 +151,52 @@ static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
 }
 
-/* Returns the node of the regular grid at the position of `node`. For an extra node, a second node where a pre-crack
- * divides the mesh, this is the grid node at the same position; for all other nodes it is `node` itself. */
+/* Returns the index of the node of the regular grid at the position of the mesh node `node`. For an extra node, a
+ * second node where a pre-crack divides the mesh, this is the grid node at the same position; for all other nodes it is
+ * `node` itself. */
 static inline int64_t mesh_regular_node_of_doubled_node(const struct mesh *mesh, int64_t node)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && node >= s->first && s->base[node - s->first] >= 0 ? s->base[node - s->first] : node;
 }
 
-/* Returns the cell of the regular grid whose corner `corner` is at the position of node `node`; -1 if there is none.
- * Where slits (pre-cracks) divide this cell, mesh_cell_next_slit_part lists its further parts, and
- * mesh_cell_corner_node shows which of the parts has node `node` itself. */
+/* Returns the index of the cell of the regular grid whose corner `corner` (0 .. 2^dim - 1, bit d set on the upper side
+ * along axis d) is at the position of mesh node `node`; -1 if there is none. Where slits (pre-cracks) divide this cell,
+ * mesh_cell_next_slit_part lists its further parts, and mesh_cell_corner_node shows which of the parts has node `node`
+ * itself. */
 static inline int64_t mesh_cell_with_corner_at_node(const struct mesh *mesh, int64_t node, int corner)
 {
     const int64_t cell = mesh_regular_node_of_doubled_node(mesh, node) - mesh->corner[corner];
     return cell >= 0 ? cell : -1;
 }
 
-/* Returns the next one of the cells into which slits (pre-cracks as free surfaces) divide one cell of the regular grid,
- * starting from the cell of the grid itself; -1 after the last one, and for a cell that is not divided. */
+/* Returns the next one of the cells into which slits (pre-cracks as free surfaces) divide a cell of the regular grid.
+ * cell: the cell of the grid for the first call, then the previous result. Returns -1 after the last one, and for a
+ * cell that is not divided. */
 static inline int64_t mesh_cell_next_slit_part(const struct mesh *mesh, int64_t cell)
 {
     return mesh->slits.next ? mesh->slits.next[cell] : -1;
 }
 
-/* Returns the number of bending modes of a linear cell, its deformations with zero mean strain that store energy: 0 in
- * 1D, 2 in 2D, 12 in 3D. */
+/* Returns the number of bending modes of a linear cell in dim dimensions, i.e. deformations with zero mean strain that
+ * store energy: 0 in 1D, 2 in 2D, 12 in 3D. */
 static inline int cell_bending_mode_count(int dim) { return dim * ((1 << dim) - 1 - dim); }
 
-/* Returns the number of deformation modes of a cell that store energy: the components of the mean strain, and the
- * bending modes (cell_bending_mode_count). */
+/* Returns the number of deformation modes of a linear cell in dim dimensions that store energy: components of the mean
+ * strain plus bending modes (cell_bending_mode_count): 1 in 1D, 5 in 2D, 18 in 3D. */
 static inline int cell_deformation_mode_count(int dim)
 {
     return symmetric_component_count(dim) + cell_bending_mode_count(dim);
 }
 
-/* Returns the number of groups of LANES (eight) partial cells, which are processed side by side; the last group may be
- * incomplete. Partial cells are those with missing or bonded points or several materials. */
+/* Returns the number of groups of eight (LANES) partial cells of the mesh that are processed side by side; the last
+ * group may be incomplete. Partial cells are cells with missing or bonded points or several materials. */
 static inline int64_t mesh_partial_cell_group_count(const struct mesh *mesh)
 {
     return (mesh->partial_cells + LANES - 1) / LANES;
 }
 
-/* Returns true if, according to the last computation of forces, the stress of a material point in any cell may have
+/* Returns true if, according to the last computation of forces, the stress of a material point of the mesh may have
  * exceeded the limit at which points are converted to peridynamic particles. */
 static inline bool mesh_may_exceed_conversion_stress(const struct mesh *mesh)
 {
@@ -202,35 +206,35 @@ static inline bool mesh_may_exceed_conversion_stress(const struct mesh *mesh)
     return any;
 }
 
-/* Returns the index of the block that contains node `node`: eight nodes of a row along x, which are skipped together
- * while they are at rest (active_set.h). */
+/* Returns the index of the block that contains mesh node `node`. A block is eight nodes of a row along x that are
+ * skipped together while they are at rest (active_set.h). */
 static inline int64_t mesh_block_of_node(const struct mesh *mesh, int64_t node)
 {
     return node / mesh->grid.count[0] * mesh->segments + node % mesh->grid.count[0] / LANES;
 }
 
-/* Returns a pointer to the activity levels of the blocks of eight nodes in row number `row` of nodes along x, one per
- * block. Level 0: the block is at rest and skipped (active_set.h). */
+/* Returns a pointer to the activity levels of the blocks (eight nodes each) in row number `row` of the mesh nodes along
+ * x: one entry per block, mesh->segments entries. Level 0: the block is at rest and skipped (active_set.h). */
 static inline const uint8_t *mesh_row_activity_levels(const struct mesh *mesh, int64_t row)
 {
     return mesh->active.level + row * mesh->segments;
 }
 
-/* Returns true if the eight consecutive nodes, or cells, of a row from the `first_node`-th one on are at rest, so that
- * they can be skipped. levels: activity levels of the blocks of this row (mesh_row_activity_levels). */
+/* Returns true if the eight consecutive nodes or cells of a row from number `first_node` (from 0) of the row on are at
+ * rest, so that they can be skipped. levels: activity levels of the blocks of this row (mesh_row_activity_levels). */
 static inline bool mesh_eight_nodes_are_at_rest(const uint8_t *levels, int64_t first_node)
 {
     return (levels[first_node / LANES] | levels[(first_node + LANES - 1) / LANES]) == 0;
 }
 
-/* Range of blocks of a row of nodes, each of eight nodes: blocks `first` to `end` - 1, counted from the begin of the
- * row, contain all nodes of the row that have mass. */
+/* Range of blocks (eight nodes each) of a row of nodes: the blocks number first .. end - 1, counted from 0 at the begin
+ * of the row, contain all nodes of the row that have mass. */
 struct mesh_row_blocks {
     int64_t first, end;
 };
 
-/* Returns the range of blocks of eight nodes, in row number `row` of nodes, that contains all nodes of the row with
- * mass; an empty range if there is none. */
+/* Returns the range of blocks (eight nodes each) of row number `row` of mesh nodes along x that contains all nodes of
+ * this row with mass; an empty range if there is none. */
 static inline struct mesh_row_blocks mesh_blocks_of_row(const struct mesh *mesh, int64_t row)
 {
     const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
@@ -238,16 +242,16 @@ static inline struct mesh_row_blocks mesh_blocks_of_row(const struct mesh *mesh,
     return (struct mesh_row_blocks){(first - start) / LANES, (end - start + LANES - 1) / LANES};
 }
 
-/* Returns the number of the first block of eight nodes, from `block` on, that is not at rest; `end_block` if there is
- * none. levels: activity levels of the blocks of a row. */
+/* Returns the number of the first block (eight nodes of a row) from `block` to `end_block` - 1 that is not at rest;
+ * `end_block` if all are. levels: activity levels of the blocks of the row. */
 static inline int64_t mesh_next_active_block(const uint8_t *levels, int64_t block, int64_t end_block)
 {
     return block < end_block && levels[block] ? block : next_marked_index(levels, block, end_block);
 }
 
-/* Returns the value of the linear shape function of a corner node at a quadrature point of its cell [1]. corner, point:
- * number of the corner, and of the corner next to the point; bit d is set on the upper side in direction d. The value
- * is a product over the directions: 3/4 where these bits agree, 1/4 elsewhere. */
+/* Returns the value [1] of the linear shape function of a corner node at a quadrature point (material point) of its
+ * cell. corner, point: number of the corner, and of the corner next to the point; bit d is set on the upper side in
+ * direction d. The value is a product over the directions: 3/4 where these bits agree, 1/4 elsewhere. */
 static inline real mesh_shape_function_value(int dim, int corner, int point)
 {
     static const real weight[DIM_MAX + 1][CORNERS_MAX] = {
@@ -259,9 +263,9 @@ static inline real mesh_shape_function_value(int dim, int corner, int point)
     return weight[dim][corner ^ point];
 }
 
-/* Returns the derivative of the linear shape function of a corner node at a quadrature point of its cell along
- * direction `axis`, in units of 1/h with h the edge of the cell. corner, point: number of the corner, and of the corner
- * next to the point; bit d is set on the upper side in direction d. */
+/* Returns the derivative along axis `axis` of the linear shape function of a corner node at a quadrature point
+ * (material point) of its cell, times the edge h of the cell [1]. corner, point: number of the corner, and of the
+ * corner next to the point; bit d is set on the upper side in direction d. */
 static inline real mesh_shape_function_derivative(int dim, int corner, int point, int axis)
 {
     real slope = corner >> axis & 1 ? 1 : -1;

@@ -88,14 +88,14 @@ struct particles {
     int32_t *id;                            /* index in the order in which the scene made the particles */
 };
 
-/* A mirror image: entry n + k of the particles is the image of `source` (which may itself be an image) in the mirror of
- * load `load`. */
+/* Origin of a mirror image. Entry n + k of the particle arrays is the image number k: the copy of particle `source`
+ * (which may be an image, too) beyond the plane of symmetry that boundary condition number `load` describes. */
 struct image {
     int32_t source;
     uint8_t load;
 };
 
-/* Returns the eight bytes bytes[0] .. bytes[7] as one number, in the byte order of the machine. */
+/* Returns the eight bytes bytes[0] .. bytes[7] as one 64-bit number, in the byte order of the machine. */
 static inline uint64_t eight_bytes_as_word(const uint8_t *bytes)
 {
     uint64_t eight;
@@ -139,15 +139,16 @@ static inline int count_of_eight_indices_below(int64_t first, int64_t limit)
     return limit - first < LANES ? (int)(limit - first) : LANES;
 }
 
-/* Returns the particle of the body of which entry i of p is a mirror image, possibly through images of images; i itself
- * if it is no image. image[k]: source of entry p->n + k. */
+/* Returns the index of the particle of which entry i of the arrays of p is a mirror image, possibly through images of
+ * images; i itself if it is no image. image[k]: origin of entry p->n + k. */
 static inline int64_t image_source_particle(const struct particles *p, const struct image *image, int64_t i)
 {
     while (i >= p->n) i = image[i - p->n].source;
     return i;
 }
 
-/* Bits of arguments `optional_arrays`: which optional arrays of struct particles are allocated. */
+/* Bits of the arguments `optional_arrays` of the functions below: each bit stands for optional arrays of struct
+ * particles, whose comments name it. */
 enum {
     WITH_GRADIENT = 1,
     WITH_STRETCH = 2,
@@ -179,12 +180,12 @@ extern const int particle_fields_count;
  * velocity for velocities along y; NULL if an optional field is not allocated. */
 void *particle_field_array(const struct particles *p, const struct particle_field *f, int component);
 
-/* Saves the fields of all particles, mirror images included, to the archive if a->saving, else restores them; only
- * their plastic state unless a->scope is ARCHIVE_ALL. optional_arrays: optional arrays of p, sum of WITH_*. Returns
- * FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the arrays of p, mirror images included, to the archive `a` if a->saving, else restores them. If a->scope is
+ * not ARCHIVE_ALL, only the plastic state of particles is saved or restored. optional_arrays: optional arrays of p, sum
+ * of WITH_*. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status particles_save_or_load(struct particles *p, int optional_arrays, struct archive *a);
 
-/* Copies the reference position of particle i to X (dim components [m]). */
+/* Copies the reference position of particle i of p to X (p->dim components [m]). */
 static inline void particle_reference_position(const struct particles *p, int64_t i, real *X)
 {
     for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
@@ -196,23 +197,25 @@ struct position_text {
     char text[DIM_MAX * 24];
 };
 
-/* Returns the components X[dim] of a vector as text, separated by ", ". digits: significant digits of each. */
+/* Returns the components X[0] .. X[dim - 1] of a vector as text, separated by ", ". digits: significant digits of each
+ * component. */
 struct position_text position_text(const real *X, int dim, int digits);
 
-/* Returns the reference position of particle i [m] as text. digits: significant digits of each coordinate. */
+/* Returns the reference position [m] of particle i of p as text, coordinates separated by ", ". digits: significant
+ * digits of each coordinate. */
 struct position_text particle_position_text(const struct particles *p, int64_t i, int digits);
 
-/* Returns the factor on the critical stretch of the bond between particles i and j, the smaller of their strength
- * factors [1]; 1 if strength is uniform. Weibull's distribution is closed under the minimum (weakest link), so bonds,
- * and chains of bonds, have its modulus too. */
+/* Returns the random factor [1] on the critical stretch of the bond between particles i and j of p: the smaller of the
+ * strength factors of both particles; 1 if strength is uniform. Weibull's distribution is closed under the minimum
+ * (weakest link), so bonds, and chains of bonds, have its modulus too. */
 static inline real bond_strength_factor(const struct particles *p, int64_t i, int64_t j)
 {
     return p->strength ? (p->strength[i] < p->strength[j] ? p->strength[i] : p->strength[j]) : 1;
 }
 
-/* Returns the stored stress of particle i divided by the stress on the strength surface of its material in the same
- * direction [1]: 1 on the surface; 0 if the material has no such surface. material: materials of the scene, indexed by
- * p->material[i]; space: of the body, determines the stress normal to a plane. */
+/* Returns the ratio of the stored stress of particle i of p to the stress on the strength surface of its material that
+ * has the same direction: 1 on the surface, where the material fails; 0 if the material has no such surface. material:
+ * materials of the scene, indexed by p->material[i]; space: determines the stress normal to a plane. */
 static inline real particle_stress_to_strength_ratio(const struct particles *p, const struct material *material,
                                                      enum space space, int64_t i)
 {
@@ -222,16 +225,16 @@ static inline real particle_stress_to_strength_ratio(const struct particles *p, 
     return material_has_strength_surface(m) ? material_stress_to_strength_ratio(m, space, stress) : 0;
 }
 
-/* Returns true if particle i follows the nodes of a grid or mesh: a material point, or a peridynamic particle that is
- * coupled to the grid. */
+/* Returns true if particle i of p moves with the nodes of the grid or mesh: it is a material point, or a peridynamic
+ * particle that the grid moves. */
 static inline bool particle_moves_with_nodes(const struct particles *p, int64_t i)
 {
     return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_GRID_COUPLED);
 }
 
-/* Returns the stress sigma_zz of particle i in plane strain [Pa]: nu (sigma_xx + sigma_yy) plus a part due to plastic
- * flow; 0 in all other spaces. In the reference frame its relative error is of the order of the strain. For peridynamic
- * particles the plastic part stays as it was when they converted. */
+/* Returns the stress sigma_zz [Pa] of particle i of p in plane strain, nu (sigma_xx + sigma_yy) plus a part due to
+ * plastic flow; 0 in all other spaces. In the reference frame its relative error is of the order of the strain. For
+ * peridynamic particles the plastic part stays as it was when they converted. */
 static inline real particle_out_of_plane_stress(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
@@ -239,15 +242,15 @@ static inline real particle_out_of_plane_stress(const struct particles *p, int64
     return p->plane_strain[p->material[i]].poisson * (p->stress[0][i] + p->stress[1][i]) + flow;
 }
 
-/* Allocates `particle_count` particles without mirror images, with all values 0, in `dim` dimensions. optional_arrays:
- * arrays that are allocated in addition, sum of WITH_*. Release with particles_free. */
+/* Allocates the arrays of p for `particle_count` particles in `dim` dimensions without mirror images; all values are 0.
+ * optional_arrays: arrays that are allocated besides the usual ones, sum of WITH_*. Release with particles_free. */
 void particles_make(struct particles *p, int dim, int64_t particle_count, int optional_arrays);
 
 /* Extends every array of p by `image_count` zeroed entries for mirror images, behind those of the body; pointers to the
  * arrays change. optional_arrays: optional arrays of p, sum of WITH_*. Called once, at set-up. */
 void particles_extend_arrays_for_mirror_images(struct particles *p, int64_t image_count, int optional_arrays);
 
-/* Releases all arrays of p. */
+/* Releases all arrays of the particles p. */
 void particles_free(struct particles *p);
 
 /* Copies all fields of the particles of `previous` to p, which has other particles. new_index: [previous->n] new index
@@ -255,31 +258,32 @@ void particles_free(struct particles *p);
 void particles_copy_fields(struct particles *p, const struct particles *previous, const int32_t *new_index,
                            int optional_arrays);
 
-/* Sorts the particles of the body row by row: by z, then y, then x, where z and y are rounded to rows of thickness
- * `spacing` [m]; equal positions by id. optional_arrays: optional arrays of p, sum of WITH_*. Called at set-up, before
- * mirror images are added. */
+/* Sorts the particles of p row by row: by z, then y, then x, where z and y are rounded to rows of thickness `spacing`
+ * [m]; equal positions by id. optional_arrays: optional arrays of p, sum of WITH_*. Called at set-up, before mirror
+ * images are added. */
 void particles_sort_by_lattice_rows(struct particles *p, real spacing, int optional_arrays);
 
-/* Computes the smallest and the largest coordinate `axis` of the reference positions of the first `count` particles
- * [m]; INFINITY and -INFINITY if `count` = 0. If `count` is p->n, particles of the body that were not created
- * (data/hollow.h) are included. */
+/* Computes the smallest coordinate *low and the largest *high [m] along axis `axis` of the reference positions of the
+ * first `count` particles of p; INFINITY and -INFINITY if `count` = 0. If `count` is p->n, particles of the body that
+ * were not created (data/hollow.h) are included. */
 void particles_coordinate_range(const struct particles *p, int64_t count, int axis, real *low, real *high);
 
-/* Returns the index of the particle whose reference position is nearest to X (dim components [m]), the lowest one of
- * several; mirror images are not considered. */
+/* Returns the index of the particle of p whose reference position is nearest to X (p->dim components [m]), of several
+ * the lowest index. Mirror images are not considered. */
 int64_t particles_index_nearest_to_position(const struct particles *p, const real *X);
 
-/* Returns the largest speed [m/s] of the particles in particle_list[particle_count] (indices), 0 for an empty list. */
+/* Returns the largest speed [m/s] of the particles of p in particle_list[particle_count] (indices); 0 for an empty
+ * list. */
 real particles_largest_speed_of_list(const struct particles *p, const int32_t *particle_list, int64_t particle_count);
 
-/* Returns the largest speed of all particles, peridynamic and material points [m/s]. */
+/* Returns the largest speed [m/s] of all particles of p, peridynamic particles and material points. */
 real particles_largest_speed_of_all(const struct particles *p);
 
-/* Returns the longest edge of the bounding box of the reference positions of all particles [m], without mirror
+/* Returns the longest edge [m] of the bounding box of the reference positions of all particles of p, without mirror
  * images. */
 real particles_bounding_box_longest_edge(const struct particles *p);
 
-/* Returns the volume of a particle of a lattice, section spacing^dim [m^3]. section: cross-section in 1D [m^2],
+/* Returns the volume [m^3] of a particle of a lattice: section times spacing^dim. section: cross-section in 1D [m^2],
  * thickness in 2D [m], 1 in 3D; spacing: lattice spacing [m]. All callers use this function, so that the quotient of
  * two such volumes is exactly 1. */
 static inline real lattice_particle_volume(real section, real spacing, int dim)
@@ -289,8 +293,9 @@ static inline real lattice_particle_volume(real section, real spacing, int dim)
     return volume;
 }
 
-/* Returns true if `coordinate` is a whole number of spacings from `origin`, up to LATTICE_NEAR spacings; *site receives
- * the nearest whole number in any case. coordinate, origin, spacing: in the same unit. */
+/* Returns true if `coordinate` is a whole number of spacings away from `origin`, with a tolerance of LATTICE_NEAR
+ * spacings. *site receives the nearest whole number of spacings in any case. coordinate, origin, spacing: in the same
+ * unit. */
 static inline bool lattice_contains_coordinate(real coordinate, real origin, real spacing, real *site)
 {
     const real k = (coordinate - origin) / spacing;
@@ -302,8 +307,8 @@ static inline bool lattice_contains_coordinate(real coordinate, real origin, rea
  * the background grid (n_free, list_free) from p->kind and p->flag. */
 void particles_rebuild_lists_by_kind(struct particles *p);
 
-/* Returns true if at least one particle is flagged for conversion: it has lost a bond, has a large stress, or is near
- * another body (FLAG_LOST_BOND, FLAG_STRESSED, FLAG_NEAR). */
+/* Returns true if at least one particle of p is flagged for conversion from material point to peridynamic particle: it
+ * has lost a bond, has a large stress, or is near another body (FLAG_LOST_BOND, FLAG_STRESSED, FLAG_NEAR). */
 bool particles_any_is_flagged_for_conversion(const struct particles *p);
 
 #endif

@@ -11,40 +11,42 @@
 /* Distance from a surface below which points count as on it, and so inside [spacings]. */
 #define ON_SURFACE 1e-8
 
-/* Returns true if the point X (dim components [m]) is inside the region or on its surface, after the region has been
- * grown by `tolerance` [m] (shrunk if negative). */
+/* Returns true if the point X (dim components [m]) is inside the region r or on its surface, after the region has been
+ * enlarged on all sides by `tolerance` [m] (reduced if negative). */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
 
-/* Returns the length [m] by which the region must grow to contain the point X (dim components [m]): negative inside the
- * region, 0 on its surface, positive outside. It is the least tolerance at which region_contains returns true. */
+/* Returns the length [m] by which the region r must be enlarged to contain the point X (dim components [m]): negative
+ * inside the region, 0 on its surface, positive outside. It is the least tolerance at which region_contains returns
+ * true. */
 real region_level_set_value(const struct region *r, const real *X, int dim);
 
-/* Computes a box between the corners `lower` and `upper` [m] that contains the region. It may be too large, because
- * intersections and differences are ignored. Returns false if the box is infinite. */
+/* Computes the corners `lower` and `upper` [m] of a box that contains the region r. The box may be too large, because
+ * intersections and differences are ignored. Returns true if the box is finite, else false. */
 bool region_compute_bounding_box_if_finite(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX]);
 
-/* Returns the signed distance of the point X (dim components [m]) from the surface of the region, negative inside [m].
- * normal: receives the outward unit normal of the nearest surface. For a single solid, exact outside and beside flat
- * faces; for several solids, that of the nearest one. No side of a box may be infinite. */
+/* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the region r, negative
+ * inside. normal: receives the outward unit normal of the nearest surface. The distance from a single solid is exact
+ * outside and beside flat faces; for several solids it is the distance from the nearest one. No box of the region may
+ * have an infinite side. */
 real region_signed_distance(const struct region *r, const real *X, int dim, real *normal);
 
-/* Returns true if a box of the region, also within a group, has an infinite side, so that region_signed_distance is not
- * defined. */
+/* Returns true if a box of the region r, also within a group of solids, has an infinite side, so that
+ * region_signed_distance is not defined. */
 bool region_contains_infinite_box_solid(const struct region *r, int dim);
 
-/* Returns an upper bound [m] of the scalar product X . direction for all points X of the region: how far the region
- * extends in this direction. direction: unit vector, dim components. */
+/* Returns an upper bound [m] of how far the region r extends in a direction: of the scalar product X . direction over
+ * all points X of the region. direction: unit vector, dim components. */
 real region_support_function_bound(const struct region *r, const real *direction, int dim);
 
-/* Returns the volume of the part of the region within the box between the corners `lower` and `upper` [m^dim], by
- * quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
+/* Returns the volume [m^dim] of the part of the region r that is inside the box between the corners `lower` and `upper`
+ * (dim components [m]), by quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
 real region_volume_within_box(const struct region *r, int dim, const real *lower, const real *upper);
 
-/* Builds search trees over the solids of a long list, so that later queries of the region examine only solids near the
- * point; results stay bitwise equal. The list must not change afterwards. */
+/* Builds search trees over the solids of the region r if it has many, so that later queries examine only solids near
+ * the point. The results of queries stay bitwise equal. The list of solids must not change afterwards. */
 void region_build_search_trees(struct region *r, int dim);
 
-/* Releases all solids and the search trees of the region. */
+/* Releases all solids and the search trees of the region r. */
 void region_free(struct region *r);
 
 /* A list of n numbers in ascending order. */
@@ -73,7 +75,7 @@ struct time_function {
 /* Returns the value of the time function f at time t [s], a dimensionless factor. */
 real time_function_value(const struct time_function *f, real t);
 
-/* Returns the integral over time of the time function f, a dimensionless factor, from 0 to t >= 0 [s]. */
+/* Returns the integral [s] of the time function f, a dimensionless factor, over the time from 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
 
 /* Returns the largest magnitude of the slope [1/s] of the time function f between the times 0 and `t_end` [s]; INFINITY
@@ -90,19 +92,20 @@ struct crack {
 };
 
 /* Returns true if the crack c cuts the bond between the reference positions `position` and `other_position` (dim
- * components each [m]). Exchanging the two never changes the result. A particle closer to the crack's plane than 1e-9
- * crack lengths counts as on its positive side; a bond that passes exactly through the crack's end is cut. */
+ * components each [m]). Exchanging the two positions never changes the result. A particle closer to the crack's plane
+ * than 1e-9 crack lengths counts as on its positive side; a bond that passes exactly through the crack's end is cut. */
 bool crack_cuts_bond(const struct crack *c, const real *position, const real *other_position, int dim);
 
-/* Returns false if the crack certainly cuts no bond of length `bond_length` [m] or less of a particle at X (dim
- * components [m]); true if it may cut one. A fast test, by which particles far from the crack are skipped. */
+/* Tests quickly whether a particle at X (dim components [m]) is so far from the crack c that it can be skipped. Returns
+ * false if the crack certainly cuts no bond of this particle of length `bond_length` [m] or less; true if the crack may
+ * cut one. */
 bool crack_may_cut_bonds_near(const struct crack *c, const real *X, real bond_length, int dim);
 
-/* Computes the area of a crack in 3D as a vector along its normal [m^2]: half of the sum of cross products of
+/* Computes the area vector [m^2] of the crack c in 3D, along its normal: half of the sum of cross products of
  * consecutive vectors from its first corner to the others (Newell). */
 void crack_area_vector(const struct crack *c, real area[DIM_MAX]);
 
-/* A plane of symmetry; the body is on one side. */
+/* A plane of symmetry normal to a coordinate axis; the body is on one side of it. */
 struct mirror_plane {
     int axis, outside; /* axis of its normal; side without body, -1 or +1 */
     real at;           /* position along the axis [m] */
@@ -129,7 +132,7 @@ struct crack_list {
 void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int crack_count,
                                const struct mirror_plane *mirror, int mirror_count, real image_reach, real tolerance);
 
-/* Releases the cracks of the list l. */
+/* Releases the cracks and the arrays of the list l. */
 void crack_list_free(struct crack_list *l);
 
 /* Returns the distance [m] of the point `point` from the segment between the points `segment_start` and `segment_end`
@@ -138,9 +141,10 @@ real segment_distance_from_point(const real *segment_start, const real *segment_
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* A plane wave: at t = 0 v = velocity exp(-(xi/r)^2) along `polarisation`, xi = (X - at) . direction, r a quarter of
- * the width. It travels along `direction` into material at rest and leaves displaced material behind. Polarisation
- * along the direction: longitudinal wave; across it: transverse wave. */
+/* A plane wave in the initial state of a body. At t = 0 the particle velocity is velocity exp(-(xi/r)^2) along
+ * `polarisation`, with xi = (X - at) . direction and r a quarter of the width. It travels along `direction` into
+ * material at rest and leaves displaced material behind. Polarisation along the direction: longitudinal wave; across
+ * it: transverse wave. */
 struct wave_pulse {
     real at[DIM_MAX];           /* centre [m] */
     real direction[DIM_MAX];    /* unit vector */
@@ -150,7 +154,8 @@ struct wave_pulse {
     bool transverse;
 };
 
-/* Velocity [m/s] and displacement [m] along the polarisation, and strain du/dxi [1], with v = -c du/dxi. */
+/* State of a plane wave at one position: velocity v [m/s] and displacement u [m] along the polarisation, and strain
+ * du/dxi [1], where xi is the coordinate along the direction of travel. With the wave speed c, v = -c du/dxi. */
 struct wave_state {
     real velocity, displacement, strain;
 };

@@ -27,18 +27,18 @@ struct strength_scatter {
     uint64_t seed;
 };
 
-/* Returns the value at the position X (dim components [m]) of a Gaussian random field with mean 0, variance 1 and the
- * correlation length s->length [1]. Without a correlation length the value depends only on the seed and on particle_id,
+/* Returns the value [1] at the position X (dim components [m]) of a Gaussian random field with mean 0, variance 1 and
+ * the correlation length s->length. Without a correlation length the value depends only on the seed and on particle_id,
  * the number of the particle. */
 real scatter_gaussian_field_value(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id);
 
-/* Returns the random factor on the critical stretch of a particle at the position X (dim components [m]) [1], from the
- * distribution s; 1 if the scene gives no distribution. particle_id: number of the particle, used only without a
- * correlation length. */
+/* Returns the random factor [1] on the critical stretch of a particle at the position X (dim components [m]), drawn
+ * from the distribution s; 1 if the scene gives no distribution. particle_id: number of the particle, used only without
+ * a correlation length. */
 real scatter_strength_factor(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id);
 
-/* Returns the number that a standard normal variable does not exceed with probability `probability`, 0 < `probability`
- * < 1. */
+/* Returns the quantile of the standard normal distribution: the number that a standard normal variable does not exceed
+ * with the probability `probability`, 0 < probability < 1. */
 real normal_distribution_quantile(real probability);
 
 #endif

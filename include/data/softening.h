@@ -31,18 +31,18 @@ struct softening_curve {
     real area;                                             /* integral of G from 0 to 1 [1] */
 };
 
-/* Softening of the bonds between two materials. onset: stretch s_0 at which it begins, INFINITY for brittle bonds [1];
- * strength_scatters: true if the random strength factor of a bond multiplies s_0 alone, false if it also multiplies the
- * critical stretch; surface: true if a strength surface starts the softening, the factor (with strength_scatters) then
- * multiplies the strength of the particle instead of s_0; rate: how s_0 increases with the strain rate, NULL if it does
- * not. */
+/* Softening of the bonds between two materials. onset: stretch s_0 [1] at which softening begins, INFINITY for brittle
+ * bonds; strength_scatters: true if the random strength factor of a bond multiplies s_0 alone, false if it also
+ * multiplies the critical stretch; surface: true if a strength surface starts the softening, the factor (with
+ * strength_scatters) then multiplies the strength of the particle instead of s_0; rate: how s_0 increases with the
+ * strain rate, NULL if it does not. */
 struct softening_pair {
     real onset;
     bool strength_scatters, surface;
     const struct strength_rate *rate;
 };
 
-/* Stretches at which a bond begins to soften (onset) and breaks (end) [1]; equal if it is brittle. */
+/* Stretches [1] at which a bond begins to soften (onset) and breaks (end); both are equal if the bond is brittle. */
 struct softening_range {
     real onset, end;
 };
@@ -76,7 +76,7 @@ static inline struct softening_range softening_range_from_onset(const struct sof
     return (struct softening_range){onset, softening_end_stretch(c, onset, critical)};
 }
 
-/* Returns the value G(x) of the softening curve c: the force of a bond divided by its force when softening begins [1].
+/* Returns the value G(x) [1] of the softening curve c: the force of a bond divided by its force when softening begins.
  * x >= 0: (k - s_0)/(s_f - s_0) [1], with the stretch k of the bond and the stretches s_0 and s_f at which it begins to
  * soften and breaks. */
 static inline real softening_curve_value(const struct softening_curve *c, real x)
@@ -86,46 +86,48 @@ static inline real softening_curve_value(const struct softening_curve *c, real x
     return level;
 }
 
-/* Returns the fraction of its initial stiffness that a softening bond has left in tension [1]. c: its softening curve;
- * onset, breaking_stretch: stretches at which it begins to soften and breaks [1]; largest_stretch: its largest stretch
- * so far, at least `onset` [1]. */
+/* Returns the fraction (0 to 1) of its initial stiffness that a softening bond has left in tension. c: softening curve;
+ * onset, breaking_stretch: stretches at which the bond begins to soften and breaks [1]; largest_stretch: largest
+ * stretch of the bond so far, at least `onset` [1]. */
 static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset,
                                                           real breaking_stretch, real largest_stretch)
 {
     return onset * softening_curve_value(c, (largest_stretch - onset) / (breaking_stretch - onset)) / largest_stretch;
 }
 
-/* Returns the energy that a softening bond has dissipated, divided by stiffness, weight and length of the bond [1]. c:
- * its softening curve; onset, breaking_stretch: stretches at which it begins to soften and breaks; largest_stretch: its
- * largest stretch so far, at least the onset [1]. */
+/* Returns the energy that a softening bond has dissipated, divided by stiffness, weight and length of the bond
+ * (dimensionless). c: softening curve; onset, breaking_stretch: stretches at which the bond begins to soften and breaks
+ * [1]; largest_stretch: largest stretch of the bond so far, at least `onset` [1]. */
 real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
                                             real largest_stretch);
 
 /* Returns the largest stresses, divided by s_0 E', that bonds of all directions with the softening curve c reach under
  * growing uniform strain, by quadrature over directions. s_0: stretch at which bonds begin to soften; E': modulus of
- * uniaxial tension; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
+ * uniaxial tension (material_uniaxial_tension_modulus); space: line, plane stress, plane strain or solid;
+ * squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
                                                                real squared_stretch_ratio);
 
-/* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], by
- * fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical stretch/s_0)^2
- * (softening_curve_normalised_strengths). m->critical_stretch must be set; if the horizon is too large for this
- * strength, the result exceeds it. space: of the body. */
+/* Returns the stretch s_0 [1] at which bonds must begin to soften so that material m has the tensile strength
+ * m->tensile_strength, by fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical
+ * stretch/s_0)^2 (softening_curve_normalised_strengths). m->critical_stretch must be set; if the horizon is too large
+ * for this strength, the result exceeds m->critical_stretch. space: line, plane stress, plane strain or solid. */
 real softening_onset_stretch_from_strength(const struct material *m, enum space space);
 
-/* Strain rates are measured from this share of the stretch on at which bonds soften in slow loading [1]. */
+/* Share of the onset stretch (at which a bond begins to soften in slow loading) from which on the strain rate of the
+ * bond is measured [1]. */
 #define RATE_FROM 0.5
 
-/* Smallest ratio kappa = (critical stretch/onset)^2 of a bond [1]. The strain rate increases the onset, the stretch at
- * which the bond begins to soften, up to this limit only. */
+/* Smallest ratio kappa = (critical stretch/onset)^2 of a bond, dimensionless. The strain rate increases the onset, the
+ * stretch at which the bond begins to soften, up to this limit only. */
 #define RATE_LEAST_RATIO 1.2
 
-/* Returns the value at the strain rate `rate` [1/s] of a quantity that is table_values[k] at the rate r->rate[k]:
- * linear in the logarithm of the rate, constant beyond the table. */
+/* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k], k = 0 .. r->points - 1, to the strain
+ * rate `rate` [1/s] and returns the value: linear in the logarithm of the rate, constant beyond the table. */
 real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate);
 
-/* Returns E', the elastic stress divided by the strain in uniaxial tension [Pa]: Young's modulus E, in plane strain
- * E/(1 - nu^2) with Poisson's ratio nu. */
+/* Returns the modulus E' [Pa] of material m, the elastic stress divided by the strain in uniaxial tension: Young's
+ * modulus E, in plane strain E/(1 - nu^2) with Poisson's ratio nu. */
 static inline real material_uniaxial_tension_modulus(const struct material *m, enum space space)
 {
     return space == SPACE_PLANE_STRAIN ? m->young / (1 - square(m->poisson)) : m->young;

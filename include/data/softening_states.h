@@ -5,9 +5,9 @@
 
 #include "data/softening.h"
 
-/* Peridynamic model of a family. A, B: moduli of a state-based model divided by the modulus E' of uniaxial tension [1],
- * B = 0 for bond-based models; rotates: bonds resist all of their deformation apart from the rotation of the particle,
- * else only their extension. */
+/* Peridynamic model of a family (a particle with its neighbours). A, B: moduli of a state-based model divided by the
+ * modulus E' of uniaxial tension [1], B = 0 for bond-based models; rotates: bonds resist all of their deformation apart
+ * from the rotation of the particle, else only their extension. */
 struct softening_model {
     real A, B;
     bool rotates;
@@ -21,15 +21,17 @@ struct softening_strength softening_model_normalised_strengths(const struct soft
                                                                real squared_stretch_ratio,
                                                                const struct softening_model *model);
 
-/* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], for a
- * family of the given bond-based or state-based model, by fixed-point iteration. m->critical_stretch must be set. If
- * the horizon is too large for this strength, the result exceeds m->critical_stretch. */
+/* Returns the stretch s_0 [1] at which bonds must begin to soften so that material m has the tensile strength
+ * m->tensile_strength, for families of the bond-based or state-based model `model`, by fixed-point iteration. space:
+ * line, plane stress, plane strain or solid. m->critical_stretch must be set. If the horizon is too large for this
+ * strength, the result exceeds m->critical_stretch. */
 real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model);
 
 /* Computes, for each strain rate of the table m->rate, by which factor the stretch at which bonds of material m begin
  * to soften exceeds that in slow loading, m->onset_stretch, so that the material has its strength at this rate. Stores
  * the factors in m->rate.onset. model: peridynamic model of the bonds. Returns the smallest ratio (critical
- * stretch/onset)^2 over all rates [1]; below RATE_LEAST_RATIO bonds would break before they reach the strength. */
+ * stretch/onset)^2 over all rates, by which the caller checks the table: below RATE_LEAST_RATIO bonds would break
+ * before they reach the strength. */
 real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
                                                   const struct softening_model *model);
 

@@ -57,8 +57,8 @@ struct region {
     struct region_run *run; /* [runs] */
 };
 
-/* Consecutive solids of a list that are all added or all subtracted, with a tree over their boxes; or a single solid
- * without a tree. */
+/* A run: the consecutive solids number first .. first + count - 1 of a region, which are all added or all subtracted.
+ * tree: search tree over their bounding boxes; empty for a single solid. */
 struct region_run {
     int first, count;
     struct box_tree tree;
@@ -69,7 +69,7 @@ struct bend {
     real centre[2], from[2], to[2];
 };
 
-/* A polygon in the plane, whose edges do not cross and whose corners may be rounded. */
+/* A polygon in the plane with n corners, whose edges do not cross and whose corners may be rounded. */
 struct polygon {
     int n;
     real (*corner)[2]; /* as given in the scene [m] */
@@ -101,68 +101,69 @@ struct solid {
     struct box_tree tree;            /* over the boxes of the copies */
 };
 
-/* Returns true if the solid is of the given kind and has not been moved or copied, so that its members from, to, radius
- * and so on give its position. */
+/* Returns true if the solid s is of the kind `kind` and has not been moved or copied, so that its members (from, to,
+ * radius, ...) describe its actual position. */
 static inline bool solid_is_of_kind_and_not_moved(const struct solid *s, enum solid_kind kind)
 {
     return s->kind == kind && s->images == 0;
 }
 
-/* Returns the signed distance of the point X (dim components [m]) from the surface of the solid, negative inside [m];
+/* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the solid s, negative inside;
  * exact outside. normal: receives the outward unit normal of the nearest surface point. */
 real solid_signed_distance(const struct solid *s, const real *X, int dim, real *normal);
 
-/* Returns a value that is negative inside the solid, 0 on its surface and positive outside [m]; beside a flat face it
+/* Returns a level [m] that is negative inside the solid s, 0 on its surface and positive outside; beside a flat face it
  * is the signed distance. For boxes and cylinders it is the largest of the signed distances from the planes and the
  * mantle that bound them, so that the points with a level below a tolerance form a larger box or cylinder with sharp
- * edges. X: dim components [m]. */
+ * edges. X: point, dim components [m]. */
 real solid_level_set_value(const struct solid *s, const real *X, int dim);
 
-/* Returns true if the level of the point X (dim components [m]) is at most `max_distance` [m], where the level is
- * negative inside the solid, 0 on its surface and positive outside (solid_level_set_value). It is faster than computing
- * the level. */
+/* Returns true if the level of the solid s at the point X (dim components [m]) is at most `max_distance` [m]. The level
+ * is negative inside the solid, 0 on its surface and positive outside (solid_level_set_value). It is faster than
+ * computing the level. */
 bool solid_level_set_is_at_most(const struct solid *s, const real *X, int dim, real max_distance);
 
-/* Computes a box that contains the solid with all its copies, slightly enlarged, as box_tree_make needs it. Sides on
- * which the solid is unbounded are infinite. */
+/* Computes into *box a box, slightly enlarged, that contains the solid s with all its copies, as box_tree_make needs
+ * it. Sides on which the solid is unbounded are infinite. dim: dimension of the body. */
 void solid_bounding_box(const struct solid *s, int dim, struct bounds *box);
 
-/* Returns the maximum [m] of the scalar product X . direction for the points X of the solid (support function): how far
- * it extends in this direction. direction: unit vector, dim components. */
+/* Returns how far the solid s extends in a direction (support function): the maximum [m] of the scalar product X .
+ * direction over its points X. direction: unit vector, dim components. */
 real solid_support_function(const struct solid *s, const real *direction, int dim);
 
-/* Returns the radius of a ball, cylinder, tube or ring, or the smallest half axis of an ellipsoid [m]; INFINITY for all
- * other kinds. */
+/* Returns the radius [m] of the solid s if it is a ball, cylinder, tube or ring, or the smallest half axis of an
+ * ellipsoid; INFINITY for all other kinds. dim: dimension of the body. */
 real solid_radius_if_round(const struct solid *s, int dim);
 
-/* Returns the smallest thickness of the solid, where its dimensions give it directly [m]: the diameter of a ball or
- * cylinder, the smallest axis of an ellipsoid, the wall of a tube or ring, the diameter of the section of a torus;
- * INFINITY for all other kinds. */
+/* Returns the smallest thickness [m] of the solid s, where it follows directly from the members of s: the diameter of a
+ * ball or cylinder, the smallest axis of an ellipsoid, the wall of a tube or ring, the diameter of the section of a
+ * torus; INFINITY for all other kinds. */
 real solid_least_thickness(const struct solid *s, int dim);
 
-/* Applies the motion to all present copies of the solid: moves, rotates or reflects them, or multiplies them on a grid
- * or a ring. Appends `motion` to s->motion. Returns false, without any change, if there would be more than IMAGES_MOST
- * copies. */
+/* Applies the motion `motion` to all present copies of the solid s: moves, rotates or reflects them, or multiplies them
+ * on a grid or a ring. Appends `motion` to s->motion. Returns false, without any change, if there would be more than
+ * IMAGES_MOST copies. */
 bool solid_apply_motion_if_not_too_many_copies(struct solid *s, const struct solid_motion *motion, int dim);
 
-/* Returns an upper bound of the distance along any axis between the bounding box of a solid and a point at which
- * solid_level_set_value is `level` [m]. Outside the solid a level is at least 1/sqrt(3) of the distance (least beside
- * the corner of a box), so that 1.75 times the level suffices; a negative level is returned as it is. */
+/* Returns an upper bound [m] of the distance, along any axis, between the bounding box of a solid and a point at which
+ * the level (solid_level_set_value) is `level` [m]: 1.75 `level`, because outside the solid a level is at least
+ * 1/sqrt(3) of the distance (beside the corner of a box); a negative level is returned as it is. */
 static inline real solid_distance_bound_from_level(real level) { return level > 0 ? 1.75 * level : level; }
 
-/* Estimates the cost of one query of the solid, in queries of a simple solid such as a ball [1]: adds up all copies,
- * the solids of a group, and the edges of a polygon. */
+/* Returns an estimate of the cost of one query of the solid s, divided by that of a simple solid such as a ball: adds
+ * up all copies, the solids of a group, and the edges of a polygon. */
 real solid_query_cost_relative_to_ball(const struct solid *s);
 
-/* Releases the arrays, polygon and regions that the solid owns. */
+/* Releases the arrays, the polygon and the region that the solid s owns. */
 void solid_free(struct solid *s);
 
-/* Faults of a polygon: edge of no length, no area, crossing edges, edges too short for the corner radius. */
+/* Faults of a polygon: none (FINE), an edge without length (SHORT), no area (FLAT), crossing edges (CROSSED), an edge
+ * too short for the corner radius (TIGHT). */
 enum polygon_fault { POLYGON_FINE, POLYGON_SHORT, POLYGON_FLAT, POLYGON_CROSSED, POLYGON_TIGHT };
 
 /* Checks the polygon p and computes its orientation (p->sense) and the arcs of its rounded corners (p->bend) from its
- * corners and corner radius. Returns POLYGON_FINE, or the fault that was found; *faulty_corner then receives the number
- * of the corner at which it is, if it is at one. */
+ * corners and corner radius. Returns POLYGON_FINE or the fault that was found. *faulty_corner receives the number of
+ * the corner at which the fault is, if it is at a corner. */
 enum polygon_fault polygon_check_and_complete(struct polygon *p, int *faulty_corner);
 
 #endif

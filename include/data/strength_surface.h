@@ -12,7 +12,8 @@
 
 #include "base/base.h"
 
-/* A strength surface of Drucker and Prager: U = (sqrt(J2) + g1 I1)/g0 = 1. g0 = 0: the material has none. */
+/* A strength surface of Drucker and Prager, on which a material fails: (sqrt(J2) + g1 I1)/g0 = 1, with the first
+ * invariant I1 of the stress and the second invariant J2 of its deviator. g0 = 0: the material has no such surface. */
 struct strength_surface {
     real g0, g1; /* [Pa] [1] */
 };
@@ -29,9 +30,9 @@ struct strength_surface strength_surface_from_hydrostatic(real tensile_strength,
  * [Pa]; tensile_strength/2 < biaxial_strength <= tensile_strength. */
 struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength);
 
-/* Returns the value U of a stress on the strength surface s, its ratio to the strength [1]: 1 on the surface, below 1
- * inside. xx, yy, zz: normal stresses [Pa]; shear_squares: sum of the squares of the shear stresses xy, yz, zx
- * [Pa^2]. */
+/* Returns the ratio U = (sqrt(J2) + g1 I1)/g0 of a stress to the stress on the strength surface s that has the same
+ * direction: 1 on the surface, below 1 inside. xx, yy, zz: normal stresses [Pa]; shear_squares: sum of the squares of
+ * the shear stresses xy, yz, zx [Pa^2]. */
 static inline real strength_surface_stress_ratio(const struct strength_surface *s, real xx, real yy, real zz,
                                                  real shear_squares)
 {
@@ -39,9 +40,10 @@ static inline real strength_surface_stress_ratio(const struct strength_surface *
     return (sqrt(J2) + s->g1 * (xx + yy + zz)) / s->g0;
 }
 
-/* Returns the value U of a stress on the strength surface s, its ratio to the strength [1]: 1 on the surface, below 1
- * inside. stress: dim (dim + 1)/2 symmetric components [Pa]; across: in 2D, the stress normal to the plane divided by
- * the sum of the two normal stresses in the plane [1]: Poisson's ratio in plane strain, 0 in plane stress. */
+/* Returns the ratio U = (sqrt(J2) + g1 I1)/g0 of a stress to the stress on the strength surface s that has the same
+ * direction: 1 on the surface, below 1 inside. stress: components xx yy xy in 2D, xx yy zz xy yz zx in 3D [Pa]; across:
+ * in 2D, the stress normal to the plane divided by the sum of the two normal stresses in the plane [1]: Poisson's ratio
+ * in plane strain, 0 in plane stress. */
 static inline real strength_surface_stress_ratio_of_tensor(const struct strength_surface *s, const real *stress,
                                                            real across, const int dim)
 {
@@ -51,9 +53,9 @@ static inline real strength_surface_stress_ratio_of_tensor(const struct strength
     return strength_surface_stress_ratio(s, stress[0], stress[1], zz, shear_squares);
 }
 
-/* Returns the strength of a material under stresses that grow in proportion [Pa]: the number by which the three
- * principal values direction[3] [1] must be multiplied to reach the strength surface s; INFINITY if they never reach
- * it. */
+/* Returns the strength [Pa] of a material under principal stresses that grow in proportion: the number by which the
+ * three principal values direction[3] [1] must be multiplied to reach the strength surface s; INFINITY if they never
+ * reach it. */
 real strength_surface_strength_along(const struct strength_surface *s, const real *direction);
 
 #endif

@@ -12,14 +12,15 @@
  * number of threads. Blocks are counted from the grid's absolute node 0, so that a growing grid keeps them. */
 enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 
-/* Padding of the order in entries, so that prefetching may read beyond its end. */
+/* Number of entries allocated beyond the end of transfer_order.particle, so that prefetching may read there. */
 enum { ORDER_AHEAD = 64 };
 
-/* Returns the length of a block along direction `axis` [cells]. Blocks are boxes of grid cells by which particles are
+/* Returns the length [grid cells] of a block along axis `axis`. Blocks are boxes of grid cells by which particles are
  * sorted. */
 static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
-/* The order in which particles on the grid are processed. All arrays are owned. */
+/* The order in which material points on the grid are processed: by colour, block (a box of grid cells) and cell, where
+ * blocks of one colour share no node and may be processed in parallel. All arrays are owned. */
 struct transfer_order {
     int64_t n, room;                /* particles on the grid; capacity */
     int32_t *particle;              /* sorted by colour, then block, then cell, then index */
@@ -37,12 +38,12 @@ struct transfer_order {
 void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
                                         int64_t point_count, const struct grid *g);
 
-/* Enlarges the arrays of o, if necessary, for `point_count` particles, `block_count` blocks and `cell_count` cells; the
- * contents of an array that grows are lost. Does not change o->n, o->blocks and o->cells. */
+/* Enlarges the arrays of o, if necessary, for `point_count` particles, `block_count` blocks (boxes of grid cells) and
+ * `cell_count` cells; the contents of an array that grows are lost. Does not change o->n, o->blocks and o->cells. */
 void transfer_order_reserve_arrays(struct transfer_order *o, int64_t point_count, int64_t block_count,
                                    int32_t cell_count);
 
-/* Releases all arrays of o. */
+/* Releases all arrays of the order o of material points. */
 void transfer_order_free(struct transfer_order *o);
 
 #endif

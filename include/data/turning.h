@@ -19,7 +19,8 @@
 
 enum { TURNING_EDGE = 6, TURNING_FEW = 12, TURNING_NEAR = 26 };
 
-/* Particles of a group that are consecutive in memory: first .. first + n - 1, at most LANES. */
+/* Particles of one rotation group (neighbours that rotate together) that are consecutive in memory: indices first ..
+ * first + n - 1; n is at most LANES. */
 struct turning_run {
     int32_t first, n;
 };
@@ -65,7 +66,7 @@ void rotation_groups_make(struct rotation_groups *t, const struct particles *p, 
                           const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
                           int bodies);
 
-/* Releases all arrays of t. */
+/* Releases all arrays of the rotation groups t. */
 void rotation_groups_free(struct rotation_groups *t);
 
 #endif

@@ -13,7 +13,7 @@ enum {
     VOID_ACROSS = 2 /* ... and the faces on both sides of the void face each other */
 };
 
-/* Shapes with voids, and marks of the particles near them. */
+/* Shapes of bodies with voids (slots, slits, gaps between solids), and marks of the particles near these voids. */
 struct voids {
     int dim, shapes;
     const struct region **shape;       /* [shapes] shapes of bodies with voids, borrowed */
@@ -29,7 +29,7 @@ struct voids {
 bool region_has_voxel_image(const struct region *r);
 
 /* Returns true if a void (a slot, a slit or a gap) may be between two points of the shape r; false for a single convex
- * solid, an image, or no shape. */
+ * solid, a voxel image, or NULL. */
 bool region_may_have_voids(const struct region *r);
 
 /* Computes v->near, which marks the particles that a void (a slot, a slit or a gap of the shape) separates from others,
@@ -38,9 +38,10 @@ bool region_may_have_voids(const struct region *r);
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
                                     const struct image *images, real max_distance);
 
-/* Returns true if the segment between `point` and `other_point` [m] leaves the shape of body number `body_number`, so
- * that a void is between them. Symmetric in the two points. facing: NULL, or receives, if there is a void, whether its
- * two surfaces face each other. Gaps of up to 2e-5 spacings are ignored. */
+/* Returns true if the segment between `point` and `other_point` (v->dim components each [m]) leaves the shape of body
+ * number `body_number`, so that a void is between the two points. Exchanging the points does not change the result.
+ * facing: NULL, or receives, if there is a void, whether its two surfaces face each other. Gaps of up to 2e-5 spacings
+ * are ignored. */
 bool void_separates_points(const struct voids *v, int body_number, const real *point, const real *other_point,
                            bool *facing);
 
@@ -49,8 +50,8 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle);
 
-/* Returns a lower bound [m] of the distance of a particle, which is inside its body, from the surface of the shape of
- * this body. particle: index of the particle. */
+/* Returns a lower bound [m] of the distance of the particle with index `particle` of p from the surface of the shape of
+ * its body, inside which it is. v: shapes of the bodies. */
 real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle);
 
 /* Returns true if a void (a slot, a slit or a gap of the shape) separates particle i from at least one particle of its
@@ -58,7 +59,7 @@ real voids_lower_bound_of_surface_distance(const struct voids *v, const struct p
  * the result is then false. */
 static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
-/* Releases the arrays of v that it owns; shapes and mirrors stay with their owners. */
+/* Releases the arrays that v owns; shapes and mirror planes stay with their owners. */
 void voids_free(struct voids *v);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* A grid of pixels (2D) or voxels (3D) with their grey values. The array is owned. */
+/* An image: a grid of pixels (2D) or voxels (3D) with a grey value each. The array `grey` is owned. */
 struct voxels {
     int dim;
     int64_t n[DIM_MAX]; /* voxels along x, y, z; 1 in absent directions */
@@ -15,11 +15,11 @@ struct voxels {
 
 enum { GREY_MAX = UINT16_MAX, VOXELS_MAX = INT32_MAX };
 
-/* Releases the grey values of v. */
+/* Releases the grey values of the image v. */
 void voxels_free(struct voxels *v);
 
-/* Returns the grey value of the voxel that contains the point X (dim components [m]), or -1 outside the image. A point
- * on the border of two voxels belongs to the upper one. */
+/* Returns the grey value (0 .. GREY_MAX) of the voxel of image v that contains the point X (v->dim components [m]), or
+ * -1 if X is outside the image. A point on the border of two voxels belongs to the upper one. */
 int voxels_grey_value(const struct voxels *v, const real *X);
 
 /* Range of grey values low .. high, inclusive. */
@@ -28,8 +28,8 @@ struct grey_range {
 };
 enum { GREY_RANGES_MAX = 64 };
 
-/* A solid that consists of the voxels of `of` whose grey values are in one of `ranges` ranges. The array `level` has
- * one more voxel on each side of the image; these voxels are outside. */
+/* A solid that consists of the voxels of the image `of` whose grey values are in one of range[0] .. range[ranges - 1].
+ * The array `level` has one more voxel on each side than the image; these voxels are outside the solid. */
 struct voxel_part {
     const struct voxels *of;
     int ranges;
@@ -39,16 +39,16 @@ struct voxel_part {
 };
 
 /* Finds the voxels of p->of whose grey values are in the ranges p->range: sets p->voxels to their number and p->level
- * to the signed distance of each voxel centre from the surface of the solid that they form [m]. p->of and the ranges
- * must be set before. Release with voxel_part_free. */
+ * to the signed distance [m] of each voxel centre from the surface of the solid that these voxels form. p->of and the
+ * ranges must be set before. Release with voxel_part_free. */
 void voxel_part_make_from_grey_value_ranges(struct voxel_part *p);
 
-/* Releases the distances p->level. */
+/* Releases the array of distances p->level of the solid p. */
 void voxel_part_free(struct voxel_part *p);
 
-/* Returns the signed distance of the point X [m] from the surface of the solid, negative inside [m]. Its sign is exact;
- * its value is that of the centre of the voxel that contains X. normal: NULL, or receives the unit vector that points
- * out of the solid. */
+/* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the solid p, negative inside.
+ * The sign is exact; the value is the distance of the centre of the voxel that contains X. normal: NULL, or receives
+ * the unit vector that points out of the solid. */
 real voxel_part_signed_distance(const struct voxel_part *p, const real *X, real *normal);
 
 #endif
