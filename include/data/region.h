@@ -42,8 +42,9 @@ real region_support_function_bound(const struct region *r, const real *direction
  * (dim components [m]), by quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
 real region_volume_within_box(const struct region *r, int dim, const real *lower, const real *upper);
 
-/* Builds search trees over the solids of the region r if it has many, so that later queries examine only solids near
- * the point. The results of queries stay bitwise equal. The list of solids must not change afterwards. */
+/* Builds search trees over consecutive solids of the region r that are all added or all subtracted, so that later
+ * queries examine only solids near the point. The results of queries stay bitwise equal. The list of solids must not
+ * change afterwards. */
 void region_build_search_trees(struct region *r, int dim);
 
 /* Releases all solids and the search trees of the region r. */

@@ -47,8 +47,9 @@ void voxel_part_make_from_grey_value_ranges(struct voxel_part *p);
 void voxel_part_free(struct voxel_part *p);
 
 /* Returns the signed distance [m] of the point X (dim components [m]) from the surface of the solid p, negative inside.
- * The sign is exact; the value is the distance of the centre of the voxel that contains X. normal: NULL, or receives
- * the unit vector that points out of the solid. */
+ * The sign is exact; the value is the distance of the centre of the voxel that contains X (outside the image: of the
+ * nearest voxel, plus the distance of X from the image). normal: NULL, or receives the unit vector that points out of
+ * the solid. */
 real voxel_part_signed_distance(const struct voxel_part *p, const real *X, real *normal);
 
 #endif

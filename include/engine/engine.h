@@ -16,36 +16,37 @@ status engine_set_up_run(struct run *e, const struct scene *s, struct output *ou
 /* Releases all memory of the run e. Waits first for the thread that may still be writing a frame. */
 void engine_free_run(struct run *e);
 
-/* Writes a line on standard error if the bodies of a scene have so many lattice positions that its set-up takes longer
- * than some seconds: their number, which follows from volume and spacing, and the time. */
+/* Writes a line on standard error if the set-up of scene s will take longer than some seconds, because its bodies have
+ * very many lattice positions: the number of positions, which follows from volume and spacing, and the expected
+ * time. */
 void engine_announce_long_set_up(const struct scene *s);
 
-/* Estimates the peak memory of a run of a scene whose bodies are lattices [byte]. p: particles of these bodies;
- * source: materials and bond families. Bonds and grids need not exist yet. */
+/* Returns an estimate of the peak memory [byte] of a run of scene s, whose bodies consist of particles on lattices. p:
+ * particles of these bodies; source: materials and bond families. Bonds and grids need not exist yet. */
 real run_estimate_peak_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
-/* Estimates the peak memory of a run as run_estimate_peak_memory does, but for the case that all particles of the
- * bodies are peridynamic [byte]. */
+/* Returns an estimate of the peak memory [byte] of a run of scene s as run_estimate_peak_memory does, but for the case
+ * that all particles p become peridynamic. source: materials and bond families. */
 real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const struct particles *p,
                                                  const struct bond_source *source);
 
-/* Runs a scene from the present step to its end, with all reports. Returns INTERRUPTED, after a checkpoint, if a
- * signal or the wall-clock limit stops the run; FAILED if the run becomes unstable, no equilibrium is found, or a file
- * cannot be written. */
+/* Runs the scene of e, which engine_set_up_run has prepared, from the present step to its end, with all reports.
+ * Returns OK at the end; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit stops the run; FAILED if
+ * the run becomes unstable, no equilibrium is found, or a file cannot be written. */
 status engine_run_to_end(struct run *e);
 
-/* Adapts the levels of the mesh cells (0: finest; the edge of a cell doubles with each level) to the present state and
- * makes one time step. Returns FAILED if either fails. */
+/* Adapts the coarsening levels of the mesh cells of run e (0: finest; the edge of a cell doubles with each level) to
+ * the present state, then makes one time step. Returns FAILED, with a message, if one of the two fails. */
 status engine_adapt_refinement_and_step(struct run *e);
 
-/* Saves the complete state of a run between two steps to the archive if a->saving is set, else restores it from the
- * archive. run: a struct run. Returns FAILED if the file cannot be written, or if the stored state does not fit the
- * run or is inconsistent. */
+/* Saves the complete state of a run between two steps to the archive a if a->saving is true, else restores it from the
+ * archive. run: pointer to the struct run. Returns FAILED if the file cannot be written, or if the stored state does
+ * not fit the run or is inconsistent. */
 status engine_save_or_load_run_state(void *run, struct archive *a);
 
-/* Restores the state of a run from a checkpoint. run: a struct run of the same scene that engine_set_up_run has
- * created. Reports on standard error if the checkpoint was written with another instruction set. Returns FAILED if the
- * checkpoint belongs to another body or is inconsistent. */
+/* Restores the state of a run from a checkpoint, which the archive a reads. run: pointer to a struct run of the same
+ * scene that engine_set_up_run has created. Reports on standard error if the checkpoint was written with another
+ * instruction set. Returns FAILED if the checkpoint belongs to another body or is inconsistent. */
 status engine_load_checkpoint(void *run, struct archive *a);
 
 /* If the scene of run e has a PULSE probe (wave packet at an interface), runs the scene once more with material points
@@ -53,13 +54,13 @@ status engine_load_checkpoint(void *run, struct archive *a);
  * this function at the end of run e. Returns the status of the second run; OK if there is no PULSE probe. */
 status engine_run_mpm_baseline_for_pulse_probe(struct run *e);
 
-/* Checks the scene for input that is allowed but probably unintended, and adds warnings to e->warnings. Call it once,
- * before the first step. */
+/* Checks the scene of run e for input that is allowed but probably unintended, and adds warnings to e->warnings. Call
+ * it once, before the first step. */
 void engine_warn_of_suspicious_input(struct run *e);
 
-/* Writes summary.json, and fragments.csv if bodies can break into fragments, for the steps done so far. Does nothing
- * for a run without files. end_status: status with which the run ended; thread_count: number of threads. Returns FAILED
- * if a file cannot be written. */
+/* Writes the files summary.json and, if bodies can break into fragments, fragments.csv of run e for the steps done so
+ * far. Does nothing for a run without files. end_status: status with which the run ended; thread_count: number of
+ * threads. Returns FAILED if a file cannot be written. */
 status summary_write(const struct run *e, status end_status, int thread_count);
 
 #endif

@@ -6,16 +6,16 @@
 #include "fracture/tips.h"
 #include "run/run.h"
 
-/* Cracks of a run: positions of their tips, and cracks whose growth is prescribed or controlled by stress-intensity
- * factors. */
+/* Cracks of a run. tips: crack tips, tracked by the damage of particles; growth: cracks whose growth is prescribed or
+ * controlled by stress-intensity factors. */
 struct fracture_state {
     struct crack_tips tips;
     int growths;
     struct growing_crack *growth; /* [growths] */
 };
 
-/* Returns true if f has a growing crack whose bonds lose their weight gradually while the tip moves on. Other cracks
- * break the bonds at once when the tip crosses them. */
+/* Returns true if f (the cracks of a run) has a growing crack whose bonds lose their weight gradually while the tip
+ * moves on. Other cracks break the bonds at once when the tip crosses them. */
 bool cracks_have_gradually_weakening_bonds(const struct fracture_state *f);
 
 #endif

@@ -4,7 +4,8 @@
 
 #include "bonds/bonds.h"
 
-/* A fragment: a set of particles that unbroken bonds connect. */
+/* A fragment: a set of particles that unbroken bonds connect. body: number of the body it comes from; particles: number
+ * of its particles. */
 struct fragment {
     int body;
     int64_t particles;
@@ -12,7 +13,8 @@ struct fragment {
     real mass, x[DIM_MAX], v[DIM_MAX]; /* mass [kg]; centre of mass [m], velocity of the centre [m/s] */
 };
 
-/* All fragments of a body, and its particles without a bond. Both arrays are owned. */
+/* All fragments (sets of particles that unbroken bonds connect) of the bodies of a run, and the particles without a
+ * bond. Both arrays are owned. */
 struct fragments {
     int64_t n; /* fragments of two particles or more, the heaviest first */
     struct fragment *fragment;
@@ -21,12 +23,11 @@ struct fragments {
     real mass_singles; /* total mass of particles without a bond [kg] */
 };
 
-/* Finds the fragments of a body: sets of peridynamic particles that unbroken bonds of b connect. Writes them to f,
- * which is initialised here, sorted by decreasing mass; particles without a bond are only counted. Release with
- * fragments_free. */
+/* Finds the fragments: sets of peridynamic particles of p that unbroken bonds of b connect. Initialises f and stores
+ * the fragments there by decreasing mass; particles without a bond are only counted. Release with fragments_free. */
 void fragments_find_by_intact_bonds(struct fragments *f, const struct bonds *b, const struct particles *p);
 
-/* Frees the arrays of f. */
+/* Frees the arrays of f, the fragments. */
 void fragments_free(struct fragments *f);
 
 #endif

@@ -40,8 +40,8 @@
 #include "scene/requests.h"
 #include "sif.h"
 
-/* Stress-intensity factors that drive a crack. along: unit vector of the direction of the tip in whose frame they were
- * computed; the crack turns relative to this direction until new factors are available. */
+/* Stress-intensity factors that drive a crack. along: unit vector of the direction of the tip in whose frame the
+ * factors were computed; the crack turns relative to this direction until new factors are available. */
 struct growth_control {
     struct sif factors;
     real along[2];
@@ -76,29 +76,30 @@ struct growing_crack {
     struct fading *fading;
 };
 
-/* Initialises a growing crack at its start position, without growth. rule: start, direction, speed or toughness of the
- * crack; kept by reference and must outlive g. */
+/* Initialises the growing crack g at its start position, without growth. rule: start, direction, speed or toughness of
+ * the crack; kept by reference and must outlive g. */
 void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule);
 
 /* Frees the list of fading bonds of g and sets all its members to 0. */
 void growing_crack_free(struct growing_crack *g);
 
-/* Advances the growing crack g from time t by the time step dt [s]. Moves the tip by its speed times dt, adds the bonds
- * that the tip crosses to g->fading, and reduces the weights of all bonds in this list, which become 0 as the crack
- * grows on. source: bond law and neighbour search. control: present stress-intensity factors, which turn the tip to the
- * direction of the largest hoop stress and may set its speed; NULL if they are not known. Returns the number of
- * directed bonds (bond i-j counts twice) whose weight became 0. */
+/* Advances the growing crack g from the time t by the time step dt (both [s]). Moves the tip by its speed times dt,
+ * adds the bonds that the tip crosses to g->fading, and reduces the weights of all bonds in this list, which become 0
+ * as the crack grows on. b, p: bonds and particles; source: inputs of the bonds, with the neighbour search. control:
+ * present stress-intensity factors, which turn the tip to the direction of the largest hoop stress and may set its
+ * speed; NULL if they are not known. Returns the number of directed bonds (bond i-j counts twice) whose weight became
+ * 0. */
 int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,
                                                   const struct bond_source *source,
                                                   const struct growth_control *control, real t, real dt);
 
-/* Returns the angle between the initial direction of a growing crack and the straight line from its start to its tip,
- * 0 to 180 [degree], or NAN if the crack has not grown. */
+/* Returns the angle [degree], 0 to 180, between the initial direction of the growing crack g and the straight line from
+ * its start to its tip; NAN if the crack has not grown. */
 real growing_crack_deflection_angle(const struct growing_crack *g);
 
-/* Saves the state of a growing crack and its fading bonds to the archive `a` if a->saving, else restores them from it.
- * crack_number: number of the crack, part of the names of its entries in the archive. Returns FAILED if the archive
- * cannot be read or written or a stored size differs. */
+/* Saves the state of the growing crack g and its fading bonds (crossed bonds that lose their weight gradually) to the
+ * archive `a` if a->saving, else restores them from it. crack_number: number of the crack, part of the names of its
+ * entries in the archive. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status growing_crack_save_or_load(struct growing_crack *g, int crack_number, struct archive *a);
 
 #endif

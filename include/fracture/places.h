@@ -5,8 +5,9 @@
 
 #include "base/base.h"
 
-/* Reference position of a particle, X [m]. beside: true if the particle only connects others to a group and does not
- * contribute to the representative position. */
+/* A position from which a representative position of several particles is computed. X: reference position of a particle
+ * [m]; beside: true if the particle only connects others to a group and does not contribute to the representative
+ * position. */
 struct place {
     real X[DIM_MAX];
     bool beside;

@@ -21,8 +21,9 @@
 
 /* ---- gradients at particles (sif_gradient.c) --------------------------------------------------------------------- */
 
-/* Which neighbours of a particle are visible for gradients: a neighbour is hidden if one of the `cracks` cracks cuts
- * the line between the two reference positions, or if load has broken the bond between the two. */
+/* Cracks and bonds that determine which neighbours of a particle count for gradients: a neighbour is hidden, and does
+ * not count, if one of crack[cracks] cuts the line between the two reference positions, or if load has broken the bond
+ * between the two particles. */
 struct sight {
     const struct crack *crack;
     int cracks;
@@ -40,8 +41,9 @@ struct gradient_rule {
     real tip[DIM_MAX]; /* position of the tip [m] */
 };
 
-/* Weights of the gradient of a field f at particle i: df/dX_d = sum_k weight[k][d] (f(particle[k]) - f(i)) over the n
- * neighbours particle[k], for the plane components d = 0, 1. room: capacity of the arrays. */
+/* Weights by which the gradient of a field f at particle i follows from values at its neighbours: df/dX_d = sum_k
+ * weight[k][d] (f(particle[k]) - f(i)) over the n neighbours particle[k], for the plane components d = 0, 1. room:
+ * capacity of the arrays. */
 struct gradient_stencil {
     int n, room;
     int32_t *particle;
@@ -58,7 +60,7 @@ struct gradient_stencil {
 void gradient_stencil_compute_weights(struct gradient_stencil *s, const struct gradient_rule *rule,
                                       const struct particles *p, const struct cells *c, int64_t particle);
 
-/* Frees the arrays of a stencil. */
+/* Frees the arrays of the gradient stencil s. */
 void gradient_stencil_free(struct gradient_stencil *s);
 
 /* Computes the gradient of a plane vector field at the particle with index `particle`: gradient[a][b] = d field_a/dX_b.
@@ -91,8 +93,8 @@ struct sif_tip {
     enum sif_stress stress;
 };
 
-/* Motion of all particles, mirror images included, at one time; an entry of each array for every particle. velocity and
- * acceleration are NULL for an equilibrium. */
+/* Motion of all particles, mirror images included, at one time, as arrays [component 0, 1][particle] in the plane.
+ * velocity and acceleration are NULL for an equilibrium. */
 struct sif_motion {
     const real *displacement[2], *velocity[2], *acceleration[2]; /* [m] [m/s] [m/s^2] */
     const real *body[2];   /* forces of loads divided by masses [m/s^2]; NULL: no loads inside the contours */
@@ -104,15 +106,15 @@ struct sif {
     real K[MODES], J;
 };
 
-/* Computes the weight q of the interaction integral and its slope at distance r = `distance` from the crack tip [m].
- * *weight receives q, 1 for r <= contour->inner and 0 for r >= contour->outer; *slope receives dq/dr [1/m]. form:
+/* Computes the weight q of the interaction integral and the slope of q at distance r = `distance` from the crack tip
+ * [m]. *weight receives q, 1 for r <= contour->inner and 0 for r >= contour->outer; *slope receives dq/dr [1/m]. form:
  * function by which q decreases between the two radii. */
 void sif_contour_weight(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
 
-/* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
- * frame of the crack tip, x[0] ahead of the tip [m]; contour: radii where the weight q decreases from 1 and reaches 0;
- * actual, auxiliary: the two motions at the point, in the same frame; inertia_factor: factor 0 to 1 on the second sum
- * of I, which has the inertia terms [1]. */
+/* Returns the integrand [N/m^3] of the interaction integral I at a point, i.e. the contribution of the point divided by
+ * its area. tip: crack tip and elastic constants; x: position of the point in the frame of the crack tip, x[0] ahead of
+ * the tip [m]; contour: radii where the weight q decreases from 1 and reaches 0; actual, auxiliary: the two motions at
+ * the point, in the same frame; inertia_factor: factor, 0 to 1, on the part of I with the inertia terms. */
 real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *contour, const real x[2],
                                const struct crack_state *actual, const struct crack_state *auxiliary,
                                real inertia_factor);
@@ -125,10 +127,10 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
                                          const struct sif_motion *motion, const struct gradient_rule *rule,
                                          const struct particles *p, const struct cells *c, struct sif *result);
 
-/* Returns the largest relative difference between the results of `contour_count` contours [1]: the largest minus the
- * smallest K_I, or K_II, divided by sqrt(K_I^2 + K_II^2) of the mean factors, or the largest minus the smallest J
- * divided by the mean J, whichever is largest. It measures how far the result depends on the radii. Returns NAN if a
- * divisor is 0. */
+/* Returns the relative spread of the stress-intensity factors result[contour_count], each computed with another contour
+ * (annulus round the crack tip): the largest minus the smallest K_I, or K_II, divided by sqrt(K_I^2 + K_II^2) of the
+ * mean factors, or the largest minus the smallest J divided by the mean J, whichever is largest. The spread measures
+ * how far the result depends on the radii. Returns NAN if a divisor is 0. */
 real sif_relative_spread_over_contours(const struct sif *result, int contour_count);
 
 #endif

@@ -33,10 +33,10 @@ struct tip_view {
     int cracks;
 };
 
-/* Computes K_I and K_II of a crack tip by a least-squares fit of the series of Williams to the displacements of the
- * particles round the tip. view: position and direction of the tip, radii between which particles are fitted, and
+/* Computes K_I and K_II of a crack tip by a least-squares fit of the series of Williams to the displacements of
+ * particles of p round the tip. view: position and direction of the tip, radii between which particles are fitted, and
  * cracks that hide particles. K: receives the two factors [Pa m^(1/2)], in the frame with the x axis view->along.
- * Returns false, with K = 0, if too few particles are visible from the tip. */
+ * Returns true, or false with K = 0 if too few particles are visible from the tip. */
 bool crack_tip_fit_sif_to_displacements(const struct tip_view *view, const struct particles *p, real K[MODES]);
 
 #endif

@@ -20,7 +20,8 @@
 #include "data/particles.h"
 #include "data/region.h"
 
-/* Damage above which a particle counts as part of a crack [1]. */
+/* Damage (share of broken bonds, 0 to 1) above which a particle counts as part of a crack; TIPS_MAX: largest number of
+ * tips. */
 #define TIP_DAMAGE 0.35
 enum { TIPS_MAX = 64 };
 
@@ -56,13 +57,13 @@ struct crack_tips {
     real *growth; /* [samples][TIPS_MAX] growth of every tip, without `joined` [m] */
 };
 
-/* Returns true if a crack tip starts at `end` (coordinates [m]), the end of a pre-crack: it is inside a body and not at
- * a face of it. */
+/* Returns true if one of the crack tips t started at `end` (t->dim coordinates [m]), an end of a pre-crack. This is so
+ * if the end is inside a body and not at a face of it. */
 bool tips_start_at_precrack_end(const struct crack_tips *t, const real *end);
 
 /* Excludes from all cracks the particles that pre-cracks damage by more than TIP_DAMAGE, so that crack tips do not grow
- * through them. Needed for pre-cracks that are slits (free surfaces) of the mesh. cut_fraction: for each particle, the
- * share of its bonds that pre-cracks cut once the particle has bonds [1]. */
+ * through them. Needed for pre-cracks that are slits (free surfaces) of the mesh. t: crack tips; cut_fraction: for each
+ * particle, the share (0 to 1) of its bonds that pre-cracks cut once the particle has bonds. */
 void tips_ignore_particles_damaged_by_precracks(struct crack_tips *t, const real *cut_fraction);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
@@ -73,24 +74,24 @@ void tips_make_at_precrack_ends(struct crack_tips *t, const struct particles *p,
                                 const struct crack *precrack, int precrack_count, real spacing,
                                 real speed_averaging_time);
 
-/* Assigns particles whose damage has come to exceed TIP_DAMAGE to cracks, and updates position, growth and speed of all
- * tips. Damage away from all cracks makes new tips. p: particles with their present damage; c: neighbour search over
- * the reference positions; time: present time [s]. */
+/* Assigns particles whose damage exceeds TIP_DAMAGE since the last call to cracks, and updates position, growth and
+ * speed of all tips in t. Where the damage is away from all cracks, a new tip starts. p: particles with their present
+ * damage; c: neighbour search over the reference positions; time: present time [s]. */
 void tips_update_from_damage(struct crack_tips *t, const struct particles *p, const struct cells *c, real time);
 
-/* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
- * tip, 0 to 180 [degree], or NAN if the crack has not grown. dim: space dimension. */
+/* Returns the angle [degree], 0 to 180, between the direction of the pre-crack and the straight line from the start of
+ * the crack `tip` to its tip; NAN if the crack has not grown. dim: dimension of the body. */
 real tip_deflection_angle(const struct crack_tip *tip, int dim);
 
-/* Returns the speed of tip number `tip` [m/s]: the regression slope of its growth over the last t->window seconds, or 0
- * if fewer than two samples have been taken. */
+/* Returns the speed [m/s] of tip number `tip` (from 0): the regression slope of its growth over the last t->window
+ * seconds, or 0 if fewer than two samples have been taken. */
 real tips_average_speed(const struct crack_tips *t, int tip);
 
 /* Returns the tip with the largest growth, a pointer into t, or NULL if no tip has grown. */
 const struct crack_tip *tips_find_tip_with_largest_growth(const struct crack_tips *t);
 
-/* Returns the number of crack ends, over all tips, whose growth is within one spacing of the largest growth; 0 if no
- * tip has grown. */
+/* Returns the number of crack ends (a branched crack has several) of all tips in t whose growth is within one particle
+ * spacing of the largest growth; 0 if no tip has grown. */
 int64_t tips_count_ends_with_largest_growth(const struct crack_tips *t);
 
 /* Returns true if the crack of `tip` grows along a plane of symmetry, so that the modelled body has only one face of
@@ -112,23 +113,24 @@ struct crack_area {
     real face, own;
 };
 
-/* Returns the area of all cracks, created up to the last sample. For a crack that starts at a pre-crack, the area of
- * one face is the sum of its growth over strips one spacing wide along the front; branches do not count. For any other
- * crack it is half the number of its particles times the area of a particle, since particles of both faces are counted;
- * in a plane of symmetry, where only one face is modelled, it is the whole number times this area. s: planes of
- * symmetry and thickness. */
+/* Returns the area [m^2] of all cracks t of the particles p, as created up to the last sample. For a crack that starts
+ * at a pre-crack, the area of one face is the sum of its growth over strips one spacing wide along the front; branches
+ * do not count. For any other crack it is half the number of its particles times the area of a particle, since
+ * particles of both faces are counted; in a plane of symmetry, where only one face is modelled, it is the whole number
+ * times this area. s: planes of symmetry and thickness. */
 struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
                                         const struct tip_surroundings *s);
 
-/* Returns the area of the cuts through a bar [m^2]: places that bonds have crossed, all of which load has broken. Of a
- * cut in a plane of symmetry half of the area is own. section: of the bar [m^2]. */
+/* Returns the area [m^2] of the cuts through a bar (1D): positions that bonds of b crossed, all of which load has
+ * broken. For a cut in a plane of symmetry, the member `own` has half of the area. section: of the bar [m^2]. */
 struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real section);
 
-/* Frees the arrays of t. */
+/* Frees the arrays of the crack tips t. */
 void tips_free(struct crack_tips *t);
 
-/* Saves the tips, the crack of each particle and the recorded samples to the archive `a` if a->saving, else restores
- * them from it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the crack tips t, the crack to which each particle belongs and the recorded samples to the archive `a` if
+ * a->saving, else restores them from it. Returns FAILED if the archive cannot be read or written or a stored size
+ * differs. */
 status tips_save_or_load(struct crack_tips *t, struct archive *a);
 
 #endif

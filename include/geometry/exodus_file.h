@@ -23,58 +23,61 @@ struct exodus_file {
 };
 
 /* Opens an Exodus II file that has been read into memory. path: its name, for messages; content[length]: its contents,
- * which must outlive f. Returns REFUSED, with a message, if it is no Exodus II file; then nothing has to be closed.
- * Close f with exodus_close. */
+ * which must outlive f. Returns REFUSED, with a message, if the contents are not those of an Exodus II file; then
+ * nothing has to be closed. Close f with exodus_close. */
 status exodus_open_from_memory(struct exodus_file *f, const char *path, const char *content, int64_t length);
 
 /* Reads the Exodus II file `path` into memory and opens it. The file is registered as an input of the command that is
- * running, so that it is not overwritten. Returns REFUSED, with a message, if it cannot be read or is no Exodus II
- * file; then nothing has to be closed. Close f with exodus_close. */
+ * running, so that it is not overwritten. Returns REFUSED, with a message, if the file cannot be read or is no Exodus
+ * II file; then nothing has to be closed. Close f with exodus_close. */
 status exodus_open_from_path(struct exodus_file *f, const char *path);
 
-/* Closes the file f and releases the memory that it owns. */
+/* Closes the Exodus II file f and releases the memory that f owns; content passed to exodus_open_from_memory stays with
+ * the caller. */
 void exodus_close(struct exodus_file *f);
 
 /* Returns true if the file name `path` has an extension of Exodus II files: .exo, .e, .ex2, .exii, .g or .gen. */
 bool path_has_exodus_extension(const char *path);
 
-/* Sets the message `path: text` and returns REFUSED. format: text as in printf. */
+/* Sets the message of a failure (status_set) to `path: text` with the path of the file f and a text composed as by
+ * printf. Returns REFUSED. */
 status exodus_report_fault(const struct exodus_file *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Returns the length of a dimension of the file, or 0 if it has no such dimension. The dimension is called `name`
- * followed by `name_suffix`, or only `name` if `name_suffix` is 0. */
+/* Returns the length of a dimension (as of netCDF) of the file f, or 0 if the file has no such dimension. The dimension
+ * is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. */
 int64_t exodus_read_dimension_length(const struct exodus_file *f, const char *name, int64_t name_suffix);
 
-/* Returns true if the file has the array that is called `name` followed by `name_suffix`, or only `name` if
+/* Returns true if the file f has the array that is called `name` followed by `name_suffix`, or only `name` if
  * `name_suffix` is 0. */
 bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t name_suffix);
 
-/* Reads an array of `count` finite numbers into a new array *value, which the caller releases with memory_free. It is
- * called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. Returns REFUSED, with a message and
- * *value NULL, if it is missing, contains no numbers, or has another size. */
+/* Reads an array of `count` finite numbers of the file f into a new array *value, which the caller releases with
+ * memory_free. In the file the array is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0.
+ * Returns REFUSED, with a message and *value NULL, if it is missing, contains no numbers, or has another size. */
 status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t count,
                          real **value);
 
-/* Reads an array of `count` whole numbers into a new array *value, which the caller releases with memory_free. It is
- * called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. Returns REFUSED, with a message and
- * *value NULL, if it is missing, contains no numbers, or has another size. */
+/* Reads an array of `count` whole numbers of the file f into a new array *value, which the caller releases with
+ * memory_free. In the file the array is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0.
+ * Returns REFUSED, with a message and *value NULL, if it is missing, contains no numbers, or has another size. */
 status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t count,
                             int64_t **value);
 
-/* Reads the coordinates of all nodes [unit of the file] into new arrays coordinates[d], d = 0 .. f->dim - 1, of
- * f->nodes numbers each. The caller must have set coordinates[d] to NULL, and releases the arrays with memory_free,
- * also after a failure. Returns REFUSED, with a message, if coordinates are missing or not finite. */
+/* Reads the coordinates of all nodes of the file f, in the unit of the file, into new arrays coordinates[d], d = 0 ..
+ * f->dim - 1, of f->nodes numbers each. The caller must have set coordinates[d] to NULL, and releases the arrays with
+ * memory_free, also after a failure. Returns REFUSED, with a message, if coordinates are missing or not finite. */
 status exodus_read_coordinates(const struct exodus_file *f, real *coordinates[DIM_MAX]);
 
-/* Reads one row of an array of text into text[NAME_MAX_LENGTH], without blanks at its end; "" if the file has no such
- * array. The array is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. row: number of the
- * row, from 0; rows: number of rows that the array must have. */
+/* Reads one row of an array of texts of the file f into text[NAME_MAX_LENGTH], without blanks at its end; "" if the
+ * file has no such array. The array is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0.
+ * row: number of the row, from 0; rows: number of rows that the array must have. */
 void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t row, int64_t rows,
                           char *text);
 
-/* Reads the properties of the block with the number `block_number` (from 1). Stores the type of its elements in capital
- * letters in type[NAME_MAX_LENGTH], their number in *elements and the number of nodes of each in *nodes_per_element.
- * Returns REFUSED, with a message, if the block has no list of nodes, or does not name the type of its elements. */
+/* Reads the properties of the element block number `block_number` (from 1) of the file f: the type of its elements in
+ * capital letters into type[NAME_MAX_LENGTH], the number of elements into *elements, and the number of nodes of an
+ * element into *nodes_per_element. Returns REFUSED, with a message, if the block has no list of nodes, or does not name
+ * the type of its elements. */
 status exodus_read_block_header(const struct exodus_file *f, int64_t block_number, char *type, int64_t *elements,
                                 int64_t *nodes_per_element);
 

@@ -16,7 +16,7 @@ struct geometry_set {
     struct hull hull;
 };
 
-/* A body and its named parts, all in metres. */
+/* The surface of a body and its named parts set[sets], all coordinates in metres. */
 struct geometry {
     struct hull whole; /* surface of the body */
     int sets;          /* length of `set` */
@@ -37,10 +37,10 @@ const struct geometry_set *geometry_find_named_part(const struct geometry *g, co
 /* Releases all arrays of g and zeroes it. */
 void geometry_free(struct geometry *g);
 
-/* Finds slits in the mesh from which the closed surface h was made: pairs of faces that coincide because their nodes
- * are doubled. Appends each slit as a pre-crack to the array *crack and increases *cracks, the length of this array. In
- * 3D adjacent coplanar faces become one crack if they form a convex polygon. The caller releases the array and the
- * `corner` of each crack with memory_free. */
+/* Finds slits in the finite-element mesh from which the closed surface h was made: pairs of faces that coincide because
+ * their nodes are doubled. Appends each slit as a pre-crack to the array *crack and increases *cracks, the length of
+ * this array. In 3D adjacent coplanar faces become one crack if they form a convex polygon. The caller releases the
+ * array and the `corner` of each crack with memory_free. */
 void geometry_append_slits_as_precracks(const struct hull *h, struct crack **crack, int *cracks);
 
 #endif

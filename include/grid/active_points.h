@@ -12,8 +12,8 @@
 #include "loads/loads.h"
 #include "data/transfer_order.h"
 
-/* Cells and points of the background grid that transfers include; the others are still at rest. All arrays are
- * owned. */
+/* Grid cells and material points that transfers between points and background grid include; all others are still at
+ * rest. active: these points, sorted by cell. All arrays are owned. */
 struct active_points {
     bool over; /* all cells are active for the rest of the run */
     int64_t nodes;
@@ -25,11 +25,11 @@ struct active_points {
 enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches for the cells that motion can reach */
 
 /* Finds the material points whose cells motion can reach in the next steps, so that transfers between points and grid
- * can skip all others. full_order: points sorted by cell; previous_order: the sorted points that transfers have used so
- * far; grid: background grid with the prescribed nodal velocities (walls) of the previous step; b: bonds; loads:
- * boundary conditions; shape, transfer: shape functions and transfer scheme (FLIP or APIC), which determine how far
- * motion spreads in a step. Returns the active points in the same order, which r owns, or `full_order` if all points
- * are active. */
+ * can skip all others. r: the result of the last call, updated; full_order: points sorted by cell; previous_order: the
+ * sorted points that transfers have used so far; grid: background grid with the prescribed nodal velocities (walls) of
+ * the previous step; b: bonds; p: particles; loads: boundary conditions; shape, transfer: shape functions and transfer
+ * scheme (FLIP or APIC), which determine how far motion spreads in a step. Returns the active points in the same order,
+ * which r owns, or `full_order` if all points are active. */
 const struct transfer_order *active_points_update_transfer_order(struct active_points *r,
                                                                  const struct transfer_order *full_order,
                                                                  const struct transfer_order *previous_order,
@@ -37,7 +37,7 @@ const struct transfer_order *active_points_update_transfer_order(struct active_p
                                                                  const struct bonds *b, const struct loads *loads,
                                                                  enum shape shape, enum transfer transfer);
 
-/* Frees the arrays of r and sets all members to 0. */
+/* Frees the arrays of r (cells and points that transfers include) and sets all its members to 0. */
 void active_points_free(struct active_points *r);
 
 #endif

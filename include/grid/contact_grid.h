@@ -17,7 +17,8 @@ struct grid_contact_side {
     int64_t from[DIM_MAX], to[DIM_MAX];
 };
 
-/* A node that material points of two bodies reach, so that contact may act there. side: numbers of the two bodies. */
+/* A grid node that material points of two bodies reach, so that contact may act there. side: numbers (from 0) of the
+ * two bodies, of which the first is called first body below. */
 struct grid_contact_node {
     int side[2];
     int64_t at[2]; /* index of the node in the two grids */
@@ -52,37 +53,38 @@ struct grid_contact {
 void grid_contact_make(struct grid_contact *c, int body_count);
 
 /* Initialises *side, one of the bodies in contact: its background grid g, its points sorted by cell, `order`, and the
- * range of nodes that these points reach, which is computed. g and order are kept by reference. */
+ * range of nodes that these points (of p) reach, which is computed here. g and order are kept by reference. */
 void grid_contact_side_make_for_body(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
                                      const struct particles *p);
 
-/* Lists the nodes that material points of two bodies reach, with the normal from one body to the other and the
- * positions of the outermost points along it. side: grid and points of each body, c->sides elements. */
+/* Lists in c->node the grid nodes that material points of two bodies reach, with the normal from one body to the other
+ * and the positions of the outermost points along this normal. p: particles; side: grid and points of each body,
+ * c->sides elements. */
 void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_contact_side *side,
                                     const struct particles *p);
 
 /* Exchanges momentum between two bodies at each node that grid_contact_find_shared_nodes has listed, if they touch and
  * approach there: normal momentum without rebound, tangential momentum by friction. Changes the nodal velocities of the
  * grids of both bodies, and the velocity increments stored in their nodal forces. side: grids and points of the bodies,
- * c->sides elements. Returns the energy dissipated [J]. */
+ * c->sides elements. Returns the energy [J] dissipated by these exchanges. */
 real grid_contact_apply_impulses_and_return_loss(struct grid_contact *c, const struct grid_contact_side *side);
 
-/* Returns the part of the energy dissipated by contact in this step that grid_contact_apply_impulses_and_return_loss
- * does not include [J], and adds it to c->dissipated. With the FLIP transfer, the moved points are mapped to the nodes
- * a second time to compute their strain. The part is the sum over nodes of J . (w' - w)/2: contact impulse J, relative
- * velocity w of the two bodies just after the impulse and w' after the second mapping. side: grids of the bodies,
- * c->sides elements. */
+/* Returns the part [J] of the energy dissipated by contact in this step that
+ * grid_contact_apply_impulses_and_return_loss does not include, and adds this part to c->dissipated. With the FLIP
+ * transfer, the moved points are mapped to the nodes a second time to compute their strain. The part is the sum over
+ * nodes of J . (w' - w)/2: contact impulse J, relative velocity w of the two bodies just after the impulse and w' after
+ * the second mapping. side: grids of the bodies, c->sides elements. */
 real grid_contact_energy_lost_by_second_mapping(struct grid_contact *c, const struct grid_contact_side *side);
 
-/* Records the times of first and last contact: if bodies touched at nodes in the last step, c->ended becomes t [s], and
- * c->began, too, if it is still NAN. */
+/* Records the times of first and last contact of material points on grids: if bodies touched at nodes in the last step,
+ * c->ended becomes t [s], and c->began, too, if it is still NAN. */
 void grid_contact_record_first_and_last_contact(struct grid_contact *c, real t);
 
-/* Saves energies and times of contact to the archive `a` if a->saving, else restores them from it. Returns FAILED if
- * the archive cannot be read or written or a stored size differs. */
+/* Saves energies and times of the contact c to the archive `a` if a->saving, else restores them from it. Returns FAILED
+ * if the archive cannot be read or written or a stored size differs. */
 status grid_contact_save_or_load(struct grid_contact *c, struct archive *a);
 
-/* Frees the arrays of c. */
+/* Frees the arrays of c, the contact of material points on grids. */
 void grid_contact_free(struct grid_contact *c);
 
 #endif

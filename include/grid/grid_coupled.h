@@ -9,7 +9,8 @@
 #include "data/transfer_order.h"
 #include "scene/requests.h"
 
-/* The peridynamic particles that the background grid moves in this step. All arrays are owned. */
+/* The n peridynamic particles that the background grid moves in this step, and the grid cells that hold material
+ * points. All arrays are owned. */
 struct grid_coupled {
     struct transfer_order order; /* cell order of the grid-coupled particles */
     int32_t *list;               /* [n] grid-coupled particles in ascending order */
@@ -24,11 +25,11 @@ struct grid_coupled {
 void grid_coupled_select_particles_moved_by_grid(struct grid_coupled *c, enum coupling coupling, struct particles *p,
                                                  const struct grid *g);
 
-/* Empties the list of peridynamic particles that the grid moves, and clears FLAG_GRID_COUPLED of these particles. It
- * serves steps in which no material points are left on the grid. */
+/* Empties the list of peridynamic particles that the grid moves, and clears FLAG_GRID_COUPLED of these particles. For
+ * steps in which no material points are left on the grid. */
 void grid_coupled_clear_particles_moved_by_grid(struct grid_coupled *c, struct particles *p);
 
-/* Frees the arrays of c. */
+/* Frees the arrays of c, the list of peridynamic particles that the grid moves. */
 void grid_coupled_free(struct grid_coupled *c);
 
 #endif

@@ -20,7 +20,7 @@ struct grid_field {
     int32_t *list; /* [n] points of the body in ascending order; NULL: all points */
 };
 
-/* Material points on the grid of the current frame. */
+/* Material points on background grids that are in the current frame: all grids of a run, and what is common to them. */
 struct grid_method {
     int fields; /* number of grids: 1, or one for each body */
     struct grid_field *field;
@@ -34,57 +34,60 @@ struct grid_method {
     real spacing;       /* of particles [m] */
 };
 
-/* Makes the background grids of a run: one for all bodies, or one for each body if material points of several bodies
- * can be in contact. Sets cell size and positions of the nodes; grid_sort_points_into_cells allocates the nodes later.
- * May be called again, with another `nodes_midway_between_particles`, to change the positions of the nodes. s: scene;
- * nodes_midway_between_particles: true if bodies are in the reference frame, whose particles must be midway between
- * nodes. */
+/* Makes the background grids mpm of a run: one for all bodies, or one for each body if material points of several
+ * bodies can be in contact. Sets cell size and positions of the nodes; grid_sort_points_into_cells allocates the nodes
+ * later. May be called again, with another `nodes_midway_between_particles`, to change the positions of the nodes. s:
+ * scene; nodes_midway_between_particles: true if bodies are in the reference frame, whose particles must be midway
+ * between nodes. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p,
                            bool nodes_midway_between_particles);
 
-/* Makes groups of material points that share a rotation (data/turning.h), so that FLIP conserves angular momentum. Does
- * nothing if no body is free to rotate, in 1D, and for transfers other than FLIP. loads: boundary conditions, which may
- * prevent rotation; coupling: how material points and peridynamic particles are coupled. */
+/* Makes the groups mpm->turning of material points of p that rotate together (data/turning.h), so that the FLIP
+ * transfer conserves angular momentum. Does nothing if no body is free to rotate, in 1D, and for transfers other than
+ * FLIP. loads: boundary conditions, which may prevent rotation; coupling: how material points and peridynamic particles
+ * are coupled. */
 void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
                                const struct scene *s, enum coupling coupling);
 
-/* Returns by how much the shape function of an unstretched material point extends beyond the nodes of its cell [m]. */
+/* Returns the length [m] by which the shape function of an unstretched material point of scene s extends beyond the
+ * nodes of its cell; 0 for linear shape functions. */
 real grid_shape_reach_beyond_cell(const struct scene *s);
 
-/* Computes the position of one node of the background grid, from which all others follow, into `node_position`, dim
- * components [m]. body_corner: lower corner of the first body [m]; lattice_site: position of one particle of its
- * lattice [m]; midway_between_particles: true to place nodes midway between particles. */
+/* Chooses the position of the nodes of the background grid of scene s: stores the position of one node, from which all
+ * others follow, in `node_position` (dim components [m]). body_corner: lower corner of the first body [m];
+ * lattice_site: position of one particle of its lattice [m]; midway_between_particles: true to place nodes midway
+ * between particles. */
 void grid_choose_reference_node_position(const struct scene *s, const real *body_corner, const real *lattice_site,
                                          bool midway_between_particles, real *node_position);
 
-/* Returns the number of the first body in group number `group` of the bodies of the scene. A group, counted from 0, is
- * a set of bodies that are joined to each other, or a single body. Returns -1 if there are no more than `group`
- * groups. */
+/* Returns the number of the first body in group number `group` (from 0) of the bodies of scene s. A group is a set of
+ * bodies that are joined to each other, or a single body. Returns -1 if there are no more than `group` groups. */
 int joined_bodies_first_body_of_group(const struct scene *s, int group);
 
-/* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits (pre-cracks) and
- * voids (narrow gaps) then cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */
+/* Returns true if the plane of a mirror boundary of scene s does not pass through nodes of the grid g. Slits
+ * (pre-cracks) and voids (narrow gaps) then cannot divide a mesh on these nodes, because the doubled nodes have no
+ * mirror nodes. */
 bool grid_has_mirror_plane_between_nodes(const struct grid *g, const struct scene *s);
 
-/* Sorts the material points into the cells of their background grids, extends the grids as needed, and selects the
- * peridynamic particles that a grid moves. position_not_finite: receives true if the position of a point is not finite;
- * nothing is sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
+/* Sorts the material points of run e into the cells of their background grids, extends the grids as needed, and selects
+ * the peridynamic particles that a grid moves. position_not_finite: receives true if the position of a point is not
+ * finite; nothing is sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
 status grid_sort_points_into_cells(struct run *e, bool *position_not_finite);
 
-/* Maps mass, momentum and forces of the material points to the nodes of the background grids. kernels: compiled loops
- * for the vector instructions of this machine; timers: receives the time spent. */
+/* Maps mass, momentum and forces of the material points of p to the nodes of the background grids of mpm. kernels:
+ * compiled loops for the vector instructions of this machine; timers: receives the time spent. */
 void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
                               struct timers *timers);
 
-/* Advances the material points on the background grids by one time step: moves the nodes under their forces, with
- * contact and boundary conditions, then updates positions, velocities, strain and stress of the points. t_middle: time
- * in the middle of the step [s]. Returns FAILED, with a message, if points that have left their cells need a grid with
- * too many nodes. */
+/* Advances the material points of run e on the background grids by one time step: moves the nodes under their forces,
+ * with contact and boundary conditions, then updates positions, velocities, strain and stress of the points. t_middle:
+ * time in the middle of the step [s]. Returns FAILED, with a message, if points that have left their cells need a grid
+ * with too many nodes. */
 status grid_advance_material_points_one_step(struct run *e, real t_middle);
 
-/* Returns the power of all forces on the material points on the background grids, the sum of v . f over the nodes at
- * the current positions [W]. Nothing is moved, but the recorded reactions and work of the loads change. t_middle:
- * current time plus half a time step [s]. Returns 0 if no particles are on a grid. */
+/* Returns the power [W] of all forces on the material points of run e that are on background grids: the sum of v . f
+ * over the nodes at the current positions. Nothing is moved, but the recorded reactions and work of the loads change.
+ * t_middle: current time plus half a time step [s]. Returns 0 if no particles are on a grid. */
 real grid_power_of_forces(struct run *e, real t_middle);
 
 #endif

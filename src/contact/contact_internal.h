@@ -24,16 +24,17 @@
  * it. ROW_ACTIVE: its own contact is evaluated. */
 enum row_state { ROW_FAR, ROW_NEAR, ROW_SOURCE, ROW_ACTIVE };
 
-/* Contacts found in a step: number of contacts (touching), largest overlap [m], and the particle with the largest
- * overlap (deepest). */
+/* Summary of the contacts of a step. touching: number of contacts; overlap: largest overlap [m]; deepest: index of the
+ * particle with the largest overlap. */
 struct contact_found {
     real overlap;
     int64_t touching;
     int32_t deepest;
 };
 
-/* Adds one contact of particle `particle` to *found, the contacts of a step: counts it, and stores overlap and particle
- * if the overlap [m] is the largest so far. Of equal overlaps the particle with the lowest index is stored. */
+/* Adds one contact of particle `particle` to *found, the summary of the contacts of a step: counts the contact, and
+ * stores overlap and particle if `overlap` [m] is the largest so far. Of equal overlaps the particle with the lowest
+ * index is stored. */
 static inline void contact_found_add_overlap(struct contact_found *found, real overlap, int32_t particle)
 {
     const bool first = overlap == found->overlap && particle < found->deepest;
@@ -64,15 +65,15 @@ static inline real contact_pair_stiffness(const struct contact *c, const struct 
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
 }
 
-/* Returns true if contact is possible in this run: between particles or with rigid bodies. */
+/* Returns true if contact is possible in the run of c: between particles or with rigid bodies. */
 static inline bool contact_is_possible(const struct contact *c)
 {
     return c->law.between != CONTACT_NONE || c->rigids > 0;
 }
 
 /* Returns true if contact forces may act on the particle of row `row` of the contact list (particles that may come into
- * contact) in this step. contact_activate_newly_moving_particles and contact_activate_particles_after_restart determine
- * on which they may: particles at rest, or far from all faces, are left out. */
+ * contact) in this step. They may not on particles at rest and on particles far from all faces, as
+ * contact_activate_newly_moving_particles has determined. */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
     return c->followed[row] >= ROW_SOURCE;
@@ -108,19 +109,19 @@ static inline bool contact_is_active(const uint8_t *marks, int64_t contact_numbe
     return marks ? marks[contact_number] != 0 : overlaps;
 }
 
-/* Returns the gap between the particle of row `row` of the contact list (particles that may come into contact) and the
- * nearby faces of other bodies or fragments [spacings], negative if they overlap. Only for laws of the form `surface`,
- * in which faces are smooth. */
+/* Returns the gap [spacings] between the particle of row `row` of the contact list (particles that may come into
+ * contact) and the nearby faces of other bodies or fragments, negative if they overlap. Only for laws of the form
+ * `surface`, in which faces are smooth. */
 real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the distance of the two particles of pair number `pair`, minus the distance at which their contact begins
- * [m]; negative if they overlap. row: row of the contact list (particles that may come into contact) to which the pair
- * belongs. */
+/* Returns the gap [m] of pair number `pair`: the distance of its two particles minus the distance at which their
+ * contact begins; negative if they overlap. row: row of the contact list (particles that may come into contact) to
+ * which the pair belongs. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t pair);
 
-/* Returns the distance of a particle from rigid body number `body_number` minus the distance at which contact begins
- * [m]. entry: entry of the particle in the list near this body; normal: receives the outward unit vector normal to the
- * surface. */
+/* Returns the gap [m] between a particle and rigid body number `body_number`: their distance minus the distance at
+ * which contact begins; negative if they overlap. entry: entry of the particle in the list near this body; normal:
+ * receives the outward unit vector normal to the surface. */
 real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t entry,
                                    real *normal);
 
@@ -131,23 +132,23 @@ real contact_rigid_gap_of_particle(const struct contact *c, const struct particl
 void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
                                       struct contact_term *term);
 
-/* Enables contact forces on all particles of the contact list (particles that may come into contact), also on particles
- * at rest, which time steps leave out but equilibrium solutions require. */
+/* Enables contact forces on all particles of the contact list of c (particles that may come into contact), also on
+ * particles at rest, which time steps leave out but equilibrium solutions require. */
 void contact_activate_all_listed_particles(struct contact *c);
 
-/* Saves the selection of contacts for equilibria (contact_select_active_and_count_changes) to the archive if a->saving,
- * else restores it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the selection of contacts that act in equilibria (contact_select_active_and_count_changes) to the archive a if
+ * a->saving, else restores it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a);
 
-/* Returns the distance by which the list of pairs extends beyond the contact distance [m], so that it stays complete
- * while particles move by less than half of it. */
+/* Returns the margin [m] by which the list of pairs extends beyond the contact distance. The list stays complete while
+ * particles move by less than half the margin. */
 static inline real contact_list_margin(const struct contact *c)
 {
     return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
 }
 
-/* Returns the entry of particle i in the contact list (particles that may come into contact), by bisection, or -1 if i
- * is not in it. */
+/* Returns the entry of particle i in the contact list of c (particles that may come into contact), by bisection; -1 if
+ * the particle is not in the list. */
 int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i);
 
 /* Returns the width [m] of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other`
@@ -178,8 +179,8 @@ real contact_pair_half_energy_of_particle(const struct contact *c, const struct 
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
                                  real previous_distance);
 
-/* Fills `table` for a flat face, the outermost layer of a square or cubic lattice of particles: height above this layer
- * as a function of the density that the particles of the layer give a point at this height. dim: dimensions of
+/* Computes `table` for a flat face, the outermost layer of a square or cubic lattice of particles: height above this
+ * layer as a function of the density that the particles of the layer give a point at this height. dim: dimensions of
  * space. */
 void contact_density_profile_make(struct contact_profile *table, int dim);
 
@@ -206,10 +207,11 @@ real contact_face_energy_of_particle(const struct contact *c, const struct parti
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 
-/* Returns a correcting force of a contact, the derivative of an energy by the gap [unit of stiffness times gap], which
- * removes the energy that leap-frog integration adds when contact begins or ends; 0 if no energy is to be removed. The
- * contact has the energy 1/4 stiffness gap^2. balance: account of this contact, updated if `step_was_made` is true,
- * i.e. if a time step was made since the last call; if it is false, the last force is returned again. */
+/* Returns a correcting force of a contact, a derivative of an energy by the gap in the unit of stiffness times gap,
+ * which removes the energy that leap-frog integration adds when contact begins or ends; 0 if no energy is to be
+ * removed. The contact has the energy 1/4 stiffness gap^2, gap < 0. balance: account of this contact, updated if
+ * `step_was_made` is true, i.e. if a time step was made since the last call; if it is false, the last force is returned
+ * again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
 
 /* Returns the initial account of a contact on a new list of pairs, i.e. the sum of the energy errors of leap-frog from
@@ -217,8 +219,9 @@ real contact_energy_correction_force(struct contact_balance *balance, real stiff
  * on the previous list, which is continued; NULL if the contact was not listed. */
 struct contact_balance contact_energy_correction_start_account(const struct contact_balance *previous, real gap);
 
-/* Contribution of particle l of a face to the density of the face at particle k (form `surface`): weight [1];
- * derivative of the contact energy of k by their distance, divided by the distance [N/m]; vector from l to k [m]. */
+/* Contribution of particle l of a face to the density of the face at particle k (contact law of form `surface`).
+ * weight: the contribution [1]; pull: derivative of the contact energy of k by the distance of k and l, divided by this
+ * distance [N/m]; apart: vector from l to k [m]. */
 struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
@@ -245,7 +248,7 @@ void contact_face_advance_friction_spring(struct contact *c, const struct partic
  * of two passes, after contact_face_advance_friction_spring for all particles. */
 void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
-/* Returns the elastic energy stored in all friction springs [J]. */
+/* Returns the elastic energy [J] stored in all friction springs of the contact c. */
 real contact_friction_stored_energy(const struct contact *c);
 
 /* Allocates c->reaction, by which the forces of friction springs are distributed over the particles of the opposite
@@ -253,8 +256,8 @@ real contact_friction_stored_energy(const struct contact *c);
  * with the next contact forces. */
 void contact_friction_reactions_make(struct contact *c);
 
-/* Allocates the friction springs of a new list of particles, and copies the springs of particles that were on the
- * previous list `previous`. */
+/* Allocates the friction springs of c, whose list of particles is new, and copies to them the springs of particles that
+ * were on the previous list, `previous`. */
 void contact_friction_springs_copy_from_previous(struct contact *c, const struct contact *previous);
 
 /* Copies friction spring number `previous_entry` of the previous list `previous` to *spring. Leaves *spring unchanged
@@ -262,37 +265,39 @@ void contact_friction_springs_copy_from_previous(struct contact *c, const struct
 void contact_friction_spring_copy_previous(struct contact_spring *spring, const struct contact_spring *previous,
                                            int64_t previous_entry);
 
-/* Sets the friction work of a new list of particles to that of the previous list `previous` plus the elastic energy of
- * springs that are not on the new list. */
+/* Sets the friction work of c, whose list of particles is new, to that of the previous list, `previous`, plus the
+ * elastic energy of springs of particles that are not on the new list. */
 void contact_friction_update_work_of_new_list(struct contact *c, const struct contact *previous);
 
-/* Lists for each rigid body the particles within `max_distance` [m] of its surface, with the gaps at which contact
- * begins and the friction springs. previous: the previous list, from which known particles keep gap and spring. */
+/* Lists in c->near, for each rigid body, the particles of p within `max_distance` [m] of its surface, with the gaps at
+ * which contact begins and the friction springs. previous: the previous list, from which known particles keep gap and
+ * spring. */
 void contact_rigid_list_nearby_particles(struct contact *c, const struct contact *previous, const struct particles *p,
                                          real max_distance);
 
-/* Frees the lists of particles near rigid bodies, c->near. */
+/* Frees c->near, the lists of particles near rigid bodies. */
 void contact_rigid_free_particle_lists(struct contact *c);
 
 /* Returns true if some point of a rigid body has been displaced by `min_distance` [m] or more since the last search for
- * pairs. */
+ * pairs of the contact c. */
 bool contact_rigid_has_moved_by_distance(const struct contact *c, real min_distance);
 
-/* Adds the contact forces of all rigid bodies on particles to p->f, and stores the opposite forces and moments in the
- * rigid bodies. dt: time since the last call [s], by which friction springs are stretched; found: receives largest
+/* Adds the contact forces of all rigid bodies on particles of p to p->f, and stores the opposite forces and moments in
+ * the rigid bodies. dt: time since the last call [s], by which friction springs are stretched; found: receives largest
  * overlap and number of contacts. */
 void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *found);
 
-/* Saves the lists of particles near rigid bodies to the archive if a->saving, else restores them. Returns FAILED, with
- * a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not fit. */
+/* Saves the lists of particles near rigid bodies to the archive a if a->saving, else restores them. Returns FAILED,
+ * with a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not
+ * fit. */
 status contact_rigid_save_or_load(struct contact *c, struct archive *a);
 
-/* Saves the array *array to the archive if a->saving, else allocates it and restores it from there. name: name of the
- * entry; count: number of elements; size: bytes of an element. Returns FAILED if the archive cannot be read or written
- * or the stored size differs. */
+/* Saves the array *array to the archive a if a->saving, else allocates *array with memory_new and restores it from the
+ * archive. name: name of the entry; count: number of elements; size: bytes of an element. Returns FAILED if the archive
+ * cannot be read or written or the stored size differs. */
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size);
 
-/* Returns the elastic energy of the contacts with all rigid bodies at the present positions [J]. */
+/* Returns the elastic energy [J] of the contacts of particles p with all rigid bodies at the present positions. */
 real contact_rigid_energy(const struct contact *c, const struct particles *p);
 
 #endif

@@ -7,27 +7,28 @@
 #include "bonds/sites.h"
 #include "data/cells.h"
 
-/* Lists the particles and mirror images within the cutoff of bonds around `particle`, without `particle` itself, in
- * near->at and their number in near->n. map: map of the lattice sites of the bonds, which makes this faster; NULL: a
- * search is done. */
+/* Lists the particles and mirror images of p within the cutoff of bonds around `particle`, without `particle` itself,
+ * in near->at, and stores their number in near->n. source: inputs of the bonds; map: map of the lattice sites of the
+ * bonds, which makes this faster; NULL: a search is done. */
 void particle_find_family_members(struct neighbour_list *near, const struct bond_source *source,
                                   const struct site_map *map, const struct particles *p, int64_t particle);
 
-/* Returns the share of the length of the segment from `segment_start` to `segment_end` that is inside a square or cube
- * with edges along the axes [1]. cube_centre: middle of the cube; half_edge: half of an edge of the cube [m]. Positions
- * have dim components [m]. */
+/* Returns the share (0 to 1) of the length of the segment from `segment_start` to `segment_end` that is inside a square
+ * or cube with edges along the axes. cube_centre: middle of the cube; half_edge: half of an edge of the cube [m].
+ * Positions have dim components [m]. */
 real segment_fraction_in_cube(const real *segment_start, const real *segment_end, const real *cube_centre,
                               real half_edge, int dim);
 
-/* Reflection that maps the particle `root` of the body, at X, to one of its mirror images, at X', by one or several
- * mirrors: X'_d = sign_d X_d + offset_d. */
+/* Reflection at one or several planes of symmetry that maps a particle at X to one of its mirror images at X': X'_d =
+ * sign_d X_d + offset_d, sign_d = 1 or -1, offset [m]. root: index of the particle. */
 struct reflection {
     real sign[DIM_MAX], offset[DIM_MAX];
     int64_t root;
 };
 
 /* Returns the reflection, by one or several mirrors, that maps a particle of the body to its mirror image `image`, an
- * entry of the particle arrays. It is the identity if `image` itself is a particle of the body. */
+ * entry of the particle arrays of p. The reflection is the identity if `image` itself is a particle of the body. s:
+ * inputs of the bonds. */
 struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image);
 
 /* Strain response of a bond: derivative of the force F of the bond by a uniform strain eps, times the length of the
@@ -64,7 +65,8 @@ bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_
 void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
-/* Returns half the edge of the square or cubic cell of particle i, from its volume [m]. */
+/* Returns half the edge [m] of the square or cubic cell of particle i of p, from the volume of the particle. source:
+ * inputs of the bonds. */
 real particle_cell_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
 
 /* Table for particles on a lattice (partial_table.c): for every possible bond and every cell that it crosses, the
@@ -96,7 +98,7 @@ bool partial_table_applies_to_particle(const struct particles *p, const struct b
 /* Recomputes the strain responses that the table t stores for each bond of a material point: the derivative of the
  * force of the bond by a uniform strain, times the length of the bond (struct response). point_list[point_count]:
  * indices of the points whose bonds have changed, NULL for all material points; the responses of other points are kept.
- * source: inputs of the bonds. Call before partial_table_sum_stiffness_tensor. */
+ * source: inputs of the bonds b. Call before partial_table_sum_stiffness_tensor. */
 void partial_table_update_strain_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
                                            const struct bond_source *source, const int32_t *point_list,
                                            int64_t point_count);
