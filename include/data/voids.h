@@ -29,7 +29,7 @@ struct voids {
 bool region_has_voxel_image(const struct region *r);
 
 /* Returns true if a void (a slot, a slit or a gap) may be between two points of the shape r; false for a single convex
- * solid, a voxel image, or NULL. */
+ * solid, a voxel image, or a region without solids. */
 bool region_may_have_voids(const struct region *r);
 
 /* Computes v->near, which marks the particles that a void (a slot, a slit or a gap of the shape) separates from others,

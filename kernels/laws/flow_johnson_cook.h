@@ -8,8 +8,8 @@
 #include "data/law.h"
 #include "flow_power.h"
 
-/* Returns the factor 1 - T*^m on the yield stress of the law of Johnson & Cook for eight points [1]. temperature:
- * temperatures [K]. */
+/* Returns the factor 1 - T*^m (0 to 1), by which heat reduces the yield stress in the law `law` of Johnson & Cook, for
+ * eight points with the temperatures `temperature` [K]. T*: temperature above T_room divided by T_melt - T_room. */
 static ALWAYS_INLINE lanes johnson_cook_softening(const struct law *law, lanes temperature)
 {
     const lanes hot =
@@ -18,8 +18,9 @@ static ALWAYS_INLINE lanes johnson_cook_softening(const struct law *law, lanes t
     return 1.0 - (law->johnson_cook.m == 1 ? between : lanes_power(between, law->johnson_cook.m));
 }
 
-/* Returns the yield stresses of eight points by the law of Johnson & Cook [Pa] and stores their derivatives by the
- * plastic strain in *slope [Pa]. temperature: temperatures [K]. */
+/* Returns the yield stresses [Pa] of eight points in slow flow by the law `law` of Johnson & Cook, and stores their
+ * derivatives by the plastic strain in *slope [Pa]. plastic_strain: plastic strains [1]; temperature: temperatures
+ * [K]. */
 static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes plastic_strain, lanes temperature,
                                                     lanes *slope)
 {

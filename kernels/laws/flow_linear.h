@@ -12,8 +12,8 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
-/* Returns the yield stresses of eight points with linear hardening [Pa] and stores the hardening modulus in *slope
- * [Pa]. Temperature has no effect. */
+/* Returns the yield stresses [Pa] of eight points with the plastic strains `plastic_strain` [1] by the law `law` with
+ * linear hardening, and stores the hardening modulus in *slope [Pa]. `temperature` has no effect. */
 static ALWAYS_INLINE lanes flow_stress_linear(const struct law *law, lanes plastic_strain, lanes temperature,
                                               lanes *slope)
 {
@@ -30,8 +30,8 @@ static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, la
     return (law->yield + 0.5 * law->hardening * plastic_strain) * plastic_strain;
 }
 
-/* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`:
- * the iteration of load steps needs none for a linear law. The arguments are not used. */
+/* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`,
+ * since the iteration of load steps does not need a bound for a linear law. The arguments are not used. */
 static ALWAYS_INLINE lanes plastic_strain_bound_linear(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);

@@ -16,8 +16,8 @@ static ALWAYS_INLINE lanes power_of_strain(real coefficient, real exponent, lane
     return lanes_choose(lanes_less(strain, lanes_broadcast(1e-200)), lanes_broadcast(0), power);
 }
 
-/* Returns the yield stresses sigma_y + B a^n of eight points with the plastic strains a [Pa] and stores their
- * derivatives by a in *slope [Pa]. Temperature has no effect. */
+/* Returns the yield stresses sigma_y + B a^n [Pa] of eight points with the plastic strains a = `plastic_strain` [1] and
+ * the constants of `law`, and stores their derivatives by a in *slope [Pa]. `temperature` has no effect. */
 static ALWAYS_INLINE lanes flow_stress_power(const struct law *law, lanes plastic_strain, lanes temperature,
                                              lanes *slope)
 {
@@ -34,8 +34,9 @@ static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lan
     return law->yield * plastic_strain + law->power.coefficient / (n + 1) * lanes_power(plastic_strain, n + 1);
 }
 
-/* Returns the plastic strain at which the yield stress sigma_y + B a^n equals `stress` [Pa]: 0 if `stress` is below the
- * yield stress sigma_y of plastic strain 0. Temperature has no effect. */
+/* Returns for eight points the plastic strain a [1] at which the yield stress sigma_y + B a^n of the law `law` equals
+ * `stress` [Pa]; 0 where `stress` is below sigma_y, the yield stress at plastic strain 0. `temperature` has no
+ * effect. */
 static ALWAYS_INLINE lanes plastic_strain_bound_power(const struct law *law, lanes stress, lanes temperature)
 {
     (void)temperature;

@@ -6,8 +6,9 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
-/* Returns the yield stresses of eight points [Pa]: the least of the lines of all segments of the curve at the plastic
- * strain. Stores the slope of that line in *slope [Pa]. Temperature has no effect. */
+/* Returns the yield stresses [Pa] of eight points by the hardening curve law->table: the least value that the lines of
+ * its segments have at the plastic strain `plastic_strain` [1]. Stores the slope of that line in *slope [Pa].
+ * `temperature` has no effect. */
 static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plastic_strain, lanes temperature,
                                              lanes *slope)
 {
@@ -39,7 +40,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lan
 }
 
 /* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`:
- * load steps then start from an elastic bound. The arguments are not used. */
+ * load steps then start their iteration from a bound by the elastic stress. The arguments are not used. */
 static ALWAYS_INLINE lanes plastic_strain_bound_table(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);

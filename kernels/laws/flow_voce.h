@@ -5,8 +5,9 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
-/* Returns the yield stresses sigma_y + Q (1 - exp(-b a)) of eight points with the plastic strains a [Pa] and stores
- * their derivatives by a in *slope [Pa]. Temperature has no effect. */
+/* Returns the yield stresses sigma_y + Q (1 - exp(-b a)) [Pa] of eight points with the plastic strains a =
+ * `plastic_strain` [1] and the constants of `law`, and stores their derivatives by a in *slope [Pa]. `temperature` has
+ * no effect. */
 static ALWAYS_INLINE lanes flow_stress_voce(const struct law *law, lanes plastic_strain, lanes temperature,
                                             lanes *slope)
 {
@@ -26,7 +27,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_voce(const struct law *law, lane
 }
 
 /* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`:
- * load steps then start from an elastic bound. The arguments are not used. */
+ * load steps then start their iteration from a bound by the elastic stress. The arguments are not used. */
 static ALWAYS_INLINE lanes plastic_strain_bound_voce(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);

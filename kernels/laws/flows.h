@@ -12,7 +12,7 @@
     case FLOW_##upper:                                                                                                 \
         return FLOW_CALL(lower);
 
-/* Returns the yield stresses of slow flow of eight points by the flow law `law` [Pa] and stores their derivatives by
+/* Returns the yield stresses [Pa] of eight points in slow flow by the flow law `law`, and stores their derivatives by
  * the plastic strain in *slope [Pa]. plastic_strain: plastic strains [1]; temperature: temperatures [K]. */
 static ALWAYS_INLINE lanes law_flow_stress(const struct law *law, lanes plastic_strain, lanes temperature, lanes *slope)
 {

@@ -9,8 +9,9 @@
 #define LN2_HIGH 0x1.62e42fee00000p-1
 #define LN2_LOW 0x1.a39ef35793c76p-33
 
-/* Returns log a of positive normal numbers. With a = 2^e m, m between sqrt(1/2) and sqrt(2), and f = (m - 1)/(m + 1):
- * log a = e log 2 + 2 (f + f^3/3 + ... + f^21/21), whose remainder is below 3e-18 as |f| < 0.172. */
+/* Returns the natural logarithm of eight positive normal numbers a. With a = 2^e m, m between sqrt(1/2) and sqrt(2),
+ * and f = (m - 1)/(m + 1): log a = e log 2 + 2 (f + f^3/3 + ... + f^21/21), whose remainder is below 3e-18 as |f| <
+ * 0.172. */
 static ALWAYS_INLINE lanes lanes_log(lanes a)
 {
     const lanes_bits root_half = (lanes_bits){0} + UINT64_C(0x3fe6a09e667f3bcd);
@@ -23,8 +24,8 @@ static ALWAYS_INLINE lanes lanes_log(lanes a)
     return e * LN2_HIGH + (2.0 * f + (f * f2 * sum + e * LN2_LOW));
 }
 
-/* Returns exp a. Arguments are limited to [-708, 709]. With a = k log 2 + r and |r| <= log(2)/2: 2^k times the Taylor
- * series of exp r to the 13th power, whose remainder is below 5e-18. */
+/* Returns exp(a) of eight numbers a, which are limited to -708 .. 709. With a = k log 2 + r and |r| <= log(2)/2: 2^k
+ * times the Taylor series of exp r to the 13th power, whose remainder is below 5e-18. */
 static ALWAYS_INLINE lanes lanes_exp(lanes a)
 {
     const real round = 0x1.8p52; /* added and subtracted: rounds to a whole number */
@@ -40,7 +41,7 @@ static ALWAYS_INLINE lanes lanes_exp(lanes a)
     return (lanes)((lanes_bits)sum + ((lanes_bits)shifted << 52));
 }
 
-/* Returns a^b in each lane, for numbers a >= 0 and an exponent b > 0; 0 where a is below 1e-300. */
+/* Returns a^b of eight numbers a >= 0 with one exponent b > 0; 0 where a is below 1e-300. */
 static ALWAYS_INLINE lanes lanes_power(lanes a, real b)
 {
     const lanes_mask none = lanes_less(a, lanes_broadcast(1e-300));

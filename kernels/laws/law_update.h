@@ -12,7 +12,8 @@
 #include "kernels/simd/kernel.h"
 #include "kernels/simd/lanes.h"
 
-/* State of eight points at the end of a step. Tensors have the components xx yy zz xy yz zx in every space. */
+/* State of eight material points at the end of a step, input and output of law_update. Tensors have the components xx
+ * yy zz xy yz zx in every space. */
 struct law_points {
     lanes s[SYM_MAX];      /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
     lanes before[SYM_MAX]; /* stress at the start of the step, rotated by its spin [Pa] */

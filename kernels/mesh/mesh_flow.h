@@ -18,13 +18,14 @@
 #include "mesh_laws.h"
 #include "mesh_point.h"
 
-/* Returns true if material points of the mesh can yield, i.e. if p has arrays of the plastic stress correction. p may
- * be NULL: false. */
+/* Returns true if material points of the mesh can yield, i.e. if p has arrays of the plastic stress correction. If p is
+ * NULL, returns false. */
 static ALWAYS_INLINE bool mesh_points_can_yield(const struct particles *p) { return p && p->plastic_correction[0]; }
 
-/* Computes the trial stress of material point i at the given strain and the present plastic state of the point: Hooke's
- * stress less the plastic stress correction. strain: dim x dim, row by row; only its symmetric part counts; stress:
- * receives symmetric components [Pa]; m: elastic constants of its material. */
+/* Computes the trial stress of material point i of p at the strain `strain` and the present plastic state of the point:
+ * Hooke's stress less the plastic stress correction (elastic stress of the plastic strain). strain: dim x dim, row by
+ * row, of which only the symmetric part counts; stress: receives symmetric components [Pa]; m: elastic constants of its
+ * material. */
 static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const struct elastic *m, int64_t i,
                                                const real *strain, real *stress, const int dim)
 {
@@ -32,9 +33,9 @@ static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const 
     for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] -= p->plastic_correction[k][i];
 }
 
-/* Returns the stretch of the thickness at point i of a sheet (plane stress) that yields [1]: elastic strain by Hooke's
- * law, and plastic strain without change of volume. Returns 1 in other spaces and for points that cannot yield. stress:
- * symmetric components [Pa]; m: elastic constants of its material. */
+/* Returns the stretch of the thickness [1] at point i of p in a sheet (plane stress) that yields: elastic strain by
+ * Hooke's law, and plastic strain without change of volume. Returns 1 in other spaces and for points that cannot yield.
+ * stress: symmetric components [Pa]; m: elastic constants of its material. */
 static ALWAYS_INLINE real thickness_stretch(const struct particles *p, const struct elastic *m, int64_t i,
                                             const real *stress)
 {
@@ -43,9 +44,9 @@ static ALWAYS_INLINE real thickness_stretch(const struct particles *p, const str
     return 1 - m->law->poisson / m->law->young * (stress[0] + stress[1]) - plastic;
 }
 
-/* Returns the elastic energy per volume of material point i under the given stress [J/m^3]. In plane strain of a
- * material that yields, the energy of the out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy) is included. stress:
- * symmetric components [Pa]; m: constants of its material. */
+/* Returns the elastic energy per volume [J/m^3] of material point i of p under the stress `stress`. In plane strain of
+ * a material that yields, the energy of the out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy) is included.
+ * stress: symmetric components [Pa]; m: constants of its material. */
 static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p, const struct elastic *m, int64_t i,
                                                        const real *stress, const int dim)
 {
@@ -58,9 +59,10 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
-/* Replaces value[q] of point number q of eight cells, one cell per lane, by (mean - value[q]), with the mean over the
- * points of the same cell and material. Values of materials without mean dilatation, and of lanes without a cell,
- * become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all materials. */
+/* Replaces value[q] of point number q (0 .. 2^dim - 1) of eight mesh cells, one cell per lane, by mean - value[q], with
+ * the mean over the points of the same cell and material. Values of materials without mean dilatation, and of lanes
+ * without a cell, become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all
+ * materials. */
 static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, const struct particles *p,
                                                    const struct elastic *m, const int32_t *cell,
                                                    lanes value[CORNERS_MAX], const int dim)
@@ -74,10 +76,10 @@ static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, cons
     }
 }
 
-/* Computes change[q], by how much each normal strain of point number q of eight cells changes [1] if all points of a
- * cell that have one material get one dilatation, their mean. Returns false, without values, if no point of the cells
- * has a material with mean dilatation. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; m:
- * elastic constants of all materials. */
+/* Computes by how much each normal strain of point number q of eight mesh cells changes, change[q] [1], if all points
+ * of a cell that have one material get one dilatation, the mean of theirs. Returns true; false, without values, if no
+ * point of the cells has a material with mean dilatation. cell: eight cell indices, -1 for a lane without cell; s:
+ * strain of the cells; m: elastic constants of all materials. */
 static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, const struct particles *p,
                                                        const struct elastic *m, const int32_t *cell,
                                                        const struct mesh_cell *s, lanes change[CORNERS_MAX],
@@ -97,11 +99,12 @@ static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, 
     return true;
 }
 
-/* Computes the stresses of the points number `point` of eight cells, one cell in each vector lane. cell: eight cell
- * indices, -1 for a lane without cell; s: strain of the cells; change: added to the normal strains of the points [1],
- * NULL: nothing; m: elastic constants of all materials; stress: receives symmetric components [Pa], 0 in lanes without
- * a point. If flows is true, applies return mapping in load steps, updates the plastic state of the points and returns
- * 0. If it is false, returns the sum of the elastic energies per volume of the points [J/m^3]. */
+/* Computes the stresses of the points number `point` (0 .. 2^dim - 1) of eight mesh cells, one cell in each vector
+ * lane. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; change: added to the normal
+ * strains of the points [1], NULL: nothing; m: elastic constants of all materials; stress: receives symmetric
+ * components [Pa], 0 in lanes without a point. If flows is true, applies return mapping in load steps, updates the
+ * plastic state of the points and returns 0. If it is false, returns the sum of the elastic energies per volume of the
+ * points [J/m^3]. */
 static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, const struct particles *p,
                                                      const struct elastic *m, const int32_t *cell,
                                                      const struct mesh_cell *s, const lanes *change, const int point,
@@ -128,9 +131,9 @@ static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, co
     return sum;
 }
 
-/* Adds the stresses of the points number `point` of eight cells to the sums over the points of each cell: to s->P, the
- * stress of the mean strain, and to s->force, the forces on the bending modes. stress: symmetric components [Pa],
- * already divided by the number of points. */
+/* Adds the stresses of the points number `point` (0 .. 2^dim - 1) of eight mesh cells to the sums over the points of
+ * each cell: to s->P, the stress of the mean strain, and to s->force, the forces on the bending modes. stress:
+ * symmetric components [Pa], already divided by the number of points. */
 static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lanes *stress, const int point,
                                                  const int dim)
 {
@@ -147,9 +150,10 @@ static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lane
     }
 }
 
-/* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield, by
- * return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points. m: array of the
- * elastic constants of all materials; cell: eight cell indices, -1 for a lane without cell. */
+/* Computes the stress of the mean strain and the forces on the bending modes of eight mesh cells whose points yield, by
+ * return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points in p. s: strain of
+ * the cells on entry; m: array of the elastic constants of all materials; cell: eight cell indices, -1 for a lane
+ * without cell. */
 static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, const int32_t *cell, struct mesh_cell *s,
                                                const int dim)
@@ -175,9 +179,9 @@ static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const st
     }
 }
 
-/* Returns the elastic energy of eight cells at the present plastic state of their points, which is not changed [J]. m:
- * array of the elastic constants of all materials; cell: eight cell indices, -1 for a lane without cell; s: strain of
- * the cells. */
+/* Returns the elastic energy [J] of eight mesh cells together at the present plastic state of their points in p, which
+ * is not changed. m: array of the elastic constants of all materials; cell: eight cell indices, -1 for a lane without
+ * cell; s: strain of the cells. */
 static ALWAYS_INLINE real cells_elastic_energy(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, const int32_t *cell, const struct mesh_cell *s,
                                                const int dim)
@@ -190,15 +194,15 @@ static ALWAYS_INLINE real cells_elastic_energy(const struct mesh *mesh, const st
     return sum * mesh->volume;
 }
 
-/* Writes the indices of eight cells of a row of consecutive cells `run`, from its k-th cell on, to cell[8]; -1 for
- * entries beyond the last cell. */
+/* Writes to cell[8] the indices of eight cells of `run` (a row of consecutive cells), from cell number k (from 0) of
+ * the run on; -1 for entries beyond its last cell. */
 static ALWAYS_INLINE void mesh_run_cell_indices(const struct mesh_run *run, int64_t k, int32_t *cell)
 {
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
 
-/* Writes the indices of the eight cells of a group of partial cells (cells with missing points, partial stresses,
- * several materials or doubled nodes) to cell[8]; -1 for entries beyond the last partial cell. */
+/* Writes to cell[8] the indices of the eight cells of group number `group` of partial cells (cells with missing points,
+ * partial stresses, several materials or doubled nodes); -1 for entries beyond the last partial cell. */
 static ALWAYS_INLINE void mesh_group_cell_indices(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)

@@ -15,9 +15,9 @@
 
 #include "kernels/kernels.h"
 
-/* Returns the entry for corners `corner` and `other_corner` of the consistent mass matrix of a linear cell, divided by
- * the mass of the cell [1]: the product of 1/3 for each axis along which both corners have the same position and 1/6
- * for each other axis. */
+/* Returns the entry for the corners `corner` and `other_corner` (0 .. 2^dim - 1) of the consistent mass matrix of a
+ * linear cell, divided by the mass of the cell [1]: the product of 1/3 for each axis along which both corners have the
+ * same position and 1/6 for each other axis. */
 static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int other_corner)
 {
     real share = 1;
@@ -25,11 +25,11 @@ static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int ot
     return share;
 }
 
-/* Returns the contribution of cell `cell` to the correction of the kinetic energy of coarse cells (mesh_kick), divided
- * by dt^2/4 [N^2/kg]: a . alpha (L - C) a, summed over components, with the accelerations a = f/m of the corners by
- * nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and their blending factor
- * alpha = mesh->match. Sums s and differences d along the axes diagonalise both matrices: along one axis a . L a = (s^2
- * + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
+/* Returns the contribution [N^2/kg] of cell `cell` of a mesh of coarse cells to the correction of their kinetic energy
+ * (mesh_kick), divided by dt^2/4: a . alpha (L - C) a, summed over components, with the accelerations a = f/m of the
+ * corners by nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and their
+ * blending factor alpha = mesh->match. Sums s and differences d along the axes diagonalise both matrices: along one
+ * axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
 static inline real mesh_blended_mass_quadratic_form(const struct mesh *mesh, int64_t cell)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */

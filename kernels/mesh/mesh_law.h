@@ -25,8 +25,8 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Modes, rotation, strain and stress of eight cells, one cell per lane; at finite strain in axes that rotate with the
- * cells. */
+/* Deformation modes, rotation, strain and stress of eight mesh cells, one cell per vector lane; at finite strain in
+ * axes that rotate with the cells. A mode is numbered by a set of axes, as bits. */
 struct mesh_cell {
     /* mode: by set of axes and component [1]; force: derivative of the energy per volume by a bending mode [Pa] */
     lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];
@@ -65,8 +65,9 @@ static ALWAYS_INLINE void cell_corners_from_modes(lanes *v, const int dim)
 
 /* ---- rotation ---------------------------------------------------------------------------------------------------- */
 
-/* Computes the rotation R and the strain e = R^T F - 1 of eight cells in 2D from F = R U = 1 + g. g: mean displacement
- * gradient [1]. cos - 1 is computed from the sine, which resolves strains far below the round-off of the rotation. */
+/* Computes the rotation R and the strain e = R^T F - 1 of eight cells in 2D from their mean displacement gradient g
+ * [1], with F = 1 + g = R U. In e, cos - 1 is computed from the sine, which resolves strains far below the round-off of
+ * the rotation. */
 static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     lanes c = 2.0 + g[0][0] + g[1][1], s = g[1][0] - g[0][1];
@@ -89,9 +90,9 @@ static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
         }
 }
 
-/* Computes the rotation R and the symmetric part e of R^T F - 1 of eight cells in 3D from F = R U = 1 + g, by Newton's
- * iteration R <- (R + R^-T)/2 (Higham 1986). g: mean displacement gradient [1]. Cells are far from singular, so that
- * few iterations are enough; after 12 the last value is used. */
+/* Computes the rotation R and the symmetric part e of R^T F - 1 of eight cells in 3D from their mean displacement
+ * gradient g [1], with F = 1 + g = R U, by Newton's iteration R <- (R + R^-T)/2 (Higham 1986). Cells are far from
+ * singular, so that few iterations are enough; after 12 the last value is used. */
 static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     for (int a = 0; a < 3; a++)
@@ -117,8 +118,8 @@ static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], l
         for (int b = 0; b < a; b++) e[a][b] = e[b][a] = 0.5 * (e[a][b] + e[b][a]);
 }
 
-/* Replaces vector v, dim components, by R v if `to_fixed_axes` is true (from the rotated axes of the cell to fixed
- * axes), else by R^T v. R: rotation, for eight cells at a time. */
+/* Rotates the vectors v (dim components) of eight cells by the rotations R of the cells: replaces v by R v if
+ * `to_fixed_axes` is true (from the rotated axes of the cell to fixed axes), else by R^T v. */
 static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const bool to_fixed_axes, const int dim)
 {
     lanes old[3];
@@ -129,9 +130,10 @@ static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const boo
     }
 }
 
-/* Adds to the stress an antisymmetric part that balances a given moment. stress, strain: in the rotated axes of the
- * cell [Pa] [1]; moment: moment per volume about each axis [Pa], in 2D moment[2] only. The part is the matrix of the
- * cross product with the vector w that solves (tr U - U) w = moment, with U = 1 + strain. */
+/* Adds to the stresses `stress` [Pa] of eight cells an antisymmetric part that balances the moments `moment`. stress,
+ * strain: in the rotated axes of the cells, strain [1]; moment: moment per volume about each axis [Pa], in 2D moment[2]
+ * only. The part is the matrix of the cross product with the vector w that solves (tr U - U) w = moment, with U = 1 +
+ * strain. */
 static ALWAYS_INLINE void stress_add_skew_part(lanes stress[3][3], const lanes strain[3][3], const lanes *moment,
                                                const int dim)
 {
@@ -167,17 +169,17 @@ static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes stra
     }
 }
 
-/* Returns the derivative of the mean normal stress by the trace of the strain [Pa] if the points of a cell have one
- * dilatation (m->mean_dilatation); 0 if each has its own. */
+/* Returns the derivative [Pa] of the mean normal stress by the trace of the strain for the elastic constants m, if the
+ * points of a cell have one dilatation (m->mean_dilatation); 0 if each point has its own. */
 static ALWAYS_INLINE real mean_dilatation_stiffness(const struct elastic *m, const int dim)
 {
     return m->mean_dilatation ? (m->c11 + (dim - 1) * m->c12) / dim : 0;
 }
 
-/* Returns the derivative of the elastic energy per volume by component i of bending mode M of eight cells, in the
- * rotated axes of the cell [Pa]. mode[M][i]: amplitudes of the modes [1]. M: set of two or three axes, as bits. In the
- * displacement gradient d_j u_i, mode {j, l} of component i appears times the coordinate along l, and mode {1, 2, 3} of
- * component i times the two other coordinates. */
+/* Returns the derivative [Pa] of the elastic energy per volume by component i of bending mode M of eight cells, in the
+ * rotated axes of the cells. m: elastic constants; mode[M][i]: amplitudes of the modes [1]; M: set of two or three
+ * axes, as bits. In the displacement gradient d_j u_i, mode {j, l} of component i appears times the coordinate along l,
+ * and mode {1, 2, 3} of component i times the two other coordinates. */
 static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
                                               const int i, const int dim)
 {
@@ -219,16 +221,17 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
     SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
 }
 
-/* Returns the product of the coordinates +-1/4 of material point number `point` of a cell along the axes in the bit set
- * `axis_set`, in units of the edge of the cell [1]; 1 for an empty set. */
+/* Returns the product of the coordinates (1/4 or -1/4 edges from the middle) of material point number `point` of a cell
+ * along the axes in the bit set `axis_set`, in units of the edge of the cell; 1 for an empty set. */
 static ALWAYS_INLINE real point_coordinate_product(const int axis_set, const int point)
 {
     const int axes = __builtin_popcount(axis_set), below = __builtin_popcount(axis_set & ~point);
     return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
 }
 
-/* Computes the strain of eight cells at their material points number `point`: the mean strain plus the bending modes
- * times the coordinates +-1/4 of the point. `strain` may be unsymmetric; its symmetric part is the strain. */
+/* Computes the strain `strain` [1] of eight cells at their material points number `point` (0 .. 2^dim - 1): the mean
+ * strain in s plus the bending modes in s times the coordinates +-1/4 of the point. `strain` may be unsymmetric; its
+ * symmetric part is the strain. */
 static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int point, lanes strain[3][3],
                                                 const int dim)
 {
@@ -242,8 +245,9 @@ static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const
         }
 }
 
-/* Replaces the trace of the strain of eight whole cells at a point by the trace of their mean strain s->e, if the
- * points of a cell have one dilatation (m->mean_dilatation). strain: dim x dim, changed in place. */
+/* Replaces the trace of the strain `strain` (dim x dim) of eight whole cells at a material point by the trace of the
+ * mean strain s->e of the cells, if the points of a cell have one dilatation (m->mean_dilatation); otherwise does
+ * nothing. Whole: with all points, of one material. */
 static ALWAYS_INLINE void cells_use_mean_dilatation(const struct elastic *m, const struct mesh_cell *s,
                                                     lanes strain[3][3], const int dim)
 {
@@ -253,8 +257,8 @@ static ALWAYS_INLINE void cells_use_mean_dilatation(const struct elastic *m, con
     for (int d = 0; d < dim; d++) strain[d][d] += change / dim;
 }
 
-/* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of eight whole cells (with
- * all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic constants. */
+/* Computes the stress of the mean strain, s->P, and the forces on the bending modes, s->force, of eight whole cells
+ * (with all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic constants. */
 static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     hooke_stress(m, s->e, s->P, dim);
@@ -278,10 +282,10 @@ static ALWAYS_INLINE lanes cell_strength_bound(const struct elastic *m, const la
     return (failure + (2.2 + 3 * m->surface.g1) * further_stress) * (m->trigger_mean / m->failure);
 }
 
-/* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: the
- * largest normal stress of P, plus the magnitudes of all its shear stresses (Gershgorin), plus a bound on the stress of
- * the bending modes in s. With a strength surface the larger of this and of cell_strength_bound is returned. P:
- * stress of the mean strain [Pa]; m: elastic constants. */
+/* Returns for each of eight cells an upper bound [Pa] of the largest principal stress at its material points, by which
+ * cells whose points cannot convert are skipped: the largest normal stress of P, plus the magnitudes of all its shear
+ * stresses (Gershgorin), plus a bound on the stress of the bending modes in s. With a strength surface the larger of
+ * this and of cell_strength_bound is returned. P: stress of the mean strain [Pa]; m: elastic constants. */
 static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
                                                        const lanes P[3][3], const int dim)
 {
@@ -296,8 +300,8 @@ static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, 
     return lanes_max(bound + bending, cell_strength_bound(m, P, bending, dim));
 }
 
-/* Returns the elastic energy of each of eight cells [J], from strain, stress, bending modes and their forces in s.
- * volume: of a cell [m^3]. */
+/* Returns the elastic energy [J] of each of eight cells from the strains, stresses, bending modes and forces on bending
+ * modes in s. volume: volume of a cell [m^3]. */
 static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
 {
     lanes energy = lanes_broadcast(0);
@@ -334,9 +338,9 @@ static ALWAYS_INLINE void cell_balance_small_moments(struct mesh_cell *s, const 
     stress_add_skew_part(s->P, none, moment, dim);
 }
 
-/* Computes the forces f[c][i] on corner c along axis i of eight cells from stress and forces on bending modes in s
- * [N]. h: edge [m]; volume: of a cell [m^3]; rotates: true to rotate s->P and s->force from the axes of the cell to
- * fixed axes first, in place. */
+/* Computes the forces f[c][i] [N] on corner c along axis i of eight cells from the stresses and the forces on bending
+ * modes in s. h, volume: edge [m] and volume [m^3] of a cell; rotates: true to rotate s->P and s->force from the axes
+ * of the cell to fixed axes first, in place. */
 static ALWAYS_INLINE void cell_corner_forces(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3],
                                              const int dim, const bool rotates)
 {

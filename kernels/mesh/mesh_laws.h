@@ -5,8 +5,8 @@
 
 #include "kernels/laws/law_update.h"
 
-/* Returns the particle number of material point `point_number` (0 .. 2^dim - 1) of cell `cell`; -1 if the cell has no
- * such point or if `cell` is -1. */
+/* Returns the index of the particle that is material point number `point_number` (0 .. 2^dim - 1) of cell `cell` of the
+ * mesh; -1 if the cell has no such point or if `cell` is -1. */
 static ALWAYS_INLINE int32_t mesh_point_of_cell(const struct mesh *mesh, int32_t cell, int point_number, const int dim)
 {
     return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + point_number];
@@ -21,9 +21,9 @@ static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t 
     return eight;
 }
 
-/* Loads the plastic state and the stresses of eight points into *e, for law_update. point: particle numbers, -1 for a
- * lane without a point; stress: symmetric components of the trial stress [Pa]; dt: duration of an explicit step [s], 0
- * in load steps; m: constants of the material whose law is evaluated. */
+/* Loads the plastic state of eight material points of p, and their stresses, into *e for law_update. point: particle
+ * numbers, -1 for a lane without a point; stress: symmetric components of the trial stress [Pa]; dt: duration of an
+ * explicit step [s], 0 in load steps; m: constants of the material whose law is evaluated. */
 static ALWAYS_INLINE void law_points_load(const struct particles *p, const struct elastic *m, const int32_t *point,
                                           const lanes *stress, real dt, struct law_points *e, const int dim)
 {
@@ -47,9 +47,9 @@ static ALWAYS_INLINE void law_points_load(const struct particles *p, const struc
         p->temperature ? lanes_gather_or_zero(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Stores the result of the return mapping for particle i, which is in lane `lane` of *e. Adds trial stress less
- * returned stress to the plastic stress correction of the particle, replaces the trial stress in this lane of `stress`
- * by the returned one, and stores the plastic state. m: constants of the material. */
+/* Stores the result of the return mapping for particle i of p, which is in lane `lane` of *e. Adds the trial stress
+ * less the returned stress to the plastic stress correction of the particle, replaces the trial stress in this lane of
+ * stress[components] by the returned stress, and stores the plastic state in p. m: constants of the material. */
 static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const struct elastic *m,
                                                 const struct law_points *e, int lane, int64_t i, lanes *stress,
                                                 const int dim)
@@ -66,8 +66,8 @@ static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const
     if (p->temperature) p->temperature[i] = e->temperature[lane];
 }
 
-/* Stores the stresses of eight points in p->mesh_stress. point: particle numbers; of_lanes: bits of the lanes whose
- * points are stored; stress: symmetric components [Pa]. */
+/* Stores the stresses of eight material points in p->mesh_stress. point: particle numbers; of_lanes: bit l is set if
+ * the stress in lane l is to be stored; stress: symmetric components [Pa]. */
 static ALWAYS_INLINE void mesh_stress_store(const struct particles *p, const int32_t *point, unsigned of_lanes,
                                             const lanes *stress, const int dim)
 {
@@ -76,11 +76,11 @@ static ALWAYS_INLINE void mesh_stress_store(const struct particles *p, const int
             if (of_lanes >> l & 1) p->mesh_stress[k][point[l]] = stress[k][l];
 }
 
-/* Maps the trial stresses of the points number `point_number` of eight cells back to their yield surfaces by their flow
- * laws, and updates their plastic state; for points of several materials once for each law. cell: eight cell indices;
- * yielding_lanes: bits of the lanes whose points have a law; dt: duration of an explicit step [s], 0 in load steps;
- * stress: symmetric components, trial stress on entry, the returned stress on exit [Pa]; m: elastic constants of all
- * materials. */
+/* Maps the trial stresses of the points number `point_number` (0 .. 2^dim - 1) of eight mesh cells back to their yield
+ * surfaces by their flow laws, and updates their plastic state; for points of several materials once for each law.
+ * cell: eight cell indices; yielding_lanes: bit l is set if the point in lane l has a flow law; dt: duration of an
+ * explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry, the returned stress on exit
+ * [Pa]; m: elastic constants of all materials. */
 static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, const int32_t *cell, int point_number,
                                                unsigned yielding_lanes, real dt, lanes *stress, int dim)

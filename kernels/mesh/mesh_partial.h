@@ -25,8 +25,9 @@ static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh,
             u[c][i] = lanes_load_or_gather(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
-/* Writes strain and bending modes of eight cells in s as one vector v [1]: first the symmetric components of the mean
- * strain, shear strains as angles, then the bending modes, set by set of axes. */
+/* Writes the strains and bending modes of eight cells in s as vectors v of cell_deformation_mode_count(dim) numbers
+ * [1], one cell per lane: first the symmetric components of the mean strain, shear strains as angles, then the bending
+ * modes, set by set of axes. */
 static ALWAYS_INLINE void cell_strain_vector(const struct mesh_cell *s, lanes *v, const int dim)
 {
     int n = symmetric_component_count(dim);
@@ -38,8 +39,8 @@ static ALWAYS_INLINE void cell_strain_vector(const struct mesh_cell *s, lanes *v
     SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
 }
 
-/* Computes f = K v with symmetric matrices K of n x n for eight cells at a time. K: upper triangle, row by row from
- * the diagonal on; v, f: n values. */
+/* Computes f = K v for eight cells at a time, with a symmetric n x n matrix K for each. K: upper triangle, row by row
+ * from the diagonal on; v, f: n values. */
 static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const lanes *v, lanes *f, const int n)
 {
     for (int a = 0; a < n; a++) f[a] = lanes_broadcast(0);
@@ -52,10 +53,10 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
     }
 }
 
-/* Adds to f the forces of state-based bonds on the modes of the cells of a group of eight partial cells [Pa]: f +=
- * share^T pull for each material point with bonds (struct mesh_end), with the reaction `pull` of its bonds
- * (p->end_pull) and the derivatives `share` of its mean strain by the modes. f: one value for each mode of
- * cell_strain_vector, one cell per lane. */
+/* Adds to f [Pa] the forces of state-based bonds on the deformation modes of the cells in group number `group` of eight
+ * partial cells (cells with missing or bonded points): f += share^T pull for each material point with bonds (struct
+ * mesh_end), with the reaction `pull` of its bonds (p->end_pull) and the derivatives `share` of its mean strain by the
+ * modes. f: one value for each mode of cell_strain_vector, one cell per lane. */
 static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, const struct particles *p,
                                                        int64_t group, lanes *f, const int dim)
 {
@@ -82,9 +83,9 @@ static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh,
             moment[k][end->lane] += p->end_moment[c][end->point] * inverse;
 }
 
-/* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of a group of eight partial
- * cells (cells with missing points, partial stresses, several materials or doubled nodes) [Pa], from the strain in s,
- * the stiffness of each cell, and the forces of state-based bonds. */
+/* Computes the stress of the mean strain, s->P, and the forces on the bending modes, s->force, of group number `group`
+ * of eight partial cells (cells with missing points, partial stresses, several materials or doubled nodes) [Pa], from
+ * the strain in s, the stiffness of each cell, and the forces of state-based bonds. */
 static ALWAYS_INLINE void mesh_partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
                                                       struct mesh_cell *s, const int dim)
 {

@@ -30,8 +30,8 @@ static ALWAYS_INLINE void cell_interpolate_to_points(real *value, const int dim)
             if (!(c >> d & 1)) interpolate_to_quarter_points(&value[c], &value[c | 1 << d]);
 }
 
-/* Returns the value at material point number `point` of a cell, interpolated linearly from its corners. value: values
- * at its 2^dim corners, overwritten. */
+/* Returns the value at material point number `point` (0 .. 2^dim - 1) of a cell, interpolated linearly from the corners
+ * of the cell. value: values at the 2^dim corners, overwritten. */
 static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -43,8 +43,8 @@ static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, cons
     return value[0];
 }
 
-/* Loads the values of a nodal field at the 2^dim corners of cell `cell` into `corner_value`. field: a value for each
- * node. */
+/* Loads the values of a nodal quantity at the 2^dim corners of cell `cell` of the mesh into `corner_value`. field: the
+ * quantity, one value for each node. */
 static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const real *field, int64_t cell,
                                                   real *corner_value, const int dim)
 {
@@ -52,8 +52,8 @@ static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const
     for (int c = 0; c < 1 << dim; c++) corner_value[c] = field[own ? own[c] : cell + mesh->corner[c]];
 }
 
-/* Computes the displacement gradient at each material point of cell `cell`: gradient[q][a dim + b] = du_a/dX_b at point
- * q [1]. */
+/* Computes the displacement gradient [1] at each material point of cell `cell` of the mesh: gradient[q][a dim + b] =
+ * du_a/dX_b at point q (0 .. 2^dim - 1). */
 static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t cell,
                                                real gradient[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
 {
@@ -73,10 +73,10 @@ static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t 
     }
 }
 
-/* Computes the strains R^T F - 1 at each material point of cell `cell` [1], with the deformation gradient F at the
- * point and the rotation R of the mean deformation gradient of the cell. rotation: receives R, dim x dim row by row;
- * the identity if `finite` (finite strain) is false or in 1D. strain[q]: dim x dim row by row for point q; only its
- * symmetric part is strain. */
+/* Computes the strains R^T F - 1 [1] at each material point of cell `cell` of the mesh, with the deformation gradient F
+ * at the point and the rotation R of the mean deformation gradient of the cell. rotation: receives R, dim x dim row by
+ * row; the identity if `finite` (finite strain) is false or in 1D. strain[q]: dim x dim row by row for point q; only
+ * its symmetric part is strain. */
 static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t cell, real *rotation,
                                              real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
@@ -113,10 +113,10 @@ static ALWAYS_INLINE bool cell_uses_mean_dilatation(const struct elastic *m, con
     return any;
 }
 
-/* Replaces value[q] of each point q of a cell by (mean - value[q]), the change that gives all points of the cell of one
- * material the mean of their values. The value becomes 0 for materials without mean dilatation, and where there is no
- * point. m: elastic constants of all materials; material: number of the material of every particle; point: the 2^dim
- * points of the cell, -1: none. */
+/* Replaces value[q] of each point q (0 .. 2^dim - 1) of a cell by mean - value[q], with the mean of the values over the
+ * points of the cell that have the same material. This is the change that gives all these points the mean. value[q]
+ * becomes 0 for materials without mean dilatation, and where there is no point. m: elastic constants of all materials;
+ * material: number of the material of every particle; point: the 2^dim points of the cell, -1: none. */
 static ALWAYS_INLINE void cell_subtract_from_mean(const struct elastic *m, const uint8_t *material,
                                                   const int32_t *point, real *value, const int dim)
 {
@@ -141,9 +141,9 @@ static ALWAYS_INLINE void cell_subtract_from_mean(const struct elastic *m, const
     }
 }
 
-/* Replaces the trace of the strains of the points of cell `cell` by the mean over the points of the same material,
- * where the material has the mean dilatation of its cell. strain: as from mesh_point_strains; m: elastic constants of
- * all materials. */
+/* Replaces the traces of the strains of the points of cell `cell` of the mesh by their mean over the points of the same
+ * material, where the points of this material have one dilatation (elastic.mean_dilatation). strain: as from
+ * mesh_point_strains; m: elastic constants of all materials. */
 static ALWAYS_INLINE void mesh_strains_use_mean_dilatation(const struct mesh *mesh, const struct particles *p,
                                                            const struct elastic *m, int64_t cell,
                                                            real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
@@ -158,8 +158,8 @@ static ALWAYS_INLINE void mesh_strains_use_mean_dilatation(const struct mesh *me
         for (int d = 0; d < dim; d++) strain[q][d * (dim + 1)] += trace[q] / dim;
 }
 
-/* Computes the stress from the strain by Hooke's law. strain: dim x dim row by row, of which the symmetric part counts;
- * stress: receives symmetric components [Pa]; m: elastic constants. */
+/* Computes the stress of a material point from its strain by Hooke's law. strain: dim x dim row by row, of which the
+ * symmetric part counts [1]; stress: receives symmetric components [Pa]; m: elastic constants. */
 static ALWAYS_INLINE void point_hooke_stress(const struct elastic *m, const real *strain, real *stress, const int dim)
 {
     for (int a = 0; a < dim; a++) {

@@ -5,8 +5,9 @@
 
 #include "mesh_law.h"
 
-/* Loads the displacements of the corners of eight consecutive cells of the row of cells `run`, from its k-th cell on:
- * u[c][i] of corner c along axis i [m]. Vector lanes beyond the last cell are set to 0. */
+/* Loads the displacements u[c][i] [m] of corner c along axis i of eight consecutive cells of `run` (a row of
+ * consecutive cells of the mesh), from cell number k (from 0) of the run on. Vector lanes beyond the last cell are set
+ * to 0. */
 static ALWAYS_INLINE void mesh_run_load_displacements(const struct mesh *mesh, const struct mesh_run *run, int64_t k,
                                                       lanes u[CORNERS_MAX][3], const int dim)
 {
@@ -20,17 +21,18 @@ static ALWAYS_INLINE void mesh_run_load_displacements(const struct mesh *mesh, c
         for (int i = 0; i < dim; i++) u[c][i] *= inside;
 }
 
-/* Returns true in 2D for isotropic elastic constants m. The stresses of the mean strain and of the bending modes of a
- * whole cell then have no moment, and cell_balance_finite_moments is not needed. */
+/* Returns true if the problem is 2D (dim = 2) and the elastic constants m are isotropic. The stresses of the mean
+ * strain and of the bending modes of a whole cell then have no moment, and cell_balance_finite_moments is not
+ * needed. */
 static ALWAYS_INLINE bool cells_have_balanced_moments(const struct elastic *m, const int dim)
 {
     return dim == 2 && fabs(m->c11 - m->c12 - 2 * m->shear) <= 1e-14 * m->c11;
 }
 
-/* Computes the forces f[c][i] on corner c along axis i of eight whole cells (with all points, of one material, without
- * partial stresses) [N] from the displacements u[c][i] [m]. m: elastic constants; h, volume: edge [m] and volume [m^3]
- * of a cell; tension: raised to an upper bound of the largest principal stress at the material points [Pa]; finite:
- * true if strains are finite, false if small; balanced: result of cells_have_balanced_moments. */
+/* Computes the forces f[c][i] [N] on corner c along axis i of eight whole cells (with all points, of one material,
+ * without partial stresses) from the displacements u[c][i] [m]. m: elastic constants; h, volume: edge [m] and volume
+ * [m^3] of a cell; tension: raised to an upper bound of the largest principal stress at the material points [Pa];
+ * finite: true if strains are finite, false if small; balanced: result of cells_have_balanced_moments. */
 static ALWAYS_INLINE void mesh_run_corner_forces(const struct elastic *m, real h, real volume, lanes u[CORNERS_MAX][3],
                                                  lanes f[CORNERS_MAX][3], lanes *tension, const int dim,
                                                  const bool finite, const bool balanced)

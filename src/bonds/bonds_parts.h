@@ -7,7 +7,8 @@
 #include "bonds/bonds.h"
 #include "bonds/sites.h"
 
-/* All bonds of one particle, under construction; arrays are allocated for the largest possible number of neighbours. */
+/* A row under construction, i.e. all bonds of one particle. The arrays are allocated for the largest possible number of
+ * neighbours. */
 struct row {
     int n;                /* number of bonds */
     int32_t *nbr;         /* [n] neighbours, ascending */
@@ -19,8 +20,8 @@ struct row {
     real family_volume, cut_volume; /* volume of the family; of neighbours behind cut or broken bonds [m^3] */
 };
 
-/* Micro-moduli of bonds between pairs of materials: ratio[a * materials + b] is that of bonds between the materials a
- * and b, divided by that of bonds within material 0 [1]. */
+/* Relative micro-moduli of bonds by pair of materials: ratio[a * materials + b] is the micro-modulus of bonds between
+ * the materials a and b (numbers from 0), divided by that of bonds within material 0 [1]. */
 struct pair_table {
     real *ratio;
     int materials;
@@ -30,18 +31,18 @@ struct pair_table {
  * bond_row_buffer_free. */
 void bond_row_buffer_make(struct row *row, int capacity);
 
-/* Releases the arrays of `row`. */
+/* Releases the arrays of `row`, the bonds of one particle under construction. */
 void bond_row_buffer_free(struct row *row);
 
-/* Lists the neighbours of the particle or mirror image `particle` within the cutoff in `neighbour`, in ascending order
- * and without those behind a void, whose bond would cross it. capacity: capacity of `neighbour`; map: from lattice
- * sites to particles, used where possible instead of a search; NULL: always search. Returns the number of neighbours;
- * if it exceeds `capacity`, the list is incomplete. */
+/* Lists in neighbour[capacity] the neighbours within the cutoff of the particle or mirror image number `particle` of p,
+ * in ascending order. Particles behind a void (a narrow gap of the body) are left out. source: inputs of the bonds;
+ * map: from lattice sites to particles, used where possible instead of a search; NULL: always search. Returns the
+ * number of neighbours; if it exceeds `capacity`, the list is incomplete. */
 int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *source,
                                            const struct particles *p, int32_t particle, int32_t *neighbour,
                                            int capacity);
 
-/* Inputs from which rows are made; a row holds all bonds of one particle. */
+/* Inputs from which rows (each with all bonds of one particle) are made. All pointers are borrowed. */
 struct row_maker {
     struct bonds *old; /* previous rows; NULL: none */
     const struct bond_source *source;
@@ -62,8 +63,8 @@ void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previou
  * set. */
 void bond_row_set_softening_state(struct row *row, const struct row_maker *maker, int32_t particle);
 
-/* Stretches above this share of the smallest stretch on a strength surface count as near the surface [1]
- * (bonds_strength.c). */
+/* Share of the smallest stretch on a strength surface from which on a stretch counts as near the surface
+ * (bonds_strength.c), dimensionless. */
 #define SURFACE_NEAR 0.8
 
 /* Copies the softening state of the bonds in row `previous_row` of `previous_bonds` to row `row` of b, the row of the
@@ -73,8 +74,8 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
                                  int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
                                  const int32_t *new_index);
 
-/* Saves the softening state of all bonds to the archive `a` if a->saving, else restores it from there, and with it two
- * marks of each row block (bonds of eight particles): whether a bond in it has begun to soften, and whether one may
+/* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there, and with it
+ * two marks of each row block (bonds of eight particles): whether a bond in it has begun to soften, and whether one may
  * begin to before the next computation of forces. To be restored after the columns of changed row blocks. Returns
  * FAILED if an entry is missing or its size differs. */
 status softening_save_or_load_bond_states(struct bonds *b, struct archive *a);
@@ -88,12 +89,13 @@ static inline bool bond_row_previous_is_still_valid(const struct row_maker *make
     return before >= 0 && ((maker->old->whole[before] && maker->p->kind[i] == KIND_PD) || !maker->fresh[i]);
 }
 
-/* Finds the neighbours of the particle with index `particle` and stores them in row->nbr and row->n. */
+/* Finds the neighbours of the particle with index `particle` and stores their indices in row->nbr, their number in
+ * row->n. maker: inputs of the rows. */
 void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Computes lengths and weights of the bonds from the particle with index `particle` to the neighbours in row->nbr and
- * stores them in `row`. Bonds that are broken in the previous bonds maker->old are broken in `row`, too; the plastic
- * state of bonds is copied from there. */
+ * stores them in `row`. maker: inputs of the rows. Bonds that are broken in the previous bonds maker->old are broken in
+ * `row`, too; the plastic state of bonds is copied from there. */
 void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns the number of the previous row block (bonds of eight particles) in maker->old that equals row block
@@ -106,18 +108,19 @@ int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct r
 void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds *previous_bonds, int64_t row_block,
                                              int64_t previous_row_block);
 
-/* Neighbours of the rows of a row block (bonds of eight particles), stored between the pass that counts columns and the
- * pass that fills them. */
+/* Neighbours of the eight particles of a row block (the bonds of eight particles), stored between the pass that counts
+ * columns and the pass that fills them. family_volume: volume of all neighbours. */
 struct row_block_found {
     real family_volume[LANES]; /* [m^3] */
     int32_t n[LANES], nbr[];   /* number of neighbours of each row; neighbours, row after row */
 };
 
-/* Returns a newly allocated copy of the neighbours in row[0] to row[row_count - 1], each with the bonds of one
- * particle, for bond_rows_restore_found_neighbours. Release with memory_free. */
+/* Returns a newly allocated copy of the neighbours listed in row[0] .. row[row_count - 1] (each row has the bonds of
+ * one particle), for bond_rows_restore_found_neighbours. Release with memory_free. */
 struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, int row_count);
 
-/* Copies the neighbours saved in `saved` back to the first `row_count` rows of the array `row`. */
+/* Copies the neighbours that bond_rows_save_found_neighbours has saved in `saved` back to row[0] .. row[row_count - 1]
+ * (each row has the bonds of one particle). */
 void bond_rows_restore_found_neighbours(const struct row_block_found *saved, struct row *row, int row_count);
 
 /* Assigns a range of columns (eight bonds each) to every row block (the bonds of eight particles) of b and allocates
@@ -131,18 +134,20 @@ void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker 
  * release them. */
 void bonds_clear_pointers_to_moved_arrays(struct bonds *previous, const struct bonds *b);
 
-/* Returns true if a pre-crack or a void may cut a bond of the particle with index `particle`; false if all are too far
- * away. */
+/* Returns true if a pre-crack or a void (a narrow gap of the body) may cut a bond of the particle with index `particle`
+ * of p; false if all of them are too far away. source: inputs of the bonds, with pre-cracks and voids. */
 bool particle_is_near_precrack_or_void(const struct bond_source *source, const struct particles *p, int64_t particle);
 
-/* Returns the stretch above which the vectorised test reports the bond between the particles `particle` and
- * `other_particle` for the exact test of breaking: its critical stretch less a tolerance for round-off [1]. */
+/* Returns the stretch [1] above which the fast vector test of breaking passes the bond between the particles `particle`
+ * and `other_particle` of p on to the exact test: the critical stretch of the bond less a tolerance for round-off.
+ * source: inputs of the bonds. */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle);
 
-/* Chooses how the bonds of eight particles are arranged in columns. Returns true for columns in which all neighbours
- * have one index distance, as on a lattice, since these need little padding; false for rows packed without gaps.
- * offsets: number of distinct index distances; longest: largest number of bonds of a row. */
+/* Chooses how the bonds of eight particles are arranged in columns of eight bonds. Returns true for columns in which
+ * all neighbours have one index distance, as on a lattice, since these need little padding; false for rows packed
+ * without gaps. offsets: number of distinct index distances; longest: largest number of bonds of one of the eight
+ * particles. */
 static inline bool columns_should_use_offsets(int offsets, int longest) { return offsets <= longest + longest / 3; }
 
 /* Bonds of eight consecutive particles of a lattice without a search for neighbours. Entry k of each array describes
@@ -163,12 +168,12 @@ struct regular_bonds {
  * Release with regular_bonds_free. */
 void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struct site_map *map);
 
-/* Releases the arrays of `bonds`. */
+/* Releases the arrays of `bonds`, the bonds of eight lattice particles by index distance. */
 void regular_bonds_free(struct regular_bonds *bonds);
 
 /* Lists the neighbours of the eight particles from `first_particle` on in `found_bonds`, by index distance (index of
- * the neighbour less index of the particle), from the map `map` of lattice sites. Returns false if the map does not
- * contain all sites needed, so that the neighbours must be searched for. */
+ * the neighbour less index of the particle), from the map `map` of lattice sites. Returns true, or false if the map
+ * does not contain all sites needed, so that the neighbours must be searched for. */
 bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
                                             int64_t first_particle, struct regular_bonds *found_bonds);
 
@@ -179,9 +184,9 @@ bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
 
-/* Returns a new, empty cache for one thread: a memory of the last row blocks (bonds of eight particles each) that were
- * made, with which later ones are compared, so that equal bonds are copied instead of computed (bonds_stencil_cache.c).
- * map: from lattice sites to particles, kept by reference. Release with stencil_cache_free. */
+/* Returns a new, empty cache for one thread, which remembers the last row blocks (bonds of eight particles each) that
+ * the thread has made. Later row blocks are compared with them, so that equal bonds are copied instead of computed
+ * (bonds_stencil_cache.c). map: from lattice sites to particles, kept by reference. Release with stencil_cache_free. */
 struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 
 /* Releases the cache t of row blocks. Does nothing if t is NULL. */
@@ -195,15 +200,16 @@ void stencil_cache_free(struct stencil_cache *t);
 int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 
-/* Computes inverse length `inverse_length` [1/m] and weight `weight` [1] of the eight bonds between the particles
- * first_particle + l and first_neighbour + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by
- * pair of materials. */
+/* Computes the inverse lengths inverse_length[8] [1/m] and weights weight[8] [1] of the bonds between the particles
+ * first_particle + l and first_neighbour + l of p, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli
+ * by pair of materials. */
 void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
                                    const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
                                    real *inverse_length, real *weight);
 
-/* Computes the bonds of the eight particles from `first_particle` on from the map of lattice sites into `found_bonds`.
- * Returns false if that is not possible, e.g. because a crack is near. */
+/* Computes the bonds of the eight particles of p from `first_particle` on into `found_bonds`, by the map `map` from
+ * lattice sites to particles. source: inputs of the bonds. Returns true, or false if that is not possible, e.g. because
+ * a crack is near. */
 bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const struct bond_source *source,
                                           const struct particles *p, int64_t first_particle,
                                           struct regular_bonds *found_bonds);
@@ -212,21 +218,23 @@ bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const stru
  * distance (index of the neighbour less index of the particle) at which one of them has a bond. */
 int regular_bonds_count_columns(const struct regular_bonds *bonds);
 
-/* Returns the sum of the numbers of bonds of eight particles on a lattice. A bond between two of them counts twice. */
+/* Returns the number of bonds of the eight lattice particles of `bonds` together. A bond between two of these particles
+ * counts twice. */
 int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds);
 
-/* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
- * `ratio` with memory_free. */
+/* Returns the micro-moduli of bonds for all pairs of materials, divided by that of bonds within material 0. s: inputs
+ * of the bonds. Release the array `ratio` of the result with memory_free. */
 struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s);
 
-/* Returns the number of rows in row block `row_block`, i.e. of particles whose bonds it stores: eight, fewer in the
- * last row block. */
+/* Returns the number of rows in row block `row_block` of b, i.e. of the particles whose bonds the row block stores:
+ * eight, or fewer in the last row block. */
 static inline int bond_row_block_row_count(const struct bonds *b, int64_t row_block)
 {
     return count_of_eight_indices_below(row_block * LANES, b->rows);
 }
 
-/* Working memory of one thread for the eight rows of a row block. */
+/* Working memory in which one thread makes a row block (the bonds of eight particles). row: the bonds of each
+ * particle. */
 struct row_block_buffer {
     struct regular_bonds regular; /* bonds found without a search */
     int room;                     /* largest number of bonds of a row */
@@ -243,12 +251,12 @@ struct row_block_buffer {
  * bond_row_block_buffer_free. */
 void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map);
 
-/* Releases the working memory `buffer`. */
+/* Releases the arrays of `buffer`, the working memory in which row blocks are made. */
 void bond_row_block_buffer_free(struct row_block_buffer *buffer);
 
 /* Returns the number of columns (one bond of each of eight particles) that the bonds in buffer->row[0] to
- * buffer->row[row_count - 1] need. particle: indices of the particles of these rows. *one_offset_per_column: set to
- * true if the neighbours in a column shall all have one index distance from their particles, to false if rows are
+ * buffer->row[row_count - 1] need. particle[row_count]: indices of the particles of these rows. *one_offset_per_column
+ * receives true if all neighbours in a column are to have one index distance from their particles, false if rows are
  * packed without gaps. */
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column);
@@ -270,22 +278,22 @@ void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_bu
 void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                              const struct particles *p);
 
-/* Allocates b->shell_length and computes in it the possible bond lengths of a lattice, spacing sqrt(k) for k = 1 to
- * BOND_SHELLS - 1. spacing: lattice spacing [m]. */
+/* Allocates b->shell_length and stores there the possible bond lengths of a lattice, spacing sqrt(k) for 0 < k <
+ * BOND_SHELLS. spacing: lattice spacing [m]. */
 void lattice_shell_lengths_make(struct bonds *b, real spacing);
 
-/* Finds the lattice shell, i.e. the whole number k > 0 with bond lengths spacing sqrt(k), of eight bonds with the
- * inverse lengths `inverse_length` [1/m]. Stores in round_off_units[LANES] by how many units in the last place each
- * inverse length differs from that of the shell, due to the round-off of positions. Returns k, or 0 if the bonds have
- * no common shell. */
+/* Finds the lattice shell of eight bonds with the inverse lengths inverse_length[8] [1/m], i.e. the whole number k > 0
+ * for which the bonds have the length spacing sqrt(k). Stores in round_off_units[LANES] by how many units in the last
+ * place each inverse length differs from that of the shell, due to the round-off of positions. Returns k, or 0 if the
+ * bonds have no common shell. */
 int bonds_find_lattice_shell(const struct bonds *b, const real *inverse_length, int16_t *round_off_units);
 
 /* Returns a table of stencils (lists of columns shared by many row blocks): `existing` with one more user, or a new
  * table if `existing` is NULL (bonds_stencils.c). Release with stencils_release_table. */
 struct stencils *stencils_share_or_make_table(struct stencils *existing);
 
-/* Removes one user of the table `stencils`, the bond patterns that many row blocks of a lattice share; the last user
- * releases it. */
+/* Removes one user of the table `stencils` of bond patterns that many row blocks (bonds of eight particles) of a
+ * lattice share. The last user releases the table. */
 void stencils_release_table(struct stencils *stencils);
 
 /* Allocates `stencil`, a bond pattern that row blocks of a lattice share, for up to `max_columns` columns. Release with
@@ -314,26 +322,29 @@ const struct stencil *stencil_find_or_add(struct stencils *table, const struct s
  * lattice share. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
-/* Writes `bonds`, one bond of each of eight particles, to column number `column_number` of the bond arrays of b. */
+/* Writes `bonds`, one bond of each of eight particles, to the entries of column number `column_number` (from 0) in the
+ * bond arrays of b. */
 void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number, const struct column_copy *bonds);
 
-/* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled
- * (bonds_state.c). Does nothing for bond-based models. */
+/* Sets moduli and normalisation of the state-based model in b->state, and allocates the weighted volumes there. source:
+ * inputs of the bonds. Call before rows (bonds of particles) are filled (bonds_state.c). Does nothing for bond-based
+ * models. */
 void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *source);
 
-/* Allocates the arrays of b->state that depend on the rows, stores the sources of mirror images, and computes the
- * weighted volumes; call after all rows were made. Does nothing for bond-based models. */
+/* Allocates the arrays of b->state that depend on the rows (the bonds of particles p), stores the sources of mirror
+ * images, and computes the weighted volumes. source: inputs of the bonds. Call after all rows were made. Does nothing
+ * for bond-based models. */
 void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
-/* Releases the arrays of b->state. */
+/* Releases the arrays of b->state, the data of families in state-based models. */
 void bonds_free_state_based_arrays(struct bonds *b);
 
-/* Lists in b->clamped the bonds to mirror images in clamped planes, planes of symmetry along which motion is prevented,
- * too. To be called after all rows were made (bonds_clamped.c). */
+/* Lists in b->clamped the bonds of particles p to their mirror images in clamped planes (planes in which all motion is
+ * prevented). source: inputs of the bonds. To be called after all rows were made (bonds_clamped.c). */
 void clamped_bonds_list_at_clamped_mirrors(struct bonds *b, const struct particles *p,
                                            const struct bond_source *source);
 
-/* Releases the lists in b->clamped. */
+/* Releases the lists in b->clamped, the bonds to mirror images in clamped planes. */
 void clamped_bonds_free(struct bonds *b);
 
 #endif

@@ -21,7 +21,8 @@ struct offsets {
     int32_t *mirrored;    /* [2^dim n] index of an offset reflected in mirrors, one bit per axis */
 };
 
-/* Particles near faces: those with a missing neighbour, and those with such a particle as neighbour. */
+/* Particles near faces, i.e. particles with a missing neighbour and neighbours of such particles, with all their
+ * neighbours by offset (lattice vector from particle to neighbour). */
 struct near_faces {
     const struct particles *p;
     const struct bond_source *source;
@@ -33,8 +34,8 @@ struct near_faces {
     uint8_t *whole;     /* [p->n] 1: no neighbour is missing */
 };
 
-/* A neighbour that may be a mirror image: the particle of the body of which it is an image, and the mirrors in between
- * as one bit for each axis that they reverse. */
+/* A neighbour that may be a mirror image. particle: its source, a particle of the body, or the neighbour itself;
+ * mirrors: bit d is set if the mirrors between both reverse axis d. */
 struct seen {
     int64_t particle;
     int mirrors;
@@ -51,7 +52,8 @@ static inline struct seen near_faces_source_of_entry(const struct near_faces *b,
     return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);
 }
 
-/* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
+/* Returns the sign that the mirrors `mirrors` (bit d: they reverse axis d) give a vector component along axis `axis`:
+ * -1 if they reverse that axis, else 1. */
 static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
 
 /* Returns the particle or mirror image that is offset number `offset_number` (an index into the arrays of b->offset,
@@ -77,7 +79,7 @@ static inline struct seen near_faces_mirrored_neighbour(const struct near_faces 
 }
 
 /* Returns true if no neighbour of entry j of the particle arrays is missing, so that no face is near. If j is a mirror
- * image, the particle that it mirrors is examined. */
+ * image, its source particle is examined. b: particles near faces. */
 static inline bool particle_family_is_complete(const struct near_faces *b, int64_t j)
 {
     return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
@@ -94,7 +96,7 @@ int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const stru
 status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,
                                                 const struct bond_source *source, int64_t unfitting_pair[2]);
 
-/* Releases all arrays of b. */
+/* Releases all arrays of b, the particles near faces. */
 void near_faces_free(struct near_faces *b);
 
 /* Properties of the faces near each particle [n], from which the targets for the weights of its bonds follow
@@ -110,12 +112,12 @@ struct surface_fit_targets {
 };
 enum { THIN = 4, THIN_ROTATING = 5 };
 
-/* Computes, for the particles `near` near faces, the outward areas, moments and normals to which bond weights are
- * fitted, into f. with_rotations: true for the model with particle rotations. Release with surface_fit_targets_free. */
+/* Computes into f, for the particles `near` near faces, the outward areas, moments and normals to which bond weights
+ * are fitted. with_rotations: true for the model with particle rotations. Release with surface_fit_targets_free. */
 void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *near,
                                          bool with_rotations);
 
-/* Releases all arrays of f. */
+/* Releases all arrays of f, the targets of the fit of bond weights near faces. */
 void surface_fit_targets_free(struct surface_fit_targets *f);
 
 /* Classes of particles near faces whose neighbours have equal relative positions, up to reflections along axes, and
@@ -146,15 +148,16 @@ static inline int32_t bond_class_neighbour_at_offset(const struct bond_classes *
                                           near->offset.mirrored[classes->mirrors[t] * near->offset.n + offset_number]);
 }
 
-/* Releases all arrays of `classes`. */
+/* Releases all arrays of `classes`, the classes of particles near faces. */
 void bond_classes_free(struct bond_classes *classes);
 
-/* Number of third and fourth moments of a bond in space, and in the plane (_2D), each padded to an even number. */
+/* Number of third and fourth moments of a bond in 3D, and in 2D (_2D), each padded to an even number. MOMENTS: sum of
+ * both in 3D. */
 enum { THIRDS = 10, FOURTHS = 16, THIRDS_2D = 4, FOURTHS_2D = 6, MOMENTS = THIRDS + FOURTHS };
 
-/* Data of a class of particles in the least-squares fit. third, fourth: inverses of the quadratic forms of its third
- * and fourth moments, times the number of its particles; goal: required sum of the moments of those bonds whose factors
- * may change. */
+/* Data of a class of particles (with equal surroundings) in the least-squares fit of bond weights near faces. third,
+ * fourth: inverses of the quadratic forms of its third and fourth moments, times the number of its particles; goal:
+ * required sum of the moments of those bonds whose factors may change. */
 struct class_fit {
     real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
 };
@@ -171,19 +174,20 @@ struct surface_fit_problem {
     real *prior, *low, *high;     /* [groups] weight of (f - 1)^2; bounds of f, equal if f is given */
 };
 
-/* Largest number of matrix products in the solution of the least-squares problem (surface_fit_solve_least_squares).
- * Most bodies need 60 to 250, thin bodies with cracks in 3D 700. */
+/* Upper limit of the number of matrix products in the solution of the least-squares problem
+ * (surface_fit_solve_least_squares). Most bodies need 60 to 250, thin bodies with cracks in 3D 700. */
 enum { SURFACE_PRODUCTS = 1000 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
  * the factors [groups]. max_matrix_products: largest number of products with the matrix of the dual problem, fewer in
- * large bodies. Returns the remaining residual divided by the residual with all factors 1 [1]. */
+ * large bodies. Returns the remaining residual divided by the residual with all factors 1: 0 for an exact fit. */
 real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *factor, int max_matrix_products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
- * factor: [classes->groups] [1]; targets: targets of the fit; with_rotations: true for the model with particle
- * rotations. max_matrix_products: as in surface_fit_solve_least_squares. Returns the remaining residual divided by that
- * with all factors 1 [1]. */
+ * factor[classes->groups]: receives the factors [1]; near: particles near faces; targets: areas and moments to which
+ * weights are fitted; classes: classes of particles and groups of bonds; with_rotations: true for the model with
+ * particle rotations. max_matrix_products: as in surface_fit_solve_least_squares. Returns the remaining residual
+ * divided by the residual with all factors 1. */
 real surface_fit_compute_bond_weight_factors(real *factor, const struct near_faces *near,
                                              const struct surface_fit_targets *targets,
                                              const struct bond_classes *classes, bool with_rotations,

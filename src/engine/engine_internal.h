@@ -10,10 +10,12 @@
  * pointers to them in *e. */
 void run_parts_make(struct run *e);
 
-/* Releases all parts of a run and what they own. Parts that were not created are skipped. */
+/* Releases all parts of run e (contact, cracks, mesh, probes and others) and what they own. Parts that were not created
+ * are skipped. */
 void run_parts_free(struct run *e);
 
-/* A run that is replaced by a run of the same scene with other particles. */
+/* A run that is to be replaced by a run of the same scene with other particles, and the map between the particles of
+ * both. */
 struct predecessor {
     struct run *run;
     int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
@@ -44,8 +46,8 @@ void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
  * Each part saves only the state that a->scope selects. Returns FAILED if an entry is missing or has another size. */
 status parts_save_or_load_state(struct run *e, struct archive *a);
 
-/* Adds warnings to *warnings about bodies in which particles have no neighbours within the horizon. cells: neighbour
- * search over reference positions. */
+/* Adds warnings to *warnings about bodies of scene s in which particles of p have no neighbours within the horizon. b:
+ * bonds; cells: neighbour search over reference positions. */
 void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
                                        const struct particles *p, struct warnings *warnings);
 
@@ -65,11 +67,11 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
 void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
                                         const struct crack_tips *tips, real wave_speed, struct warnings *warnings);
 
-/* Adds a warning to *warnings if all loads are tractions that press the pre-cracks shut. */
+/* Adds a warning to *warnings if all loads of scene s are tractions that press the pre-cracks shut. p: particles. */
 void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Returns for each of the p->n particles the components of its motion that supports prescribe, as bits (bit d for
- * component d). The caller releases the array. */
+/* Returns a new array [p->n] with the components of motion that supports in `loads` prescribe for each particle, as
+ * bits (bit d for component d). The caller releases the array with memory_free. */
 uint8_t *engine_find_prescribed_components(const struct loads *loads, const struct particles *p);
 
 /* Adds warnings to *warnings about values that look like mistakes of units, unless the key `accept` of the scene
@@ -82,8 +84,8 @@ void engine_warn_of_mistaken_units(const struct scene *s, const struct particles
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *warnings);
 
-/* Adds a warning to *warnings if a particle starts faster than wave_speed, the speed of the fastest wave in any
- * material [m/s]. */
+/* Adds a warning to *warnings if a particle of p starts faster than `wave_speed` [m/s], the speed of the fastest wave
+ * in any material. */
 void engine_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings);
 
 /* Adds warnings to *warnings about supports that hold all particles, about pairs of supports that prescribe different
@@ -104,25 +106,27 @@ void engine_warn_of_uncorrected_faces(const struct scene *s, const struct partic
                                       const struct surface_weights *weights, struct warnings *warnings);
 
 /* Computes the bounding box of the particles of body number `body_number` and of all bodies that are joined to it, and
- * stores its corners in box_low[dim] and box_high[dim] [m]. Returns false if there are no such particles. */
+ * stores its corners in box_low[dim] and box_high[dim] [m]. Returns true, or false if there are no such particles. */
 bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
                                          real *box_low, real *box_high);
 
-/* Returns the number of particles along the axis `axis` between the positions `low` and `high` [m], including their
- * mirror images beyond planes of symmetry. */
+/* Returns the number of particles of scene s in a row along axis `axis` between the coordinates `low` and `high` [m],
+ * including mirror images beyond planes of symmetry. */
 real engine_particle_count_between_positions(const struct scene *s, real low, real high, int axis);
 
-/* Adds warnings to *warnings about solids of the shape of a body that add nothing to it or remove nothing from it. */
+/* Adds warnings to *warnings about solids in the shapes of the bodies of scene s that add nothing to the body or remove
+ * nothing from it. */
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *warnings about surfaces read from files whose closed shells overlap or lie inside one another, so
- * that they enclose a part of the body twice. */
+/* Adds warnings to *warnings about surfaces of scene s, read from files, whose closed shells overlap or lie inside one
+ * another, so that they enclose a part of the body twice. */
 void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *warnings about bodies that move at the start and meet no other body within the duration. */
+/* Adds warnings to *warnings about bodies of scene s that move at the start and meet no other body within the duration.
+ * p: particles. */
 void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds a warning to *warnings about each pair of bodies that overlap at the start. */
+/* Adds a warning to *warnings about each pair of bodies of scene s that overlap at the start. p: particles. */
 void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
 /* Adds warnings to *warnings about planes of symmetry with a gap between them and the bodies, and about parts,
@@ -130,11 +134,11 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
 void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
                                               struct warnings *warnings);
 
-/* Adds warnings to *warnings about times of frames beyond the end of the run. */
+/* Adds warnings to *warnings about times of frames in scene s that are beyond the end of the run. */
 void engine_warn_of_frames_after_end_of_run(const struct scene *s, struct warnings *warnings);
 
-/* Returns REFUSED, with a message that contains the estimate, if the memory of the machine is smaller than that of the
- * run. */
+/* Checks whether the run of scene s fits the memory that the process may use. p: particles; bond_source: inputs of the
+ * bonds. Returns REFUSED, with a message that contains the estimated size, if it does not, else OK. */
 status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *bond_source);
 
 #endif

@@ -6,7 +6,7 @@
 #include "export/export.h"
 
 /* The particles of a scene or run, sorted by the number of their material in the scene file, then by id, for meshes of
- * other programs. Each load is a set of them. */
+ * other programs. In such a mesh they are nodes, and each load is a set of nodes. */
 struct export_mesh {
     struct scene scene;
     struct run *e;
@@ -18,7 +18,8 @@ struct export_mesh {
 };
 
 /* Reads the scene of the request with its overrides, creates all particles of its bodies and sorts them by material and
- * id. Returns REFUSED if the scene is faulty. Release *m with export_mesh_free, also after a failure. */
+ * id. Returns REFUSED, with a message, if the scene is faulty. Release *m with export_mesh_free, also after a
+ * failure. */
 status export_mesh_make(struct export_mesh *m, const struct export_request *request);
 
 /* Name of a set of nodes in the exported mesh; a struct, so that functions can return it by value. */
@@ -39,12 +40,13 @@ int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load
 void export_mesh_free(struct export_mesh *m);
 
 /* Checks that the file `path` may be written: it must not exist or, if `overwrite` is true, be an export of Cleave.
- * format_signature: text in the first bytes of exports of this kind, by which they are recognised. Returns REFUSED if
- * the file may not be written. */
+ * format_signature: text in the first bytes of exports of this kind, by which they are recognised. Returns OK if the
+ * file may be written, else REFUSED, with a message. */
 status export_check_file_may_be_written(const char *path, const char *format_signature, bool overwrite);
 
 /* Writes the file `path`: calls write_contents(to, context) with an open file `to` under a temporary name, synchronises
- * this file with the disk and renames it to `path`. Returns FAILED, and leaves no new file, if it cannot be written. */
+ * this file with the disk and renames it to `path`. Returns the status of write_contents if that is not OK; FAILED,
+ * with a message, if the file cannot be written. No new file is left in both cases. */
 status export_write_file_and_rename(const char *path, status (*write_contents)(FILE *to, void *context), void *context);
 
 #endif

@@ -14,25 +14,26 @@ enum {
 
 /* ---- what carries over (export_carries.c) ------------------------------------------------------------------------ */
 
-/* A key whose value differs from what LAMMPS does: the value that matches LAMMPS, and how results differ. */
+/* A key of the scene whose value differs from what LAMMPS does. value: the value that matches LAMMPS; effect: in words,
+ * how results differ. All texts are constants. */
 struct lammps_setting {
     const char *key, *value, *effect;
 };
 enum { SETTINGS_MOST = 16 };
 
-/* List of keys whose values differ from what LAMMPS does. */
+/* List of n keys of the scene whose values differ from what LAMMPS does: of[n]. */
 struct lammps_settings {
     int n;
     struct lammps_setting of[SETTINGS_MOST];
 };
 
-/* Lists in *changes the keys of the scene that must be changed for LAMMPS to give the same results, with their required
- * values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED if LAMMPS lacks a
- * feature of the scene. */
+/* Lists in *changes the keys of scene s that must be changed so that LAMMPS gives the same results, with the required
+ * values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED, with a message, if
+ * LAMMPS lacks a feature of the scene. */
 status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style);
 
-/* Returns true if the results of LAMMPS differ in a way that no key of the scene removes: in the state-based model
- * LAMMPS continues to normalise by the weighted volume of the intact family after bonds have broken. */
+/* Returns true if the results of LAMMPS differ in a way that no key of scene s removes: in the state-based model LAMMPS
+ * continues to normalise by the weighted volume of the intact family after bonds have broken. */
 bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */
@@ -121,9 +122,9 @@ void lammps_types_free(struct lammps_types *types);
  * for a load, or not enough groups of particles for all loads. */
 status lammps_find_loads_of_particles(struct exported *exported);
 
-/* Computes the velocity with which the particle with the index `particle` starts in LAMMPS, and stores it in velocity[]
- * [m/s]. Components that a boundary condition prescribes are those at half a time step, others are those of the initial
- * velocity in the scene. */
+/* Computes the velocity [m/s] with which the particle with the index `particle` starts in LAMMPS into `velocity`.
+ * Components that a boundary condition prescribes have their value at half a time step, all others the value of the
+ * initial velocity in the scene. */
 void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX]);
 
 /* Writes the names of all per-particle columns exported->column to the file `file`, as arguments of the LAMMPS command
@@ -156,12 +157,13 @@ void lammps_script_write(FILE *file, const struct exported *exported, const stru
  * compute, to the file `file` (export_cost.c). */
 void lammps_write_run_time_estimate(FILE *file, const struct exported *exported);
 
-/* Returns the number of time steps after which the positions in both programs are compared: CHECK_STEPS, or all steps
+/* Returns the number of time steps after which positions in LAMMPS and Cleave are compared: CHECK_STEPS, or all steps
  * of a shorter run. */
 int64_t lammps_reference_step_count(const struct exported *exported);
 
 /* Makes lammps_reference_step_count time steps in Cleave and writes the contents of check.csv to the file `file`: the
- * positions of the particles, and which share of their bonds is broken. Returns FAILED if a step fails. */
+ * positions of the particles, and the share of their bonds that is broken. Returns FAILED, with a message, if a step
+ * fails. */
 status lammps_run_and_write_comparison_positions(FILE *file, struct exported *exported);
 
 #endif

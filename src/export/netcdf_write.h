@@ -9,15 +9,19 @@
 
 #include "base/base.h"
 
+/* Types of the numbers of an array, with the codes of the netCDF format. */
 enum netcdf_type { NETCDF_CHAR = 2, NETCDF_INT = 4, NETCDF_FLOAT = 5, NETCDF_DOUBLE = 6 };
 
 enum { NETCDF_NAME = 64, NETCDF_RANKS = 2, NETCDF_NUMBERS_MOST = 500000000 }; /* an array has less than 4 GB */
 
+/* A dimension of a netCDF file: name and number of entries. */
 struct netcdf_dimension {
     char name[NETCDF_NAME];
     int64_t length; /* 0: that of records */
 };
 
+/* An array of a netCDF file. dimension[ranks]: indices of its dimensions; attribute, text: name and text of its only
+ * attribute, borrowed. */
 struct netcdf_array {
     char name[NETCDF_NAME];
     enum netcdf_type type;
@@ -25,7 +29,8 @@ struct netcdf_array {
     const char *attribute, *text; /* an attribute; NULL: none */
 };
 
-/* An attribute of the whole file: the text `text`, or, if `text` is NULL, the number `value` of type `type`. */
+/* An attribute of a whole netCDF file: the text `text`, or, if `text` is NULL, the number `value`, written as a number
+ * of type `type`. `name` and `text` are borrowed. */
 struct netcdf_attribute {
     const char *name, *text; /* borrowed */
     enum netcdf_type type;
@@ -57,25 +62,25 @@ void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suf
                          int dimension_count, const int *dimension, const char *attribute_name,
                          const char *attribute_text);
 
-/* Writes the header of the file, which follows from the definitions, to w->to. To be called after all definitions and
- * before the arrays are written. */
+/* Writes the header of the netCDF file of w, which follows from the definitions, to w->to. To be called after all
+ * definitions and before the arrays are written. */
 void netcdf_write_header(struct netcdf_writer *w);
 
-/* Writes value[n] as the next n numbers of the array of reals that is being written. */
+/* Writes value[n] as the next n numbers of the array of type NETCDF_DOUBLE that is being written to the file of w. */
 void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value);
 
-/* Writes value[n] as the next n numbers of the array of whole numbers that is being written. */
+/* Writes value[n] as the next n numbers of the array of type NETCDF_INT that is being written to the file of w. */
 void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
 
-/* Writes `text` as the next row of the array that is being written, an array of letters with rows of `row_bytes` bytes.
- * The text is cut or padded to this length. */
+/* Writes `text` as the next row of the array of type NETCDF_CHAR that is being written to the file of w. The text is
+ * cut or padded to `row_bytes`, the length of a row [byte]. */
 void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int row_bytes);
 
-/* Ends the array that is being written, or its part in one record, with the padding that the format requires. The next
- * numbers belong to the next array. */
+/* Ends the array that is being written to the file of w, or its part in one record, with the padding that the format
+ * requires. The next numbers belong to the next array. */
 void netcdf_end_array(struct netcdf_writer *w);
 
-/* Releases the definitions of the netCDF file *w. Does not close the file. */
+/* Releases the definitions of the netCDF file of w. Does not close the file w->to. */
 void netcdf_free(struct netcdf_writer *w);
 
 #endif

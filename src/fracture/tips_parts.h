@@ -23,8 +23,8 @@ static inline int64_t tip_end_of_particle_list_piece(const struct particles *p, 
     return piece_start + TIP_PIECE < p->n_of[KIND_PD] ? piece_start + TIP_PIECE : p->n_of[KIND_PD];
 }
 
-/* Returns true if the particle numbers particle_number[0 .. count - 1] are consecutive. They must be strictly
- * ascending, and `count` at least 1. Flags of consecutive particles are tested eight at a time. */
+/* Returns true if the particle numbers particle_number[0] .. particle_number[count - 1] are consecutive integers. They
+ * must be strictly ascending, and `count` at least 1. Flags of consecutive particles are tested eight at a time. */
 static inline bool particles_have_consecutive_numbers(const int32_t *particle_number, int64_t count)
 {
     return particle_number[count - 1] - particle_number[0] == count - 1;
@@ -43,8 +43,8 @@ struct tip_reach {
  * TIPS_MAX tips; must be 0 on entry. */
 void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent);
 
-/* Search for particles near a position, with a result array that is reused. room: capacity of `found`, which the caller
- * releases. */
+/* Search for particles near a position, with a result array that is reused. p: particles; c: search cells over their
+ * reference positions; room: capacity of `found`, which the caller releases with memory_free. */
 struct tip_search {
     const struct particles *p;
     const struct cells *c;
@@ -52,19 +52,20 @@ struct tip_search {
     int room;
 };
 
-/* Finds the particles, mirror images included, within `radius` [m] of the position `position` [m]. The indices are
- * written to s->found, which grows as needed and which the caller frees after the last search. Returns the number of
- * particles found. */
+/* Finds the particles, mirror images included, whose reference positions are within `radius` [m] of the position
+ * `position` [m]. The indices are written to s->found, which grows as needed and which the caller frees after the last
+ * search. Returns the number of particles found. */
 int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius);
 
-/* Computes the vector from the nearest point of a segment to the point `point` [m]. centre: middle of the segment [m];
- * half_vector: vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the
- * vector [m]. */
+/* Computes the vector `offset` from the nearest point of a segment to the point `point`. centre: middle of the segment;
+ * half_vector: vector from the middle to one end; all vectors have dim components [m]. Returns the length of `offset`
+ * [m], the distance. */
 real segment_distance_and_offset_to_point(const real *centre, const real *half_vector, const real *point, int dim,
                                           real *offset);
 
-/* Adds a crack tip without growth to t. body_number: number of the body; start_position: start position [m]; direction:
- * unit vector of the direction of the crack, NULL for the x axis. Returns the new tip, an element of t->tip. */
+/* Adds a crack tip without growth to t, which must have fewer than TIPS_MAX. body_number: number of the body;
+ * start_position: start position [m]; direction: unit vector of the direction of the crack, NULL for the x axis.
+ * Returns the new tip, an element of t->tip. */
 struct crack_tip *tip_add_without_growth(struct crack_tips *t, int body_number, const real *start_position,
                                          const real *direction);
 

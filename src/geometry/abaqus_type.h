@@ -4,15 +4,17 @@
 
 #include "elements.h"
 
-/* Shape of an element type: plane (2D and surface elements) or solid, number of nodes in the file, kind. */
+/* Shape of an element type of Abaqus. plane: true for 2D and surface elements; nodes: number of nodes of an element in
+ * the file; kind: shape without middle nodes. */
 struct abaqus_shape {
     bool plane;
     int nodes;
     enum element_kind kind;
 };
 
-/* Finds the shape of an element type such as C3D10M or CPS4R, in capitals. Stores NULL in *shape for types that are
- * left out: points, lines, and connectors between elements. Returns REFUSED, with file and line, for any other type. */
+/* Finds the shape of the element type `type`, such as C3D10M or CPS4R, in capitals; *shape receives a pointer to a
+ * constant. Stores NULL in *shape for types that are left out: points, lines, and connectors between elements. Returns
+ * REFUSED, with file and line, for any other type. */
 status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct source *file, const char *type);
 
 #endif

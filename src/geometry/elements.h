@@ -40,18 +40,19 @@ struct element_sides {
 };
 extern const struct element_sides element_sides[ELEMENT_KINDS];
 
-/* Edges of an element kind, by their two corners. */
+/* Edges of an element kind: the numbers of the two corners of each of the n edges. element_edges is indexed by enum
+ * element_kind. */
 struct element_edges {
     int n;
     signed char corner[ELEMENT_EDGES_MAX][2];
 };
 extern const struct element_edges element_edges[ELEMENT_KINDS];
 
-/* Returns the index of the edge between the corners `corner` and `other_corner` of an element of this kind; -1 if there
- * is no such edge. */
+/* Returns the index (in element_edges) of the edge between the corners number `corner` and `other_corner` of an element
+ * of the kind `kind`; -1 if there is no such edge. */
 int element_edge_index_between_corners(enum element_kind kind, int corner, int other_corner);
 
-/* A named set of nodes or elements. */
+/* A named set of nodes or elements of a finite-element mesh. */
 struct element_set {
     char name[NAME_MAX_LENGTH];
     bool of_nodes; /* true: members are nodes; false: elements */
@@ -101,15 +102,15 @@ void element_mesh_set_middle_nodes_of_last_element(struct element_mesh *m, const
  * creates an empty set if there is none. Returns -1 if there would be more than ELEMENT_SETS_MAX sets. */
 int element_mesh_find_or_create_set(struct element_mesh *m, const char *name, bool of_nodes);
 
-/* Appends a node or element to the set number `set` of the mesh m. member: its index, or its number in the file if
- * indices are not known yet. */
+/* Appends a node or element to the set number `set` (from 0) of the mesh m. member: index of the node or element, or
+ * its number in the file if indices are not known yet. */
 void element_mesh_add_to_set(struct element_mesh *m, int set, int64_t member);
 
 /* Rotates a node of the mesh m by `angle` [rad] about the axis from the point a to the point b (Rodrigues' formula). a
  * and b must differ. node: index of the node; a, b: three coordinates each [unit of the file]. */
 void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *a, const real *b, real angle);
 
-/* Releases all arrays of m and zeroes it. */
+/* Releases all arrays of the mesh m and sets all its members to 0. */
 void element_mesh_free(struct element_mesh *m);
 
 /* Map from labels (numbers of nodes or elements in a file) to n consecutive indices. entry: sorted by label. */
@@ -118,7 +119,7 @@ struct label_map {
     struct label_entry *entry;
 };
 
-/* A label (number of a node or element in a file) and its index. */
+/* An entry of a label map: a label (number of a node or element in a file) and the index to which it is mapped. */
 struct label_entry {
     int64_t label, index;
 };
@@ -127,18 +128,19 @@ struct label_entry {
  * first_index + k, k = 0 .. label_count - 1. Release it with label_map_free. */
 void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t label_count);
 
-/* Releases the entries of `map`. */
+/* Releases the entries of `map`, a map from numbers of a file to indices. */
 void label_map_free(struct label_map *map);
 
-/* Returns the index to which `map` maps the number `label` of the file; the lowest one if the number occurs twice, -1
- * if it does not occur. */
+/* Returns the index to which `map` maps `label`, a number of a node or element in the file; the lowest index if the
+ * number occurs twice, -1 if it does not occur. */
 int64_t label_map_find(const struct label_map *map, int64_t label);
 
-/* Returns true if a number of the file occurs twice in `map`, and stores the smallest such number in *label. */
+/* Returns true if a number of a node or element occurs twice in `map`, and then stores the smallest such number in
+ * *label. */
 bool label_map_find_duplicate(const struct label_map *map, int64_t *label);
 
-/* Reads the Gmsh file into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file is
- * malformed or contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a
+/* Reads the Gmsh file `file` into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file
+ * is malformed or contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a
  * failure. */
 status gmsh_read(struct element_mesh *m, struct source *file);
 
@@ -150,9 +152,9 @@ status abaqus_read(struct element_mesh *m, struct source *file);
  * contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a failure. */
 status exodus_read(struct element_mesh *m, struct source *file);
 
-/* Reads the text or binary STL file into the empty mesh m. Corners of triangles that are nearer to each other than a
- * millionth of the extent of the mesh become one node. Returns REFUSED, with a message, if the file is malformed. The
- * caller releases m with element_mesh_free, also after a failure. */
+/* Reads the text or binary STL file `file` into the empty mesh m. Corners of triangles that are nearer to each other
+ * than a millionth of the extent of the mesh become one node. Returns REFUSED, with a message, if the file is
+ * malformed. The caller releases m with element_mesh_free, also after a failure. */
 status stl_read(struct element_mesh *m, struct source *file);
 
 /* Creates g: the surface of the body that the elements of m fill, in metres, and the surfaces of the named sets of m.
@@ -192,9 +194,9 @@ struct surface_builder {
  * (indices); in 2D it is a segment and `third_node` is ignored. */
 void surface_builder_add_face(struct surface_builder *b, int32_t first_node, int32_t second_node, int32_t third_node);
 
-/* Appends the side of an element to the faces of the surface b, as one or two triangles. corner_node[corner_count]: its
- * corners, 3 or 4 node indices. A quadrilateral is divided such that its triangles are also those of the elements on
- * its other side, if these have triangular sides. */
+/* Appends the side of an element to the faces of the surface b, as one or two triangles. corner_node[corner_count]:
+ * corners of the side, 3 or 4 node indices. A quadrilateral is divided along the same diagonal as by the elements on
+ * its other side, if these have triangular sides there. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_node, int corner_count);
 
 /* Appends a copy of *side, a side of an element with middle nodes, to the surface b.

@@ -10,7 +10,7 @@ struct exodus_dimension {
     int64_t length;
 };
 
-/* Types of numbers, with the codes that classic netCDF files have for them. */
+/* Types of the numbers of an array, with the codes that classic netCDF files have for these types. */
 enum exodus_type {
     EXODUS_BYTE = 1,
     EXODUS_CHAR,
@@ -26,7 +26,7 @@ enum exodus_type {
     EXODUS_TYPES
 };
 
-/* An array of a netCDF file, with one or two dimensions. */
+/* An array of a netCDF file, with one or two dimensions: name, type and lengths. */
 struct exodus_array {
     char name[NAME_MAX_LENGTH], elements[NAME_MAX_LENGTH]; /* its attribute elem_type; "": none */
     enum exodus_type type; /* of HDF5 files: EXODUS_CHAR, EXODUS_INT64 or EXODUS_DOUBLE */
@@ -46,8 +46,8 @@ static inline void exodus_text_make_printable(char *text)
  * file is shorter than its arrays. */
 status exodus_classic_open(struct exodus_file *f);
 
-/* Copies `count` numbers of the array `array` of a classic file to real_value[count], or to whole_value[count] if
- * real_value is NULL. */
+/* Copies `count` numbers of the array `array` of the classic netCDF file f to real_value[count], or to
+ * whole_value[count] if real_value is NULL. */
 void exodus_classic_read_array(const struct exodus_file *f, const struct exodus_array *array, int64_t count,
                                real *real_value, int64_t *whole_value);
 
@@ -58,16 +58,16 @@ status exodus_hdf5_open(struct exodus_file *f);
 /* Closes the netCDF-4 file of f, opened by exodus_hdf5_open. */
 void exodus_hdf5_close(struct exodus_file *f);
 
-/* Returns the length of the dimension called `dimension_name` of a netCDF-4 file, or 0 if there is none of this name.
- */
+/* Returns the length of the dimension called `dimension_name` of the netCDF-4 file f, or 0 if it has no dimension of
+ * this name. */
 int64_t exodus_hdf5_length_of_dimension(const struct exodus_file *f, const char *dimension_name);
 
-/* Finds the array called `array_name` of a netCDF-4 file, and stores its properties in *a. Returns false if there is
- * none of this name, if it has other than one or two dimensions, or if its numbers are not in the file. */
+/* Finds the array called `array_name` of the netCDF-4 file f, and stores its properties in *a. Returns true, or false
+ * if there is no such array, if it has more than two dimensions or none, or if its numbers are not in the file. */
 bool exodus_hdf5_find_array(const struct exodus_file *f, const char *array_name, struct exodus_array *a);
 
-/* Reads all numbers of the array `a` of a netCDF-4 file into one of the arrays real_value, whole_value and letters. The
- * caller passes NULL for the other two. Returns false if HDF5 cannot read them. */
+/* Reads all numbers of the array `a` of the netCDF-4 file f into one of the arrays real_value, whole_value and letters;
+ * the caller passes NULL for the other two. Returns true, or false if HDF5 cannot read the numbers. */
 bool exodus_hdf5_read_array(const struct exodus_file *f, const struct exodus_array *a, real *real_value,
                             int64_t *whole_value, char *letters);
 

@@ -17,12 +17,12 @@ struct source {
  * REFUSED, with a message and nothing to release, if the file is unreadable, empty, or too large for the memory. */
 status source_read_whole_file(struct source *s, const char *path);
 
-/* Sets the message `path:line: text` for the reading position of s (`path: text` for binary files) and returns REFUSED.
- * format: text as in printf. */
+/* Sets the message of a failure (status_set) to `path:line: text`, with the line of the reading position of s (`path:
+ * text` for binary files) and a text composed as by printf. Returns REFUSED. */
 status source_report_fault(const struct source *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Moves the reading position of s over white space to the beginning of the next word. Returns false at the end of the
- * file. */
+/* Moves the reading position of s over white space to the beginning of the next word. Returns true, or false at the end
+ * of the file. */
 bool source_skip_blanks(struct source *s);
 
 /* Copies the next word of the file s to `word`, which has `capacity` bytes, cut if necessary and ended by a zero byte;
@@ -51,10 +51,10 @@ status source_read_int64(struct source *s, const char *quantity, int64_t *value)
 status source_check_count_fits_file(const struct source *s, const char *item_name, int64_t count,
                                     int64_t bytes_per_item);
 
-/* Moves the reading position of s to the beginning of the next line. */
+/* Moves the reading position of the file s to the beginning of the next line, or to the end of the file. */
 void source_skip_to_next_line(struct source *s);
 
-/* Releases the content of the file s. */
+/* Releases the content of the file s, which source_read_whole_file has read. */
 void source_close(struct source *s);
 
 #endif
