@@ -7,11 +7,11 @@
 
 #include "data/grid.h"
 
-/* Returns the impulse of a dashpot along direction `axis` on a node or particle in a step [N s], by the implicit mean
+/* Returns the impulse [N s] of a dashpot along axis `axis` on a node or particle in a step, by the implicit mean
  * velocity (v_old + v_new)/2. Adds impulse and dissipated energy to *a, and a quarter of the impulse times the change
- * of velocity to its member `kick`, which the correction of the kinetic energy of samples leaves out. rate_dt: dashpot
- * rate times the duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s]; velocity_change:
- * velocity change by all other forces [m/s]. */
+ * of velocity to a->kick, which the correction of the kinetic energy of samples leaves out. rate_dt: dashpot rate times
+ * the duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s]; velocity_change: velocity change
+ * by all other forces [m/s]. */
 static inline real dashpot_add_impulse(struct absorbed *a, int axis, real rate_dt, real mass, real old_velocity,
                                        real velocity_change)
 {
@@ -22,8 +22,9 @@ static inline real dashpot_add_impulse(struct absorbed *a, int axis, real rate_d
     return impulse;
 }
 
-/* Corrects dissipated energy and kick in *a for a dashpot impulse [N s] if the velocity at the end of the step is
- * changed by a further `velocity_change` [m/s] after dashpot_add_impulse. */
+/* Corrects a->energy and a->kick, to which dashpot_add_impulse has added, if the velocity at the end of the step is
+ * afterwards changed by a further `velocity_change` [m/s]. impulse: impulse that dashpot_add_impulse has returned [N
+ * s]. */
 static inline void dashpot_correct_energy(struct absorbed *a, real impulse, real velocity_change)
 {
     a->energy -= 0.5 * impulse * velocity_change;

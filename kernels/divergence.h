@@ -6,7 +6,7 @@
 
 #include "kernels/simd/lanes.h"
 
-/* Returns a mask of eight particles in which a lane is set if its particle has diverged, i.e. is too fast or has a
+/* Tests eight particles for divergence. Returns a mask in which a lane is set if its particle is too fast or has a
  * position or velocity that is not finite. squared_speed: squares of the speeds [m^2/s^2]; position_sum: sums of the
  * absolute values of the position components [m]; squared_limit: square of the largest allowed speed [m^2/s^2]. NaN
  * counts as diverged. */

@@ -27,8 +27,8 @@ enum pd_model {
     PD_MODELS
 };
 
-/* Elastic constants of a material for the stress update, and the stress at which its material points are marked for
- * conversion to peridynamic particles. */
+/* Elastic constants of a material for the stress update of material points, and the stress at which these points are
+ * marked for conversion to peridynamic particles. */
 struct elastic {
     real c11, c12, shear; /* stiffnesses C11, C12 and shear modulus of the space [Pa] */
     real trigger; /* sigma_1 at which a point is marked for conversion, INFINITY: never; where strength scatters: of the
@@ -44,9 +44,9 @@ struct elastic {
     bool mean_dilatation;  /* the points of a cell have its mean dilatation (mpm/dilatation.h, mesh/mesh_law.h) */
 };
 
-/* Returns the largest principal stress at which material point i, of material m, is marked for conversion to a
- * peridynamic particle [Pa]: m->trigger, or, where strength is random, m->trigger_mean times the strength of the
- * point. */
+/* Returns the largest principal stress [Pa] at which material point i of p is marked for conversion to a peridynamic
+ * particle. m: constants of its material. The stress is m->trigger, or, where strength is random, m->trigger_mean times
+ * the strength of the point. */
 static inline real point_conversion_stress(const struct elastic *m, const struct particles *p, int64_t i)
 {
     return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
@@ -70,8 +70,9 @@ struct partial_stress {
     struct partial_table *table; /* table of the segments of lattice bonds in cells (src/coupling/partial_table.c) */
 };
 
-/* Returns true if material point i has state-based bonds of its own. Returns false if bonds of other points at most
- * cross its cell, or if the model is bond-based. */
+/* Returns true if material point i has state-based bonds of its own; false if at most bonds of other points cross its
+ * cell, or if the model is bond-based. partial: partial stresses of the material points, which contain this
+ * information. */
 static inline bool point_has_state_bonds(const struct partial_stress *partial, int64_t i, int dim)
 {
     if (!partial->local || partial->index[i] < 0) return false;
@@ -131,14 +132,16 @@ KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
 
-/* Starts the softening of all bonds whose stretch exceeds their onset (the stretch at which softening begins), if the
- * stress across the bond allows it (pd/bond_begin.c). Examines the row blocks (the bonds of eight particles) in which
- * the last force computation has found such a bond. The result is the same for both particles of a bond. A bond beyond
- * its onset already loses some energy at once, which is added to the fracture energy. Called by bond_forces. */
+/* Starts the softening of all bonds of b whose stretch exceeds their onset (the stretch at which softening begins), if
+ * the stress across the bond allows it (pd/bond_begin.c). limit: onsets and breaking stretches. Examines the row blocks
+ * (the bonds of eight particles) in which the last force computation has found such a bond. The result is the same for
+ * both particles of a bond. A bond beyond its onset already loses some energy at once, which is added to the fracture
+ * energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
-/* Starts the softening of all bonds whose stretch at the present positions exceeds their onset (the stretch at which
- * softening begins), if the stress across the bond allows it. Needs no preceding force computation. For load steps. */
+/* Starts the softening of all bonds of b whose stretch at the present positions of p exceeds their onset (the stretch
+ * at which softening begins), if the stress across the bond allows it. limit: onsets and breaking stretches. Needs no
+ * preceding force computation. For load steps. */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Increases the damage of bonds that have begun to soften to that of the present positions, where this sets energy free
@@ -150,18 +153,18 @@ KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, con
 KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
-/* Marks the bond with index q in the row (all bonds of one particle) `row` as broken: sets its weight to 0, and updates
- * the counts of broken bonds, damage and flags of the particle. The caller adds the energy of the bond to the fracture
- * energy before, and marks the bond in the row of its other particle likewise. */
+/* Marks the bond with index q in the bond arrays as broken in row number `row` (all bonds of one particle of p): sets
+ * its weight to 0, and updates the counts of broken bonds, damage and flags of the particle. The caller adds the energy
+ * of the bond to the fracture energy before, and marks the bond in the row of its other particle likewise. */
 KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64_t q));
 
-/* Breaks the bonds whose largest stretch has reached the end of their softening. The energy that such a bond has
- * dissipated becomes fracture energy of its row. For load steps, between two equilibria. Returns the number of bonds
- * broken, each counted once for each of its particles. */
+/* Breaks the bonds of b whose largest stretch has reached the end of their softening (the stretch at which a softening
+ * bond breaks). The energy that such a bond has dissipated becomes fracture energy of its row. For load steps, between
+ * two equilibria. Returns the number of bonds broken, each counted once for each of its particles. */
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
 
-/* Raises the stored largest stretches of all bonds that soften to their stretches at the present positions, as a force
- * computation does. Call it before energies are read without a force computation. */
+/* Raises the stored largest stretches of all bonds of b that soften to their stretches at the present positions of p,
+ * as a force computation does. Call it before energies are read without a force computation. */
 KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p));
 
 /* Computes pressure (from the dilatation), spring stiffness and rotation of all families (all neighbours of a particle)
@@ -177,55 +180,58 @@ typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
-/* Sets the weight of the bond with index q, in the row (all bonds of one particle) `row`, to w [1]; w = 0 breaks the
- * bond. Adds half of the loss of elastic energy to the fracture energy of the row: a leap-frog velocity update is
- * centred on the change of weights, so the other half is lost in the step to the next positions. The caller changes the
- * weight of the bond in the row of its other particle likewise. */
+/* Sets the weight of the bond with index q in the bond arrays, which is in row number `row` (all bonds of one
+ * particle), to w [1]; w = 0 breaks the bond. Adds half of the loss of elastic energy to the fracture energy of the
+ * row: a leap-frog velocity update is centred on the change of weights, so the other half is lost in the step to the
+ * next positions. The caller changes the weight of the bond in the row of its other particle likewise. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns an upper bound, up to round-off, of the largest stretch of the bonds in a row block (bonds of eight
- * particles) [1]. */
+/* Returns an upper bound [1], up to round-off, of the largest stretch of the bonds in row block number `row_block`
+ * (bonds of eight particles of p), by which row blocks far from breaking are skipped. */
 KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
 
-/* Breaks the bond with index q in the row (all bonds of one particle) `row` at the present positions, whatever its
- * stretch, and adds its energy to the fracture energy of the row. limit->last_force: rule for the share of its force
- * that acts in the step in which it breaks. The caller breaks the bond in the row of its other particle likewise. */
+/* Breaks the bond with index q in the bond arrays, in row number `row` (all bonds of one particle), at the present
+ * positions, whatever its stretch, and adds its energy to the fracture energy of the row. limit->last_force: rule for
+ * the share of its force that acts in the step in which it breaks. The caller breaks the bond in the row of its other
+ * particle likewise. */
 KERNEL(void, bond_break_entry,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
-/* Restores the bond with index q in the row (all bonds of one particle) `row`, which a trial load step has broken, and
- * sets its weight to w [1]. The caller restores the fracture energy of the row, and damage and flags of its
- * particle. */
+/* Restores the bond with index q in the bond arrays, in row number `row` (all bonds of one particle), which a trial
+ * load step has broken, and sets its weight to w [1]. The caller restores the fracture energy of the row, and damage
+ * and flags of its particle. */
 KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns the elastic energy of the family of one row (all bonds of one particle) of a state-based model [J], from its
- * present weights and from the positions a time `lag` before the present ones [s]. Independent of the last force
- * computation. */
+/* Returns the elastic energy [J] of the family of row number `row` (all bonds of one particle) in a state-based model,
+ * from the present weights of its bonds and the positions at a time `lag` [s] before the present ones. Independent of
+ * the last force computation. */
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row, real lag));
 
-/* Returns half the elastic energy of the intact bonds of all rows (a row: all bonds of one particle) [J]; a bond
- * between two peridynamic particles is in two rows, so that its energy is complete. In state-based models it is the
- * energy of the families at the last computation of their states. Summed in fixed blocks: equal bits on any number of
+/* Returns half the elastic energy [J] of the intact bonds of all rows (a row: all bonds of one particle). A bond
+ * between two peridynamic particles is in two rows, so that its whole energy is included. In state-based models,
+ * returns the energy of the families at the last computation of their states. The sum has equal bits on any number of
  * threads. row_energy: [b->rows] the share of each row is added to it [J]; NULL if it is not wanted. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, real *row_energy);
 
-/* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) of the bonds of all rows (a row: all bonds of one
- * particle), broken ones included [J]; 0 where no bond yields. Summed in fixed blocks. */
+/* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) [J] of the bonds of all rows of b (a row: all bonds of
+ * one particle), broken bonds included; 0 if no bond yields. s_y: yield stretch; alpha: accumulated plastic stretch;
+ * H_b: hardening; k: stiffness of a bond. */
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
-/* Returns half the plastic work of the bonds of one row, i.e. of one particle [J]. Only where bonds yield. */
+/* Returns half the plastic work [J] of the bonds of row number `row`, i.e. of one particle. Only in models whose bonds
+ * yield. */
 KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
-/* Returns the mean accumulated plastic stretch of the intact bonds of one row, i.e. of one particle [1], weighted by
- * bond energy at equal stretch. In uniaxial flow this is the plastic strain; for a point that has just converted, its
- * plastic strain as a material point. */
+/* Returns the mean accumulated plastic stretch [1] of the intact bonds of row number `row`, i.e. of one particle,
+ * weighted by bond energy at equal stretch. In uniaxial flow this is the plastic strain; for a point that has just
+ * converted, its plastic strain as a material point. */
 KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
 
 /* Computes the stress of every peridynamic particle from its bonds, the virial (1/2V) sum F (x) (x_j - x_i), into
  * p->stress [Pa]. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* Integrates velocity and position of n listed peridynamic particles, except those that the grid moves: v +=
- * dt_velocity f/m, x += dt v. list: indices, ascending, aligned to 32 bytes. Returns true if one of them has diverged
- * (too fast, or not finite). */
+/* Integrates velocity and position of the peridynamic particles list[n] (indices, ascending, aligned to 32 bytes),
+ * except those that the grid moves: v += dt_velocity f/m, x += dt v. motion: step sizes and largest speed. Returns true
+ * if one of the particles has diverged (is too fast, or not finite). */
 typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *motion);
 
 /* Returns true if one of the n particles in `list` is faster than `limit` [m/s] or has a position or velocity that is
@@ -238,9 +244,9 @@ KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list
  * step sizes, partial stress. */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
-/* Remapping of MUSL (Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the change of nodal velocities to
- * the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to the nodes of g; below called
- * the second map, after the first one by p2g. */
+/* Remapping of MUSL (modified update stress last; Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the
+ * change of nodal velocities to the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to
+ * the nodes of g; below called the second map, after the first one by p2g. */
 typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h). Adds the
@@ -258,10 +264,11 @@ typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p
  * 2015). Returns the number of points that have entered another cell. */
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
-/* Adds `share` of the stress and volume that points receive in a step by the mean dilatation of their cells
- * (mpm/dilatation.h), less what they would receive by their own. Called with -1/2 before points that have left their
- * cells are sorted and with 1/2 afterwards: half of the step then has the old cells and half the new ones, so that
- * changes of cells gain no energy. */
+/* Corrects stress and volume of the material points of p for the mean dilatation of their cells (mpm/dilatation.h):
+ * adds `share` [1] times the difference between the changes in a step by the mean dilatation of the cell and by the
+ * dilatation of the point. Called with -1/2 before points that have left their cells are sorted and with 1/2
+ * afterwards: half of the step then has the old cells and half the new ones, so that changes of cells gain no
+ * energy. */
 KERNEL(void, points_add_mean_dilatation, (struct particles *p, const struct transfer_data *transfer, real share));
 
 /* Distributes one value per particle to nodes: adds value[k] N of particle list[k] to `field` ([g->n], in the unit of
@@ -269,7 +276,8 @@ KERNEL(void, points_add_mean_dilatation, (struct particles *p, const struct tran
 typedef void spread_to_nodes_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,
                                 int64_t n, const real *value, real *field);
 
-/* The kernels of a run, chosen once at set-up. */
+/* The kernels of a run, which depend on dimension, model, shape function and transfer; chosen once at set-up
+ * (kernels_choose). */
 struct kernels {
     bond_force_fn *bond_force;
     bond_energy_fn *bond_energy;
@@ -300,15 +308,15 @@ KERNEL_TABLE(rotating_remap_scatter_fn, turn_scatter_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
 
-/* Computes mass, centre, inertia and angular velocity (spin) of each group of neighbouring points that rotate together
- * (data/turning.h) from its points on the grid, before a step, and stores in t->turn, for each point, the angular
- * velocity of its group [1/s]. spacing: of the particles [m]. */
+/* Computes mass, centre, inertia and angular velocity (spin) of each group of t (neighbouring points that rotate
+ * together, data/turning.h) from its points on the grid, before a step, and stores in t->turn, for each point, the
+ * angular velocity of its group [1/s]. spacing: of the particles [m]. */
 KERNEL(void, rotation_groups_compute_spins, (struct rotation_groups *t, struct particles *p, real spacing));
 
-/* Gives each group of points that rotate together (data/turning.h) the angular momentum that its points have lost in
- * the transfer from the grid (t->turn [kg m^2/s]), as a rotation about its centre of mass: adds it to the velocities of
- * the points. Then stores in t->turn, for each point, the new angular velocity of its group [1/s]. Positions must be
- * those of rotation_groups_compute_spins. */
+/* Gives each group of t (points that rotate together, data/turning.h) the angular momentum that its points have lost in
+ * the transfer from the grid (t->turn [kg m^2/s]), as a rotation about its centre of mass: adds this rotation to the
+ * velocities of its points. Then stores in t->turn, for each point, the new angular velocity of its group [1/s].
+ * Positions must be those of rotation_groups_compute_spins. */
 KERNEL(void, rotation_groups_restore_angular_momentum, (struct rotation_groups *t, struct particles *p));
 
 /* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid
@@ -318,7 +326,7 @@ KERNEL(void, kernels_choose,
 
 /* ---- nodal updates between the maps, any dimension --------------------------------------------------------------- */
 
-/* Sets mass, momentum and force of all nodes of g to 0. */
+/* Sets mass, momentum and force of all nodes of the grid g to 0. */
 KERNEL(void, grid_clear, (struct grid *g));
 
 /* Computes the nodal velocities (momentum + dt_velocity force)/mass of g (Zeng et al. 2022, step 3, first part);
@@ -327,16 +335,16 @@ KERNEL(void, grid_clear, (struct grid *g));
  * this function and grid_constrain. */
 KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass));
 
-/* Applies the constraints of g to the nodal velocities (Zeng et al. 2022, step 3, second part): walls prescribe the
- * velocity of their nodes, and `force` becomes the change of the prescribed velocity; nodes beyond planes of symmetry
- * move as mirror images. Adds the reactions of walls and planes to impulse [N s] and the work of the walls to *work
- * [J]. With APIC the reaction includes the momentum that the prescribed velocity replaces. smallest_mass: as in
- * grid_advance [kg]. */
+/* Applies the constraints of the grid g to its nodal velocities (Zeng et al. 2022, step 3, second part): walls
+ * prescribe the velocity of their nodes, and `force` becomes the change of the prescribed velocity; nodes beyond planes
+ * of symmetry move as mirror images. Adds the reactions of walls and planes to impulse [N s] and the work of the walls
+ * to *work [J]. With APIC the reaction includes the momentum that the prescribed velocity replaces. smallest_mass: as
+ * in grid_advance [kg]. */
 KERNEL(void, grid_constrain,
        (struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work));
 
-/* Calls grid_advance and grid_constrain with these arguments, for a body that has no contact with bodies on other
- * grids. */
+/* Moves the nodes of g: calls grid_advance and then grid_constrain, which describe the arguments. For a body that has
+ * no contact with bodies on other grids. */
 static inline void grid_move_nodes(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass,
                                    real impulse[DIM_MAX], real *work)
 {
@@ -351,7 +359,7 @@ KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 
 /* ---- the mesh of the reference frame (mesh.h), any dimension ----------------------------------------------------- */
 
-/* Sets the forces on all nodes of the mesh to 0. */
+/* Sets the forces on all nodes of the mesh (mesh->grid.force) to 0. */
 KERNEL(void, mesh_clear, (struct mesh *mesh));
 
 /* Adds the internal forces of all cells of the mesh that are not at rest to the nodes. Marks the cells in which a point
@@ -365,24 +373,25 @@ KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const st
 /* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples
  * of mesh->rounding. Walls prescribe the velocity of their nodes; their reaction is added to impulse [N s] and its work
  * to *work [J]. Applies dashpots and adds their energy and impulse to grid.absorbed. f becomes m dv/dt_velocity of each
- * node. Returns the largest velocity component, INFINITY if one is not finite [m/s]. */
+ * node. Returns the largest velocity component of a node [m/s]; INFINITY if a component is not finite. */
 KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 
-/* Interpolates position and velocity of all material points of the mesh from its nodes into p. */
+/* Interpolates position and velocity of all material points of the mesh from the nodes of the mesh, and stores them in
+ * p. */
 KERNEL(void, mesh_points_move, (const struct mesh *mesh, struct particles *p));
 
 /* Interpolates position and velocity from the nodes of the mesh into p, for the exposed points (mesh->exposed_list):
  * points with bonds or loads, whose motion other parts of a run need in every step. */
 KERNEL(void, mesh_exposed_move, (const struct mesh *mesh, struct particles *p));
 
-/* Interpolates position and velocity from the nodes of the mesh into p, for those of the n particles in `list` that are
- * points of the mesh. */
+/* Interpolates position and velocity from the nodes of the mesh into p, for those of the particles list[n] (indices)
+ * that are material points of the mesh. */
 KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n));
 /* Adds the forces p->f on the exposed points (mesh->exposed_list: points with bonds or loads) to the nodes of the mesh,
  * by their interpolation weights. Serial. */
 KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
-/* Computes Cauchy stress and volume of all material points of the mesh into p. m: elastic constants by material;
- * finite: true for finite strain, false for small strain. */
+/* Computes Cauchy stress [Pa] and volume [m^3] of all material points of the mesh into p. m: elastic constants by
+ * material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 /* Updates the plastic state of all material points of the mesh whose flow law has mode LAW_EXPLICIT, for a step of dt
  * [s] that has ended with the present displacements. p->mesh_stress holds their stresses at the start of the step and
@@ -390,17 +399,18 @@ KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, 
  * point flows. m: elastic constants by material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, real dt,
                                 bool finite));
-/* Computes the displacement gradient du_a/dX_b of every material point i of the mesh into to[a dim + b][i] [1]. */
+/* Computes the displacement gradient du_a/dX_b [1] of every material point i of the mesh into to[a dim + b][i], i being
+ * the index of the particle. */
 KERNEL(void, mesh_points_gradient, (const struct mesh *mesh, real *const *to));
-/* Sets FLAG_STRESSED on material points whose largest principal stress exceeds their conversion stress, in the cells
- * that the last mesh_force marked as `stressed`. m: elastic constants by material; finite: true for finite strain,
- * false for small strain. */
+/* Sets FLAG_STRESSED on material points of the mesh whose largest principal stress exceeds their conversion stress, in
+ * the cells that the last mesh_force marked as `stressed`. m: elastic constants by material; finite: true for finite
+ * strain, false for small strain. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
 /* Sets mark[cell] = 1 for whole cells (with all points, of one material, without bonds) in which the principal stress
- * of a point may exceed `share` times [1] the conversion stress; other entries are not changed. mark: [grid.n]; all:
- * true to examine all such cells, false only those that the last mesh_force marked as `stressed`; m: elastic constants
- * by material; finite: true for finite strain, false for small strain. */
+ * of a point may exceed `share` [1] times the conversion stress; other entries are not changed. mark: [grid.n], indexed
+ * by cell; all: true to examine all such cells, false only those that the last mesh_force marked as `stressed`; m:
+ * elastic constants by material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark,
                                bool finite));
 
@@ -408,18 +418,19 @@ KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m,
  * `from`, both [dim][grid.n] [m/s], with the mass matrix blended of lumped and consistent mass (mesh_inertia.c). */
 KERNEL(void, mesh_velocity, (const struct mesh *mesh, real *const *from, real *const *to));
 
-/* Returns the kinetic energy of the mesh, the sum of m v^2/2 over its nodes [J]. */
+/* Returns the kinetic energy [J] of the mesh: the sum of m v^2/2 over its nodes, with nodal masses m and velocities
+ * v. */
 KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 
-/* Returns the sum of (dt f)^2/(4 m) over the nodes of the mesh, with the force f and the mass m of a node [J]. It
- * corrects the kinetic energy, because velocities are half a step behind the positions. dt: time step [s]. */
+/* Returns the correction [J] of the kinetic energy of the mesh, whose velocities are half a step behind the positions:
+ * the sum of (dt f)^2/(4 m) over the nodes, with the force f and the mass m of a node. dt: time step [s]. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
-/* Returns the elastic energy of all cells of the mesh [J], including their contribution to the families of bonded
+/* Returns the elastic energy [J] of all cells of the mesh, including their contribution to the families of bonded
  * points (material points with state-based bonds). m: elastic constants by material; finite: true for finite strain,
  * false for small strain. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
-/* Computes p->end_strain and p->end_rotation, strain and rotation of the material points with state-based bonds to
- * peridynamic particles, from the deformation of their cells. finite: true for finite strain, false for small
+/* Computes p->end_strain and p->end_rotation, strain and rotation of the material points of the mesh with state-based
+ * bonds to peridynamic particles, from the deformation of their cells. finite: true for finite strain, false for small
  * strain. */
 KERNEL(void, mesh_ends_update, (const struct mesh *mesh, struct particles *p, bool finite));
 

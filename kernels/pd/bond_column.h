@@ -14,10 +14,10 @@ enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead
  * saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
-/* One column of a row block: a row block stores the bonds of eight particles, and each of its columns holds one bond of
- * each particle. number: index of the column among all columns, so that its bonds have the indices number * LANES + l
- * in the bond arrays, for the particles l = 0 .. 7; kind: what the eight bonds have in common, a compile-time constant
- * wherever a column is used. */
+/* A view of one column, i.e. of eight bonds that are stored together, one of each of eight particles (a row block).
+ * number: index of the column among all columns, so that its bonds have the indices number * LANES + l in the bond
+ * arrays, for the particles l = 0 .. 7; kind: what the eight bonds have in common, a compile-time constant wherever a
+ * column is used. */
 struct column {
     const struct bonds *b;
     int64_t number;
@@ -27,8 +27,8 @@ struct column {
     enum column_kind kind;
 };
 
-/* Returns a view of the stored column number `column_number` (one bond of each of eight particles), and prefetches the
- * column COLUMNS_AHEAD columns behind it. kind: COLUMN_FREE, SHELL or ALIKE, as the column requires. */
+/* Returns a view of the stored column number `column_number` of b (one bond of each of eight particles), and prefetches
+ * the column COLUMNS_AHEAD columns behind it. kind: COLUMN_FREE, SHELL or ALIKE, as the column requires. */
 static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int64_t column_number,
                                                       const enum column_kind kind)
 {
@@ -95,8 +95,8 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
     } while (0)
 
-/* Returns the values of the particle array `from` at the eight neighbours to which the bonds of `column` (one bond of
- * each of eight particles) lead. */
+/* Returns eight values of the particle array `from`: those of the neighbours to which the bonds of `column` (one bond
+ * of each of eight particles) lead. */
 static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, const real *from)
 {
     return column.kind ? lanes_load(from + column.first)
@@ -134,8 +134,8 @@ static ALWAYS_INLINE lanes column_inverse_length(const struct column column)
                        : lanes_load(column.b->inverse_length + column.number * LANES);
 }
 
-/* Returns eight bits: bit l is set if bond l of the eight bonds of `column` (one bond of each of eight particles) is
- * intact. */
+/* Returns eight bits: bit l (0 to 7) is set if the bond of particle l in `column` (one bond of each of eight particles)
+ * is intact. */
 static ALWAYS_INLINE uint8_t column_intact_bits(const struct column column)
 {
     return column.stencil ? column.stencil->intact : column.b->common[column.number].intact;
@@ -178,8 +178,8 @@ static ALWAYS_INLINE lanes column_min_of_intact_bonds(const struct column column
 }
 
 /* Stores `value`, one value for each of the eight particles of a row block, in the particle array `to`. row: indices of
- * these particles; rows: how many of them exist, less than 8 in the last row block; aligned: true if the indices are
- * consecutive. */
+ * these particles; rows: number of particles, less than 8 in the last row block; aligned: true if the indices are
+ * consecutive, so that all eight values are stored at once. */
 static ALWAYS_INLINE void bond_row_block_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
     if (aligned)

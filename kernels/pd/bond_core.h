@@ -20,7 +20,7 @@
 
 #define RARE static __attribute__((noinline, unused))
 
-/* |y|/|xi| below which the core acts [1]; empirical */
+/* Ratio of present to reference length of a bond, |y|/|xi|, below which its repulsive core acts; empirical. */
 #define CORE_FROM 0.7
 
 /* A bond that is so strongly compressed that its repulsive core acts. ratio: present length divided by reference
@@ -30,8 +30,8 @@ struct core {
     real ratio, K, y[DIM_MAX], distance;
 };
 
-/* Returns the repulsive core of `bond`, a bond of particle i. The member `ratio` is 1 if the core does not act, because
- * the bond is broken or longer than CORE_FROM times its reference length. */
+/* Returns the repulsive core (struct core) of `bond`, a bond of particle i of p. The member `ratio` is 1 if the core
+ * does not act, because the bond is broken or longer than CORE_FROM times its reference length. */
 static inline struct core bond_repulsive_core_of(const struct bonds *b, const struct particles *p,
                                                  const struct bond *bond, int32_t i)
 {
@@ -47,8 +47,8 @@ static inline struct core bond_repulsive_core_of(const struct bonds *b, const st
     return c;
 }
 
-/* Adds the forces of the repulsive cores of all bonds in row block `row_block` (the bonds of eight particles) to the
- * forces p->f on these particles [N]. */
+/* Adds the forces [N] of the repulsive cores of all bonds in row block `row_block` (the bonds of eight particles) to
+ * the forces p->f on these particles. */
 RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
@@ -61,9 +61,9 @@ RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct
     }
 }
 
-/* Returns half the energy of the repulsive cores of the bonds of row block `row_block` (the bonds of eight particles)
- * [J]; the other particle of each bond has the other half. row_energy: NULL, or [b->rows], to which the energy of each
- * row is added [J]. */
+/* Returns half the energy [J] of the repulsive cores of the bonds of row block `row_block` (the bonds of eight
+ * particles of p); the other particle of each bond has the other half. row_energy: NULL, or [b->rows], to whose entries
+ * the energy of each row (the bonds of one particle) is added [J]. */
 RARE real bond_row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block,
                                                real *row_energy)
 {

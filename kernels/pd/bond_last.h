@@ -6,16 +6,17 @@
 
 #include "kernels/kernels.h"
 
-/* Returns component `axis` of the vector x_j - x_i between the particles i and j [m] at a time `lag` [s] before the
- * present positions, extrapolated by the present velocities. */
+/* Returns component `axis` of the vector x_j - x_i [m] between the particles i and j of p at a time `lag` [s] before
+ * that of the present positions, extrapolated by the present velocities. */
 static inline real bond_vector_at_earlier_time(const struct particles *p, int32_t i, int32_t j, int axis, real lag)
 {
     const real y = p->x[axis][j] - p->x[axis][i];
     return lag == 0 ? y : y - lag * (p->v[axis][j] - p->v[axis][i]);
 }
 
-/* Returns the stretch [1] of the bond between the particles i and j at a time `lag` [s] before the present positions.
- * inverse_length: inverse of its reference length [1/m], may be negative (broken bonds). */
+/* Returns the stretch [1] of the bond between the particles i and j of p at a time `lag` [s] before that of the present
+ * positions. inverse_length: inverse of the reference length of the bond [1/m]; its sign, negative for broken bonds,
+ * does not matter. */
 static inline real bond_stretch_at_earlier_time(const struct particles *p, real inverse_length, int32_t i, int32_t j,
                                                 real lag)
 {

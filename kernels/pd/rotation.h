@@ -48,8 +48,9 @@ static ALWAYS_INLINE void rotation_encode(lanes *rotation, const lanes *R, lanes
     for (int c = 0; c < ROTATION; c++) rotation[c] *= scale;
 }
 
-/* Subtracts the product of the stored matrix g (R - 1) with the vector `arm` from the vector f, for eight particles. f,
- * arm: [dim]; rotation: numbers stored by rotation_encode. In 2D the matrix is (a, -c; c, a). */
+/* Subtracts the product of the matrix g (R - 1) with the vector `arm` from the vector f, for eight particles with
+ * rotations R and spring stiffnesses g. f, arm: dim components; rotation: numbers stored by rotation_encode. In 2D the
+ * matrix is (a, -c; c, a). */
 static ALWAYS_INLINE void rotation_subtract_product(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
 {
     if (dim == 2) {
@@ -75,9 +76,9 @@ static ALWAYS_INLINE bool rotation_component_is_read(int component, const int di
     return dim > 2 || component % 2 == 0;
 }
 
-/* Returns true if number `component` (0 to 3) of a stored rotation changes sign when the particle is reflected in a
- * plane normal to `axis` (-1: no plane). All components of a rotation vector change sign except the one along the
- * normal. */
+/* Returns true if number `component` (0 to 3) of a stored rotation (rotation_encode) changes sign when the particle is
+ * reflected in a plane normal to axis `axis` (-1: no plane). dim: dimension of the body. All components of a rotation
+ * vector change sign except the one along the normal. */
 static inline bool rotation_component_changes_sign(int component, int axis, int dim)
 {
     return axis >= 0 && (dim == 2 ? component == 1 || component == 2 : component < 3 && component != axis);

@@ -11,8 +11,8 @@
 #include "base/polar.h"
 #include "rotation.h"
 
-/* Sums over the bonds of one particle (its family) that do not break in this step, with weight w, reference vector xi
- * of length r, deformed vector Y and extension e. */
+/* Sums over those bonds of one particle (its family) that do not break in this step. w: weight of a bond; xi, r: its
+ * reference vector and length; Y: deformed vector; e: extension. */
 struct family_left {
     real extension, weighted;       /* sum w r e, with e = r stretch; sum w r^2 [m^2] */
     real moment[DIM_MAX * DIM_MAX]; /* sum w Y (x) xi [m^2] */
@@ -20,8 +20,9 @@ struct family_left {
     int64_t ended;                  /* number of breaking bonds */
 };
 
-/* Computes the sums over those bonds of row `row` (all bonds of one particle) that stay below their breaking limit.
- * Counts the breaking bonds in `ended`, and stores the mean share of their force that acts in this step in `share`. */
+/* Returns the sums over those bonds of row `row` (all bonds of one particle of p) that stay below their breaking
+ * stretch. limit: breaking stretches. The members `ended` and `share` of the result: number of breaking bonds, and mean
+ * share of their force that acts in this step. */
 static inline struct family_left family_sums_of_unbroken_bonds(const struct bonds *b, const struct particles *p,
                                                                const struct bond_limit *limit, int64_t row)
 {
@@ -47,8 +48,8 @@ static inline struct family_left family_sums_of_unbroken_bonds(const struct bond
 }
 
 /* Replaces *value, a quantity of a family with the bonds that break in this step, by weight * *value + (1 - weight) *
- * without_breaking, where `without_breaking` is the quantity without these bonds. weight: share of their force that
- * acts in this step [1]. */
+ * without_breaking, where `without_breaking` is the quantity without these bonds. weight: share (0 to 1) of the force
+ * of the breaking bonds that acts in this step. */
 static inline void blend_with_value_without_breaking(real *value, real without_breaking, real weight)
 {
     *value = weight * *value + (1 - weight) * without_breaking;
@@ -126,9 +127,9 @@ static inline real state_component_before_breaking(const struct bonds *b, const 
     return sign * (component == 0 ? t->pressure[i] : component == 1 ? t->spring[i] : t->rotation[component - 2][i]);
 }
 
-/* Computes the force of the state-based bond `bond` on particle i, to whose bonds it belongs, in f[dim] [N], from the
- * states of the families of both particles. present: true for their present states, false for the states before bonds
- * broke in this step. */
+/* Computes the force f[dim] [N] of the state-based bond `bond` on particle i, to whose bonds it belongs, from the
+ * states (pressure, spring, rotation) of the families of both particles. present: true for their present states, false
+ * for the states before bonds broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool present, real *f, const int dim)
 {
@@ -157,7 +158,7 @@ static inline void state_bond_force(const struct bonds *b, const struct particle
         f[d] = bond->w * (along * y[d] / length + (rotates ? spring * (y[d] - xi[d]) + turned[d][0] : 0));
 }
 
-/* Computes the force of `bond` on particle i, to whose bonds it belongs, in f[dim] [N], in a bond-based or state-based
+/* Computes the force f[dim] [N] of `bond` on particle i of p, to whose bonds it belongs, in a bond-based or state-based
  * model. present, for state-based models: true for the present states of both particles, false for the states before
  * bonds broke in this step. */
 static inline void bond_force_of_any_model(const struct bonds *b, const struct particles *p, const struct bond *bond,

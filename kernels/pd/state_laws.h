@@ -39,11 +39,13 @@ struct state_bond {
     lanes inverse_length;          /* 1/|xi|; may be negative for broken bonds [1/m] */
 };
 
-/* Returns true if the peridynamic model has rotations of the particles (PD_MOSPD, the modified model). */
+/* Returns true if the peridynamic model `model` has rotations of the particles: PD_MOSPD, the modified state-based
+ * model. */
 static ALWAYS_INLINE bool state_model_has_rotations(const enum pd_model model) { return model == PD_MOSPD; }
 
 /* Computes vectors and lengths of the eight bonds of `column` (one bond of each of eight particles) into *s. x, X:
- * [dim] present and reference positions of these particles [m]; X is read only in models with rotations. */
+ * [dim] present and reference positions of these eight particles [m]; X is read only in models with rotations of the
+ * particles. */
 static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const struct particles *p,
                                                      const struct column column, const lanes *x, const lanes *X,
                                                      const int dim, const enum pd_model model)
@@ -57,9 +59,9 @@ static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const
     s->inverse_length = column_inverse_length(column);
 }
 
-/* Returns weight times reference length, w |xi| [m], of the eight bonds of `column`, or w |xi|^2 [m^2] if `square` is
- * true. On a lattice |xi| is the exact length of the lattice shell, without the round-off of positions. w,
- * inverse_length: weights and inverse lengths of the bonds. */
+/* Returns weight times reference length, w |xi| [m], of the eight bonds of `column` (one bond of each of eight
+ * particles), or w |xi|^2 [m^2] if `square` is true. On a lattice |xi| is the exact length of the lattice shell,
+ * without the round-off of positions. w, inverse_length: weights [1] and inverse lengths [1/m] of the bonds. */
 static ALWAYS_INLINE lanes state_weighted_length(const struct column column, lanes w, lanes inverse_length,
                                                  const bool square)
 {
@@ -72,8 +74,9 @@ static ALWAYS_INLINE lanes state_weighted_length(const struct column column, lan
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_broadcast(0));
 }
 
-/* Returns the reference lengths |xi| of the eight bonds of `column` from their inverses [m], so that |xi|/|Y| is 1 up
- * to round-off where nothing has moved. Lengths of broken bonds may be negative. */
+/* Returns the reference lengths |xi| [m] of the eight bonds of `column` (one bond of each of eight particles) from
+ * their inverses `inverse_length` [1/m], so that |xi| divided by the present length is 1 up to round-off where nothing
+ * has moved. Lengths of broken bonds may be negative. */
 static ALWAYS_INLINE lanes state_reference_length(const struct column column, lanes inverse_length)
 {
     if (column.stencil) return lanes_broadcast(column.stencil->length);
@@ -82,7 +85,8 @@ static ALWAYS_INLINE lanes state_reference_length(const struct column column, la
 }
 
 /* Computes the extension of a bond divided by its present length, e/|Y| = 1 - |xi|/|Y|, rounded as in STRETCH_OF
- * (bond_column.h), so that it is exactly 0 where nothing has moved. LENGTH: |xi|; INVERSE: 1/|Y|. */
+ * (bond_column.h), so that it is exactly 0 where nothing has moved. LENGTH: reference length |xi| [m]; INVERSE: inverse
+ * of the present length, 1/|Y| [1/m]. */
 #define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
 
 #endif

@@ -17,7 +17,8 @@ enum {
                          step there, costs 2 % below */
 };
 
-/* The part of the list of active row blocks that one thread processes. */
+/* The part of the list of active row blocks (bonds of eight particles, not at rest) that one thread processes, and its
+ * progress in moving particles. */
 struct sweep {
     const int32_t *row_block; /* active row blocks, ascending */
     int64_t first, end, all;  /* entries first .. end-1 of `all` entries are this thread's */
@@ -26,8 +27,8 @@ struct sweep {
     bool diverged;
 };
 
-/* Returns the part of the list of active (not resting) row blocks that the calling thread processes. A row block holds
- * the bonds of eight particles. The threads of the team get equal parts of the list in order, as by
+/* Returns the part of the list of active (not resting) row blocks of b that the calling thread processes. A row block
+ * holds the bonds of eight particles. The threads of the team get equal parts of the list in order, as by
  * schedule(static). */
 static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
 {
@@ -41,8 +42,9 @@ static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
     return s;
 }
 
-/* Advances the particles of the k-th active row block (bonds of eight particles) by a leap-frog step with the step
- * sizes of m. Sets s->diverged if one of the particles has diverged. */
+/* Advances the particles of entry k (from 0) in the list of active row blocks (bonds of eight particles) by a leap-frog
+ * step with the step sizes of m. Sets s->diverged if one of the particles has diverged, i.e. is too fast or not
+ * finite. */
 static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                                const struct pd_motion *m, const int dim)
 {
@@ -73,8 +75,8 @@ static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bon
 }
 
 /* Advances in time the particles of those row blocks (bonds of eight particles each) whose positions no later row block
- * of this thread reads. The forces of the k-th active row block and of all before it must be complete. m: step
- * sizes. */
+ * of this thread reads. The forces of entry k of the list of active row blocks and of all entries before it must be
+ * complete. m: step sizes. */
 static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                    int64_t k, const struct pd_motion *m, const int dim)
 {

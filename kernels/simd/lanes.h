@@ -57,9 +57,9 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 #endif
 }
 
-/* Returns a pointer to eight entries of a list of n from the k-th on. At the end of the list the remaining ones are
- * copied to `padded` and filled up with entry k, so that fewer than eight never count as consecutive
- * (list_is_consecutive). */
+/* Returns a pointer to the eight entries of list[n] from list[k] on. If fewer than eight are left, copies these to
+ * `padded`, fills it up with copies of list[k] and returns `padded`, so that fewer than eight never count as
+ * consecutive (list_is_consecutive). */
 static ALWAYS_INLINE const int32_t *list_eight_entries(const int32_t *list, int64_t k, int64_t n, int32_t padded[LANES])
 {
     if (k + LANES <= n) return list + k;
@@ -71,13 +71,14 @@ static ALWAYS_INLINE const int32_t *list_eight_entries(const int32_t *list, int6
  * copies of list[0] may follow the ascending ones, as list_eight_entries fills them up. */
 static ALWAYS_INLINE bool list_is_consecutive(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
 
-/* Loads eight values of `from`: consecutive from `first` on, or, if first < 0, at index[0 .. 7]. */
+/* Returns eight values of the array `from`: from[first] .. from[first + 7] or, if first < 0, from[index[0]] ..
+ * from[index[7]]. */
 static ALWAYS_INLINE lanes lanes_load_or_gather(const real *from, int32_t first, const int32_t *index)
 {
     return first >= 0 ? lanes_load(from + first) : lanes_gather(from, index);
 }
 
-/* Returns in each lane a where the mask is set, else b. */
+/* Returns in each lane the entry of a if the mask is set in this lane, else the entry of b. */
 static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
 {
     return (lanes)((mask & (lanes_mask)a) | (~mask & (lanes_mask)b));
@@ -130,7 +131,7 @@ static ALWAYS_INLINE lanes_mask lanes_mask_from_bits(uint8_t bits)
     return (lanes_mask) - (-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
 }
 
-/* Returns eight bits: bit l is set if lane l is set in the mask. */
+/* Returns eight bits: bit l (0 to 7) is set if lane l is set in the mask `mask`. */
 static ALWAYS_INLINE unsigned lanes_mask_bits(lanes_mask mask)
 {
 #ifdef __AVX512F__
@@ -142,7 +143,7 @@ static ALWAYS_INLINE unsigned lanes_mask_bits(lanes_mask mask)
 #endif
 }
 
-/* Returns in each lane l: a if bit l is set in `bits`, else 0. */
+/* Returns in each lane l (0 to 7) the entry of a if bit l is set in `bits`, else 0. */
 static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 {
 #ifdef __AVX512F__
@@ -152,7 +153,8 @@ static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 #endif
 }
 
-/* Stores the entries of a whose bit is set from address `to` on, which need not be aligned. */
+/* Stores entry l of a at to[l] for all l (0 to 7) whose bit is set in `bits`; other elements of `to`, which need not be
+ * aligned, stay unchanged. */
 static ALWAYS_INLINE void lanes_store_selected(uint8_t bits, real *to, lanes a)
 {
 #ifdef __AVX512F__
@@ -163,7 +165,8 @@ static ALWAYS_INLINE void lanes_store_selected(uint8_t bits, real *to, lanes a)
 #endif
 }
 
-/* Returns in each lane l: the larger of a and b if bit l is set in `bits`, else a. */
+/* Returns in each lane l (0 to 7) the larger of the entries of a and b if bit l is set in `bits`, else the entry of
+ * a. */
 static ALWAYS_INLINE lanes lanes_max_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -173,7 +176,8 @@ static ALWAYS_INLINE lanes lanes_max_selected(uint8_t bits, lanes a, lanes b)
 #endif
 }
 
-/* Returns in each lane l: the smaller of a and b if bit l is set in `bits`, else a. */
+/* Returns in each lane l (0 to 7) the smaller of the entries of a and b if bit l is set in `bits`, else the entry of
+ * a. */
 static ALWAYS_INLINE lanes lanes_min_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -183,7 +187,8 @@ static ALWAYS_INLINE lanes lanes_min_selected(uint8_t bits, lanes a, lanes b)
 #endif
 }
 
-/* Returns a plus units[l] units in the last place in lane l; units: aligned to 16 bytes. */
+/* Returns a vector whose lane l (0 to 7) is a plus units[l] units in the last place. units: eight integers, aligned to
+ * 16 bytes. */
 static ALWAYS_INLINE lanes lanes_add_ulps(real a, const int16_t *units)
 {
 #ifdef __AVX512F__
@@ -194,7 +199,7 @@ static ALWAYS_INLINE lanes lanes_add_ulps(real a, const int16_t *units)
     return (lanes)((lanes_mask)lanes_broadcast(a) + more);
 }
 
-/* Returns true if any lane of the mask is set. */
+/* Returns true if any lane of the mask `mask` is set. */
 static ALWAYS_INLINE bool lanes_mask_any(lanes_mask mask)
 {
 #ifdef __AVX512F__
@@ -231,9 +236,9 @@ static ALWAYS_INLINE lanes lanes_estimate_inverse_root(lanes a)
 #endif
 }
 
-/* Returns 1/sqrt(a) of normal numbers to full double precision, from an estimate y of 14 bits: with c = 1 - a y^2 below
- * 2^-13 the series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. Takes a third of the time of a root and a
- * division, and is shorter than two Newton steps. */
+/* Returns 1/sqrt(a) in each lane, for positive normal numbers to full double precision, from an estimate y of 14 bits:
+ * with c = 1 - a y^2 below 2^-13 the series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. This takes a
+ * third of the time of a root and a division, and fewer operations than two Newton steps. */
 static ALWAYS_INLINE lanes lanes_inverse_square_root(lanes a)
 {
     const lanes y = lanes_estimate_inverse_root(a), c = 1.0 - (a * y) * y;
