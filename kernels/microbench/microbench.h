@@ -13,8 +13,8 @@ struct microbench_lattice;
 /* Creates the data of the lattice benchmark: about 80,000 particles on a lattice in `dim` dimensions, with bonds to all
  * neighbours within 3.015 spacings. Release with microbench_lattice_free. */
 KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
-/* Computes once the forces of all bonds of the lattice s, at each of the two particles of a bond. Returns the time per
- * bond and particle [s]. */
+/* Computes the forces of all bonds of the lattice s once, at each of the two particles of a bond. Returns the time [s]
+ * divided by the number of bonds counted at both particles. */
 KERNEL(double, microbench_lattice_run, (struct microbench_lattice *s));
 
 /* Releases s, the data of the lattice benchmark. */
@@ -27,7 +27,8 @@ struct microbench_triad;
  * least 64 MB, or 64 MB if `quick`. Release with microbench_triad_free. */
 KERNEL(struct microbench_triad *, microbench_triad_make, (bool quick));
 
-/* Computes the STREAM triad a = b + q c once. Returns the bandwidth [bytes/s], at 24 bytes for each entry. */
+/* Computes the STREAM triad a = b + q c of the arrays in t once. Returns the bandwidth [bytes/s], counting 24 bytes for
+ * each entry. */
 KERNEL(double, microbench_triad_run, (struct microbench_triad *t));
 
 /* Releases t, the data of the triad. */

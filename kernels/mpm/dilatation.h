@@ -21,20 +21,22 @@
  * large compression, has several means, one for each MEAN_POINTS points in the order of its list. */
 enum { MEAN_POINTS = 64 };
 
-/* Returns true if points of the materials in t can have the mean dilatation of their cell, in a space of `dim`
- * dimensions; false in 1D and if the transfer has no stress (momentum only). */
+/* Returns true if, in the transfer t in `dim` dimensions, material points can have the mean dilatation of their grid
+ * cell; false in 1D, if no material requires it, and if the transfer has no stress (momentum only). */
 static ALWAYS_INLINE bool transfer_uses_mean_dilatation(const struct transfer_data *t, const int dim)
 {
     return dim > 1 && __builtin_expect(t->mean_dilatation, 0) && !t->momentum_only;
 }
 
-/* Returns true if points i and j share one mean dilatation: they are of the same body and material. */
+/* Returns true if the points i and j of a grid cell share one mean dilatation, because they are of the same body and
+ * material. */
 static ALWAYS_INLINE bool points_share_mean_dilatation(const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] == p->material[j] && p->body[i] == p->body[j];
 }
 
-/* Returns true if the n points in `list` share one mean dilatation: they are of one body and one material. */
+/* Returns true if the points list[n] of a grid cell share one mean dilatation, because they are all of one body and one
+ * material. */
 static ALWAYS_INLINE bool points_all_share_mean_dilatation(const struct particles *p, const int32_t *list, int n)
 {
     bool same = true;
@@ -42,9 +44,9 @@ static ALWAYS_INLINE bool points_all_share_mean_dilatation(const struct particle
     return same;
 }
 
-/* Replaces value[k] of the n <= MEAN_POINTS points list[k] of a cell by mean less value, with the mean over the points
- * of the same body and material, weighted by volume. The value becomes 0 for materials without mean dilatation. Not
- * inlined, so that the code for other materials contains none of it. */
+/* Replaces value[k] of the n <= MEAN_POINTS points list[k] of a grid cell by mean - value[k], with the mean, weighted
+ * by volume, over the points of the same body and material. t: elastic constants of the materials. value[k] becomes 0
+ * for materials without mean dilatation. Not inlined, so that the code for other materials contains none of it. */
 static NEVER_INLINE void points_subtract_from_mean(const struct particles *p, const struct transfer_data *t,
                                                    const int32_t *list, int n, real *value)
 {

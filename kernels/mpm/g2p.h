@@ -21,8 +21,9 @@
 #include "shape.h"
 #include "stress.h"
 
-/* Returns the elastic constants of a few points, one per lane [Pa]. point: their numbers. Usually all points have one
- * material; those of other materials are filled in lane by lane. */
+/* Returns the elastic constants [Pa] of a few material points, one per lane. point: numbers of the points in p; t:
+ * constants of the materials. Usually all points have one material; those of other materials are filled in lane by
+ * lane. */
 static ALWAYS_INLINE struct elastic_points points_load_elastic_constants(const struct particles *p,
                                                                          const struct transfer_data *t,
                                                                          const int32_t *point, const int dim)
@@ -39,12 +40,12 @@ static ALWAYS_INLINE struct elastic_points points_load_elastic_constants(const s
     return m;
 }
 
-/* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points from their velocity gradients L [1/s], and
- * sets FLAG_STRESSED where they convert at their stress (stress_converts). m: elastic constants by lane; point: numbers
- * of the points, of which there are `points`; due: receives the points where materials yield, for the return mapping
- * (points_flow.h). The volume follows the trace of the strain in the space. In plane stress the elastic strain through
- * the thickness is left out, which changes the volume by less than 0.5 % below 1 % strain; the plastic one is added
- * with the return mapping. */
+/* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points of a cell, one per lane, from their velocity
+ * gradients L[dim dim] [1/s], and sets FLAG_STRESSED where they convert at their stress (stress_converts). m: elastic
+ * constants by lane; point: numbers of the points, of which there are `points`; due: receives the points where
+ * materials yield, for the return mapping (points_flow.h). The volume follows the trace of the strain in the space. In
+ * plane stress the elastic strain through the thickness is left out, which changes the volume by less than 0.5 % below
+ * 1 % strain; the plastic one is added with the return mapping. */
 static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct transfer_data *t,
                                                struct flow_points *due, const struct elastic_points *m,
                                                const int32_t *point, int points, const row_of_points *L, const int dim,
@@ -74,8 +75,9 @@ static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct
     }
 }
 
-/* Multiplies the rotations particles.end_rotation of a few points by the rotation of the step, the Cayley transform of
- * the antisymmetric part of L dt. point: numbers of the points; L: velocity gradients [1/s]. */
+/* Multiplies the rotations p->end_rotation of a few points, one per lane, by the rotation of a step of dt [s], the
+ * Cayley transform of the antisymmetric part of L dt. point: numbers of the points; L[dim dim]: velocity gradients
+ * [1/s]. */
 static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int32_t *point, const row_of_points *L,
                                                  real dt, const int dim)
 {
@@ -103,9 +105,9 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Returns in each lane -1 if the point moves with the nodal velocities that remapping has computed (remap.h), else 1.
- * Points with bonds do so; all points do if t->momentum_only or t->second_map is set, and in flight: nodes ahead of
- * them may have no other velocity. point: numbers of the points. */
+/* Returns in each lane -1 if its point moves with the nodal velocities that the second map has computed (remap.h), else
+ * 1. Points with bonds do so. All points do if t->momentum_only or t->second_map is set, or if weights are those of
+ * positions ahead (g->ahead), where nodes may have no other velocity. point: numbers of the points. */
 static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid *g, const struct transfer_data *t,
                                                                const int32_t *point, const int dim)
 {
@@ -172,14 +174,15 @@ static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *
     }
 }
 
-/* Points of a cell between interpolation and update: numbers, positions [m], velocities [m/s] and their gradients
- * [1/s]. */
+/* Motion of a few points of a cell, one per lane, between interpolation and update. point: numbers of the points; x:
+ * positions [m]; velocity [m/s]; L: velocity gradients dv_a/dx_b at [a dim + b] [1/s]. */
 struct points_motion {
     int32_t point[POINTS]; /* padded with the last point */
     row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
 };
 
-/* Interpolates the motion m of n listed points (n <= AT_ONCE) of cell c from the nodes. */
+/* Interpolates velocity and velocity gradient of the n points `list` (n <= AT_ONCE) of cell c from the nodes of g into
+ * *m. */
 static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid *g, const struct cell *c,
                                      const struct particles *p, const struct transfer_data *t, const int32_t *list,
                                      int n, const int dim, const enum shape shape, const enum transfer transfer)
@@ -195,7 +198,7 @@ static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid 
     for (int d = 0; d < dim; d++) m->x[d] = s.x[d];
 }
 
-/* Returns the rate of dilatation tr L of a few points [1/s]. */
+/* Returns the rates of dilatation tr L [1/s] of the points in m, one per lane. */
 static ALWAYS_INLINE row_of_points points_dilatation_rate(const struct points_motion *m, const int dim)
 {
     row_of_points rate = m->L[0];
@@ -203,16 +206,16 @@ static ALWAYS_INLINE row_of_points points_dilatation_rate(const struct points_mo
     return rate;
 }
 
-/* Adds `change`, a change of the rate of dilatation [1/s], to a few points: a third of it, in 2D half, to each diagonal
- * entry of their velocity gradients m->L. */
+/* Adds the changes `change` [1/s] to the rates of dilatation of the points in m: a third of the change, in 2D half, to
+ * each diagonal entry of the velocity gradients m->L. */
 static ALWAYS_INLINE void points_add_dilatation_rate(struct points_motion *m, row_of_points change, const int dim)
 {
     for (int d = 0; d < dim; d++) m->L[d * dim + d] += change * (1.0 / dim);
 }
 
-/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell that differ in body or material, over
- * points of the same body and material (dilatation.h). motion: motion of these points, AT_ONCE of them in each entry;
- * its velocity gradients are changed. */
+/* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of a cell that differ in body or material,
+ * each over the points of the same body and material (dilatation.h). t: constants of the materials; motion: motion of
+ * these points, AT_ONCE of them in each entry, whose velocity gradients are changed. */
 static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                                const int32_t *list, struct points_motion *motion, int n,
                                                                const int dim)
@@ -230,9 +233,9 @@ static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct part
     }
 }
 
-/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell (dilatation.h) and stores those before
- * in t->dilatation. motion: motion of these points, AT_ONCE of them in each entry; its velocity gradients are
- * changed. */
+/* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of a cell (dilatation.h), after storing the
+ * rates before averaging in t->dilatation. motion: motion of these points, AT_ONCE of them in each entry, whose
+ * velocity gradients are changed. */
 static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                           const int32_t *list, struct points_motion *motion, int n,
                                                           const int dim)
@@ -260,8 +263,8 @@ static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles
     }
 }
 
-/* Adds m->velocity, which the caller has already multiplied by the time step [m], to the positions of the points of m,
- * and stores these in p. Returns a bit mask: bit k is set if point k has left cell c. */
+/* Adds the displacements m->velocity [m], which the caller has already multiplied by the time step, to the positions of
+ * the points of m, and stores the new positions in p. Returns a bit mask: bit k is set if point k has left cell c. */
 static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
                                      const struct points_motion *m, const int dim)
 {
@@ -275,9 +278,9 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_sign_bits((row_of_points)~inside);
 }
 
-/* Updates position, stress, volume, stretch and rotation of n points (n <= AT_ONCE) of cell c by their motion m. On
- * return m->velocity holds displacements [m]. due: receives the points of materials that yield, for the return mapping.
- * Returns the number of points that have left the cell. */
+/* Updates position, stress, volume, stretch and rotation of the n points (n <= AT_ONCE) of cell c that are in m by
+ * their motion. On return m->velocity holds displacements [m]. due: receives the points of materials that yield, for
+ * the return mapping. Returns the number of points that have left the cell. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
                                     int n, const int dim, const enum shape shape)
@@ -292,7 +295,8 @@ static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, 
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
-/* Stores the velocities m->velocity and velocity gradients m->L of a few points in p, as APIC requires. */
+/* Stores the velocities m->velocity and velocity gradients m->L of the points in m in p, as the APIC transfer
+ * requires. */
 static ALWAYS_INLINE void points_store_velocity_gradient(struct particles *p, const struct points_motion *m,
                                                          const int dim)
 {
@@ -300,8 +304,8 @@ static ALWAYS_INLINE void points_store_velocity_gradient(struct particles *p, co
     for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], m->point, m->L[k], dim);
 }
 
-/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which g2p_update_points_of_cell will
- * read; once per cache line. */
+/* Prefetches the data of p that g2p_update_points_of_cell will read of the point list[k + ORDER_AHEAD], once per cache
+ * line. */
 static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
@@ -315,10 +319,10 @@ static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const in
     if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
 }
 
-/* Updates the n listed points of one cell. due: receives the points of materials that yield, for the return mapping;
- * averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points are interpolated before they are
- * updated. Returns the number of points that have left the cell. The cell is computed again for every AT_ONCE points:
- * most cells need one pass only, so it is not kept in registers. */
+/* Updates motion, stress and volume of the points list[n] of one cell of g. due: receives the points of materials that
+ * yield, for the return mapping; averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points
+ * are interpolated before they are updated. Returns the number of points that have left the cell. The cell is computed
+ * again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. */
 static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, struct particles *p,
                                                        const struct transfer_data *t, struct flow_points *due,
                                                        const int32_t *list, int n, const int dim,

@@ -21,20 +21,20 @@
 #include "stress.h"
 #include "turn.h"
 
-/* Sums over the points of a cell for every node that they reach, by rows of four nodes: mass [kg], components of
- * momentum [kg m/s], components of force [N]. */
+/* Sums over the points of a cell for every node that they reach, [quantity][row of nodes]. Quantity 0: mass [kg], then
+ * dim components of momentum [kg m/s], then dim components of force [N]. */
 typedef row_of_nodes cell_sums[1 + 2 * DIM_MAX][ROWS_MAX];
 
-/* Returns the index of component ab of a symmetric tensor among its stored components, which are in the order xx, yy,
- * zz, xy, yz, zx (in 2D xx, yy, xy). a, other_axis: axes, 0 to dim - 1. */
+/* Returns the index of the component with the axes `axis` and `other_axis` (0 to dim - 1) of a symmetric tensor among
+ * its stored components, which are in the order xx, yy, zz, xy, yz, zx (in 2D xx, yy, xy). */
 static ALWAYS_INLINE int symmetric_component_index(int axis, int other_axis, const int dim)
 {
     return axis == other_axis ? axis : dim == 2 ? 2 : axis + other_axis == 1 ? 3 : axis + other_axis == 3 ? 4 : 5;
 }
 
-/* Adds to the force sums of a cell the force of the antisymmetric part of the stress of point `at` of stencil s, f_a =
- * -V sum_b skew_ab grad_b. Does nothing unless the point has bonds of a state-based model (partial_stress.c). row:
- * weights and slopes of a row at this point. */
+/* Adds to the force sums `sum` of a cell the force of the antisymmetric part `skew` of the stress of point `at` of
+ * stencil s (weights of a few points): f_a = -V sum_b skew_ab grad_b. Does nothing unless the point has bonds of a
+ * state-based model (partial_stress.c). row: weights and slopes of a row of nodes at this point. */
 static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct particles *p,
                                                     const struct transfer_data *t, const struct cell_stencil *s,
                                                     const struct touch *row, int at, const int dim,
@@ -58,17 +58,18 @@ static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct 
     }
 }
 
-/* Returns true if points extrapolate their velocity to the positions of the nodes with a velocity gradient. They do so
- * with APIC, and if they rotate in groups (data/turning.h). */
+/* Returns true if, in the transfer t, points extrapolate their velocity to the positions of the nodes by a velocity
+ * gradient: with APIC, and if points rotate in groups (data/turning.h). */
 static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
 {
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
-/* Adds mass, momentum and force of point `at` of stencil s to the sums of its cell. Factors of the directions along a
- * row, equal for all rows, are computed once. turn: velocity gradients of the points of the stencil, by which they
- * extrapolate their velocity to nodes, from rotating_velocity_gradients [1/s]; not read for APIC, nor where points do
- * not rotate. pressure: mean stress that is added to its stress [Pa], from points_mean_stress_changes; NULL: none. */
+/* Adds mass, momentum and force of point `at` of stencil s (weights of a few points) to the sums `sum` of its cell.
+ * Factors of the directions along a row, equal for all rows, are computed once. turn: velocity gradients of the points
+ * of the stencil, by which they extrapolate their velocity to nodes, from rotating_velocity_gradients [1/s]; not read
+ * for APIC, nor where points do not rotate. pressure: mean stress that is added to the stress of the point [Pa], from
+ * points_mean_stress_changes; NULL: none. */
 static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
                                         const struct transfer_data *t, const struct cell_stencil *s,
                                         const row_of_points *turn, const real *pressure, int at, const int dim,
@@ -124,8 +125,8 @@ static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, con
     if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_add_skew_stress_force(sum, p, t, s, &row, at, dim, shape);
 }
 
-/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which p2g_add_point will read; once
- * per cache line. */
+/* Prefetches the data of p that p2g_add_point will read of the point list[k + ORDER_AHEAD], once per cache line. t:
+ * inputs of the transfer. */
 static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const struct transfer_data *t,
                                              const int32_t *list, int k, const int dim, const enum transfer transfer)
 {
@@ -138,8 +139,9 @@ static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const st
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
-/* Computes change[k] [Pa], by how much the mean stress of each of n <= MEAN_POINTS listed points of a cell changes if
- * points of the same body and material get one mean stress (dilatation.h). change: [MEAN_POINTS]. */
+/* Computes by how much the mean stress of each of the n <= MEAN_POINTS points list[k] of a cell changes if points of
+ * the same body and material get one mean stress (dilatation.h). change[MEAN_POINTS]: receives the changes [Pa]; t:
+ * constants of the materials. */
 static NEVER_INLINE void points_mean_stress_changes(const struct particles *p, const struct transfer_data *t,
                                                     const int32_t *list, int n, real *change, const int dim)
 {
@@ -173,8 +175,8 @@ static NEVER_INLINE void points_mean_stress_changes(const struct particles *p, c
     points_subtract_from_mean(p, t, list, n, change);
 }
 
-/* Adds mass, momentum and force of the n listed points of one cell to the nodes of the grid. averaged: result of
- * transfer_uses_mean_dilatation. */
+/* Adds mass, momentum and force of the points list[n] of one cell to the nodes of the grid g. t: inputs of the
+ * transfer; averaged: result of transfer_uses_mean_dilatation. */
 static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const struct particles *p,
                                                  const struct transfer_data *t, const int32_t *list, int n,
                                                  const int dim, const enum shape shape, const enum transfer transfer,
@@ -233,8 +235,8 @@ MAP_VARIANTS(BOTH)
 
 /* ---- single field of a few points -------------------------------------------------------------------------------- */
 
-/* Adds `value` of point i to the nodal array `field`, distributed to the nodes with the weights N of the first map.
- * half_width: half the reference edge of a particle, l_p [m]. */
+/* Adds `value`, a value of point i of p, to the nodal array `field`, distributed to the nodes of g with the weights N
+ * of the first map (p2g). half_width: half the reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const struct particles *p, real half_width,
                                                  int32_t i, real value, real *field, const int dim,
                                                  const enum shape shape)

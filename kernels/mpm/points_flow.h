@@ -16,13 +16,14 @@ struct flow_points {
     real L[DIM_MAX * DIM_MAX][FLOW_ROOM]; /* velocity gradients of the step [1/s] */
 };
 
-/* The motion of eight points in a step: strain increment xx yy zz xy yz zx [1] as in stress_update, its trace in the
- * space [1], angles of spin [rad]. */
+/* The motion of eight points in a step. strain: strain increment xx yy zz xy yz zx as in stress_update [1]; trace: its
+ * trace [1]; spin: components xy, yz, zx of the antisymmetric matrix of rotation [rad], in 2D xy only. */
 struct flow_motion {
     lanes strain[SYM_MAX], trace, spin[3];
 };
 
-/* Computes the motion of eight points in a step of dt [s] from their velocity gradients L [1/s] into *m. */
+/* Computes the motion of eight points in a step of dt [s] into *m from their velocity gradients L[a dim + b] =
+ * dv_a/dx_b [1/s]. */
 static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, real dt, const int dim)
 {
     const lanes none = lanes_broadcast(0);
@@ -51,7 +52,7 @@ static ALWAYS_INLINE lanes flow_gather_points(const real *from, const int32_t *p
                    from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
 }
 
-/* Stores the first n lanes of a to to[point[l]]. */
+/* Stores lane l of a in to[point[l]] for l = 0 .. n - 1. */
 static ALWAYS_INLINE void flow_scatter_points(real *to, const int32_t *point, lanes a, int n)
 {
     if (n == LANES)
@@ -60,14 +61,14 @@ static ALWAYS_INLINE void flow_scatter_points(real *to, const int32_t *point, la
         for (int l = 0; l < n; l++) to[point[l]] = a[l];
 }
 
-/* Returns lanes l to l + POINTS - 1 of a. */
+/* Returns the lanes l to l + POINTS - 1 of the vector *a as a vector of POINTS entries. */
 static ALWAYS_INLINE row_of_points lanes_extract_points(const lanes *a, int l)
 {
     return (row_of_points) * (const points_anywhere *)((const real *)a + l);
 }
 
-/* Loads the back stresses of eight points, rotated by the spin of the step, into the members `back` of *e. point:
- * numbers of the points. */
+/* Loads the back stresses of eight points of p, rotated by the spin of the step, into e->back. point: numbers of the
+ * points; motion: their motion in the step. */
 static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const int32_t *point,
                                                const struct flow_motion *motion, struct law_points *e, const int dim)
 {
@@ -83,9 +84,9 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
     if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
 }
 
-/* Loads the plastic state and the stresses of eight points into *e, for law_update. point: their numbers; m: constants
- * of their material; stress, volume: their trial stresses [Pa] and volumes [m^3]; motion: their motion in the step of
- * dt [s]. */
+/* Loads the plastic state and the stresses of eight points of p into *e, for law_update. point: numbers of the points;
+ * m: constants of their material; stress[components], volume: trial stresses [Pa] and volumes [m^3]; motion: motion in
+ * the step of dt [s]. */
 static ALWAYS_INLINE void flow_load_points(const struct particles *p, const struct elastic *m, const int32_t *point,
                                            const lanes *stress, lanes volume, const struct flow_motion *motion, real dt,
                                            struct law_points *e, const int dim)
@@ -145,8 +146,8 @@ static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p,
 }
 
 /* Stores the state e of the n points point[n] of material m after the return mapping. flowed: bit l is set if point[l]
- * has yielded; points that have not keep their stress. stress[]: receives the stress of those that have, component by
- * component [Pa]. */
+ * has yielded; all other points keep their stress. stress[components]: receives the stresses of the points that have
+ * yielded [Pa]. */
 static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct elastic *m, const struct law_points *e,
                                             unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
 {
@@ -158,9 +159,9 @@ static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct el
     flow_clear_conversion_flags(p, m, e, flowed, point, dim);
 }
 
-/* Stores the back stresses of those of eight points whose bits are set in lanes_set. They are stored for all these
- * points, whether they have yielded or not, since their components rotate with the points. point: numbers of the
- * points. */
+/* Stores in p the back stresses, from the state e, of those of eight points whose bits are set in `lanes_set`. They are
+ * stored for all these points, whether they have yielded or not, since their components rotate with the points. point:
+ * numbers of the points. */
 static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struct law_points *e, unsigned lanes_set,
                                                 const int32_t *point, const int dim)
 {
@@ -169,8 +170,8 @@ static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struc
             p->back_stress[c][point[l]] = e->back[law_place[dim][c]][l];
 }
 
-/* Removes the first n points (at most LANES) of the list `due` of points whose return mapping is due; at most POINTS
- * others must follow. */
+/* Removes the first n points (at most LANES) from the list `due` of points that wait for their return mapping. At most
+ * POINTS others may follow them. */
 static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int n, const int dim)
 {
     due->n -= n;
@@ -185,7 +186,7 @@ static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int 
 /* Maps the trial stresses of the first points of `due`, at most LANES, back to their yield surfaces if their materials
  * yield, stores stress, plastic strain, plastic work, back stress and temperature, clears FLAG_STRESSED of those that
  * yield if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes must have
- * been stored. Points of several materials: law by law. */
+ * been stored. Points of several materials are mapped material by material. */
 static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const struct transfer_data *t,
                                                     struct flow_points *due, const int dim)
 {
@@ -215,8 +216,8 @@ static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const s
     flow_points_remove_first(due, n, dim);
 }
 
-/* Adds n points to those whose return mapping is due. point: their numbers, filled up to AT_ONCE; L: their velocity
- * gradients [1/s]; stress, volume: their trial stresses [Pa] and volumes [m^3]. */
+/* Appends n points to the list `due` of points that wait for their return mapping. point: numbers of the points, filled
+ * up to AT_ONCE; L: velocity gradients [1/s]; stress[components], volume: trial stresses [Pa] and volumes [m^3]. */
 static ALWAYS_INLINE void flow_points_append(struct flow_points *due, const int32_t *point, int n,
                                              const row_of_points *L, const row_of_points *stress, row_of_points volume,
                                              const int dim)

@@ -8,11 +8,12 @@
 #include "scatter.h"
 #include "shape.h"
 
-/* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
+/* Sums of momentum [kg m/s] over the points of a cell for every node that they reach: [component][row of nodes]. */
 typedef row_of_nodes remap_rows[DIM_MAX][ROWS_MAX];
 
-/* Interpolates the change of the nodal velocities (g->force) to the points of stencil s and adds it to their
- * velocities. momentum[dim]: receives their new momentum, one lane per point [kg m/s]. */
+/* Interpolates the change of the nodal velocities (g->force) to the points of stencil s (weights of a few points of
+ * cell c) and adds it to their velocities in p. momentum[dim]: receives the new momentum of the points [kg m/s], one
+ * per lane. */
 static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const struct cell_stencil *s,
                                                 const struct grid *g, const struct cell *c, struct particles *p,
                                                 const int dim, const enum shape shape)
@@ -43,8 +44,8 @@ static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const s
     }
 }
 
-/* Updates the velocities of n listed points (n <= AT_ONCE) of cell c by the change of the nodal velocities, and adds
- * their new momentum to the sums of the cell. */
+/* Updates the velocities of the n points `list` (n <= AT_ONCE) of cell c by the change of the nodal velocities of g,
+ * and adds their new momentum to the sums `sum` of the cell. t: inputs of the transfer. */
 static ALWAYS_INLINE void remap_update_points(remap_rows sum, const struct grid *g, const struct cell *c,
                                               struct particles *p, const struct transfer_data *t, const int32_t *list,
                                               int n, const int dim, const enum shape shape)
@@ -67,8 +68,8 @@ static ALWAYS_INLINE void remap_update_points(remap_rows sum, const struct grid 
     }
 }
 
-/* Updates the velocities of the n listed points of one cell by the change of the nodal velocities, and adds their new
- * momentum to the nodes of the grid. */
+/* Updates the velocities of the points list[n] of one cell by the change of the nodal velocities (g->force), and adds
+ * their new momentum to the nodes of the grid (g->momentum). t: inputs of the transfer. */
 static ALWAYS_INLINE void remap_update_points_of_cell(const struct grid *g, struct particles *p,
                                                       const struct transfer_data *t, const int32_t *list, int n,
                                                       const int dim, const enum shape shape)

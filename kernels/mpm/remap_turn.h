@@ -26,8 +26,9 @@
 
 /* ---- nodes to points --------------------------------------------------------------------------------------------- */
 
-/* Computes the change of velocity gain[dim] [m/s] of the points of stencil s of cell c, sum N dv_I, and
- * arm[e][d] = sum N (x_I - x_p)_e dv_d [m^2/s], from the change dv_I of the nodal velocities (g->force). */
+/* Interpolates the change dv_I of the nodal velocities (g->force) to the points of stencil s (weights of a few points
+ * of cell c): the change of their velocity gain[dim] = sum N dv_I [m/s], and the moments arm[e][d] = sum N (x_I -
+ * x_p)_e (dv_I)_d [m^2/s]. */
 static ALWAYS_INLINE void turn_gather_arms(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
                                            row_of_points *gain, row_of_points arm[DIM_MAX][DIM_MAX], const int dim,
                                            const enum shape shape)
@@ -70,9 +71,9 @@ static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const st
     }
 }
 
-/* Interpolates the change dv_I of the nodal velocities (g->force) to n listed points (n <= AT_ONCE) of cell c and adds
- * it to their velocities. Stores in t->turn the angular momentum m sum N (x_I - x_p) x dv_I of each point, which this
- * interpolation loses [kg m^2/s]. */
+/* Interpolates the change dv_I of the nodal velocities (g->force) to the n points `list` (n <= AT_ONCE) of cell c and
+ * adds it to their velocities in p. Stores in t->turn the angular momentum [kg m^2/s] that this interpolation loses at
+ * each point: m sum N (x_I - x_p) x dv_I. */
 static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct cell *c, struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                              const enum shape shape)
@@ -114,12 +115,13 @@ MAP_VARIANTS_TURNING(GATHER)
 
 /* ---- points to nodes --------------------------------------------------------------------------------------------- */
 
-/* Sums over the points of a cell for every node that they reach, by rows of four nodes: components of momentum
- * [kg m/s], then mass [kg], which is summed in flight only. */
+/* Sums over the points of a cell for every node that they reach, [quantity][row of nodes]: dim components of momentum
+ * [kg m/s], then mass [kg], which is summed only if points are mapped ahead of their positions (g->ahead). */
 typedef row_of_nodes turn_rows[DIM_MAX + 1][ROWS_MAX];
 
-/* Adds the momentum m N (v + L (x_I - x_p)), with `massive` also the mass m N, of point `at` of stencil s to the sums
- * of its cell. slope: velocity gradients L of the points of the stencil, from rotating_velocity_gradients [1/s]. */
+/* Adds the momentum m N (v + L (x_I - x_p)), with `massive` also the mass m N, of point `at` of stencil s (weights of a
+ * few points) to the sums `sum` of its cell. slope: velocity gradients L of the points of the stencil, from
+ * rotating_velocity_gradients [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g, const struct particles *p,
                                              const row_of_points *slope, const struct cell_stencil *s, int at,
                                              const bool massive, const int dim, const enum shape shape)
@@ -147,8 +149,9 @@ static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g
     }
 }
 
-/* Adds the momentum of the n listed points of one cell to the nodes of the grid, with their velocity extrapolated to
- * each node (turn_scatter_point), in flight also their mass. */
+/* Adds the momentum of the points list[n] of one cell to the nodes of the grid g, with their velocity extrapolated to
+ * each node (turn_scatter_point); also their mass if points are mapped ahead of their positions (g->ahead). t: inputs
+ * of the transfer. */
 static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                             const enum shape shape)

@@ -35,13 +35,13 @@ typedef real row_of_points __attribute__((vector_size(POINTS * sizeof(real))));
 typedef real points_anywhere __attribute__((vector_size(POINTS * sizeof(real)), aligned(sizeof(real)), may_alias));
 typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))));
 
-/* Returns a vector of ROW nodes whose entries are a. */
+/* Returns a vector of ROW entries, one for each node of a row, that are all equal to a. */
 static ALWAYS_INLINE row_of_nodes row_broadcast(real a) { return a - (row_of_nodes){0}; }
 
-/* Returns a vector of POINTS material points whose entries are a. */
+/* Returns a vector of POINTS entries, one for each material point processed together, that are all equal to a. */
 static ALWAYS_INLINE row_of_points points_broadcast(real a) { return a - (row_of_points){0}; }
 
-/* Returns a in lanes where `sign` is negative, else b. */
+/* Returns in each lane the entry of a if that of `sign` is negative, else the entry of b. */
 static ALWAYS_INLINE row_of_points points_choose_by_sign(row_of_points sign, row_of_points a, row_of_points b)
 {
 #if POINTS_LANES == 8
@@ -78,14 +78,14 @@ static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 #endif
 }
 
-/* Returns |a| in each lane of a vector of material points. */
+/* Returns the absolute value of a in each lane of a vector of material points. */
 static ALWAYS_INLINE row_of_points points_absolute(row_of_points a)
 {
     const points_mask digits = (points_mask){0} + INT64_MAX;
     return (row_of_points)((points_mask)a & digits);
 }
 
-/* Returns a bit mask of a vector of material points: bit k is set where lane k is negative. */
+/* Returns the signs of the vector a as bits: bit k is set if lane k (0 to POINTS - 1) is negative. */
 static ALWAYS_INLINE int points_sign_bits(row_of_points a)
 {
 #if POINTS_LANES == 8
@@ -98,7 +98,7 @@ static ALWAYS_INLINE int points_sign_bits(row_of_points a)
 #endif
 }
 
-/* Returns a in the first n lanes, 0 in the others. */
+/* Returns a vector that equals a in lanes 0 to n - 1 and is 0 in all others. */
 static ALWAYS_INLINE row_of_points points_keep_first_lanes(row_of_points a, int n)
 {
     row_of_points lane;
@@ -106,7 +106,7 @@ static ALWAYS_INLINE row_of_points points_keep_first_lanes(row_of_points a, int 
     return points_choose_by_sign(lane - n, a, points_broadcast(0));
 }
 
-/* Returns the sum of all lanes of a. */
+/* Returns the sum of the POINTS entries of the vector a. */
 static ALWAYS_INLINE real points_sum(row_of_points a)
 {
     real sum = a[0];
@@ -118,7 +118,7 @@ static ALWAYS_INLINE real points_sum(row_of_points a)
  * repeat the last point. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
-/* Returns the smaller of two whole numbers. */
+/* Returns the smaller of the whole numbers a and b. */
 static ALWAYS_INLINE int int_min(int a, int b) { return a < b ? a : b; }
 
 /* Returns how many of `points_left` remaining points of a cell are processed at once: at most AT_ONCE. */
@@ -159,7 +159,7 @@ static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_po
 typedef real four_points __attribute__((vector_size(4 * sizeof(real))));
 typedef int64_t four_mask __attribute__((vector_size(4 * sizeof(int64_t))));
 
-/* Transposes four vectors of four entries. */
+/* Transposes four vectors of four entries: entry j of to[i] is entry i of from[j]. */
 static ALWAYS_INLINE void fours_transpose(const four_points from[4], four_points to[4])
 {
 #define EVEN(u, v) VECTOR_PICK(four_mask, u, v, 0, 4, 2, 6)
@@ -177,7 +177,8 @@ static ALWAYS_INLINE void fours_transpose(const four_points from[4], four_points
 }
 #endif
 
-/* Transposes ROW vectors with one lane per point to POINTS vectors with one lane per node. */
+/* Transposes ROW vectors with one lane per point to POINTS vectors with one lane per node: entry j of to[i] is entry i
+ * of from[j]. */
 static ALWAYS_INLINE void rows_transpose(const row_of_points from[ROW], row_of_nodes to[POINTS])
 {
 #if POINTS_LANES == 8

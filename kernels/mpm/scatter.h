@@ -5,20 +5,20 @@
 
 #include "kernels/kernels.h"
 
-/* Returns true if the data of the point ORDER_AHEAD entries after entry k of the list should be prefetched: for one
- * point per cache line. *i: receives the number of this point. The points of a row of cells occupy two (in 3D four)
- * lines in many arrays, more than the hardware prefetcher follows. */
+/* Returns true if the data of the point list[k + ORDER_AHEAD] should be prefetched, which is so for one point per cache
+ * line. *i receives the number of this point. The points of a row of cells occupy two (in 3D four) lines in many
+ * arrays, more than the hardware prefetcher follows. */
 static ALWAYS_INLINE bool prefetch_next_point(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];
     return *i % LANES == 0;
 }
 
-/* Prefetches the cache line of *at for reading. */
+/* Prefetches the cache line of the number at the address `at` for reading. */
 static ALWAYS_INLINE void prefetch_line(const real *at) { __builtin_prefetch(at, 0, 3); }
 
-/* Prefetches mass, position, velocity and spin of the point ORDER_AHEAD entries after entry k of the list; once per
- * cache line. turn: of transfer_data. */
+/* Prefetches mass, position, velocity and spin of the point list[k + ORDER_AHEAD] of p, once per cache line. turn:
+ * spins of the points (transfer_data.turn), turn[2] NULL: no spins. */
 static ALWAYS_INLINE void points_prefetch_motion(const struct particles *p, real *const *turn, const int32_t *list,
                                                  int k, const int dim)
 {

@@ -133,13 +133,13 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
  * cell. */
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
-/* A cell of the grid and the nodes around it that its points reach. */
+/* A cell of the background grid and the lowest of the nodes that points in the cell reach. */
 struct cell {
     int64_t node;        /* index of the lowest of these nodes */
     real place[DIM_MAX]; /* lower corner of the cell, in node distances from the anchor */
 };
 
-/* Returns the grid cell that contains point i, with the lowest node that a point of the cell reaches. */
+/* Returns the cell of grid g that contains point i of p, with the lowest node that a point of the cell reaches. */
 static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, const struct particles *p, int64_t i,
                                                        const int dim, const enum shape shape)
 {
@@ -152,21 +152,23 @@ static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, con
     return c;
 }
 
-/* Returns the index of the first node of row k1 (along y), k2 (along z) of the nodes that points of cell c reach. */
+/* Returns the index in grid g of the first node of a row of the nodes that points of cell c reach. k1, k2: number of
+ * the row along y and along z, from 0. */
 static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const struct grid *g, int k1, int k2,
                                                  const int dim)
 {
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-/* Returns the index of node k of a row of nodes of a cell, relative to the index of the first node of the row. A row is
- * four nodes along x or, for linear shapes in 2D and 3D, all corners of the cell. */
+/* Returns the index of node k (from 0) of a row of nodes of a cell, less the index of the first node of the row. A row
+ * is four nodes along x or, for linear shapes in 2D and 3D, all corners of the cell. */
 static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
 {
     return HAS_CORNERS(dim, shape) ? k % 2 + k / 2 % 2 * g->stride[1] + k / 4 * g->stride[2] : k;
 }
 
-/* Adds the values a of the four nodes of a row to a nodal array. to: its entry of the first node of the row. */
+/* Adds the values a of the ROW nodes of a row to a nodal array of grid g. to: entry of the first node of the row in
+ * this array. */
 static ALWAYS_INLINE void grid_add_node_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
                                             const enum shape shape)
 {
@@ -178,7 +180,8 @@ static ALWAYS_INLINE void grid_add_node_row(const struct grid *g, real *to, row_
         *(pair_anywhere *)(to + row_node_offset(g, k, dim, shape)) += (pair_of_nodes){a[k], a[k + 1]};
 }
 
-/* Returns the eight or four corners of a cell in lanes: 1 on the upper side in direction d, 0 on the lower. */
+/* Returns for the eight (3D) or four (2D) corners of a cell, one per lane, 1 if the corner is on the upper side along
+ * axis `axis`, 0 if it is on the lower side. */
 static ALWAYS_INLINE row_of_nodes corners_upper_side_of_axis(int axis)
 {
 #if ROW_NODES == 8
@@ -191,8 +194,9 @@ static ALWAYS_INLINE row_of_nodes corners_upper_side_of_axis(int axis)
 }
 
 /* Interpolates a nodal field linearly between the corners of a cell, by its polynomial in the positions t of a few
- * points in the cell, in node distances. at: entry of the field at the lowest corner. Stores the derivatives by t_d in
- * slope[dim] and returns the values. Coefficients are scalars: as an array the compiler would keep them in memory. */
+ * points in the cell, in node distances. at: entry of the nodal field, an array over the nodes of g, at the lowest
+ * corner of the cell. Stores the derivatives by t_d in slope[dim] and returns the values. Coefficients are scalars: as
+ * an array the compiler would keep them in memory. */
 static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, const real *at, const row_of_points *t,
                                                        row_of_points *slope, const int dim)
 {
@@ -213,8 +217,9 @@ static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, con
 
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
 
-/* Weights and slopes of the shape functions of a few points of a cell, one point per lane. The weight of a node is N,
- * which depends on the position of the node in its row, times the factors A of the row. */
+/* A stencil: weights and slopes of the shape functions of a few points of a cell, one point per lane. The weight of a
+ * node is N, which depends on the position of the node in its row, times the factors A of the row in the directions
+ * across. */
 struct cell_stencil {
     int32_t point[POINTS];                       /* padded with the last point */
     row_of_points x[DIM_MAX];                    /* position [m] */
@@ -227,17 +232,19 @@ struct cell_stencil {
     int lowest[DIM_MAX], end[DIM_MAX]; /* first row that any point touches; one past the last */
 };
 
-/* Weights N [1] of the nodes of a row at one point, and their slopes D in the directions along the row [1/m]. */
+/* Shape functions of the nodes of a row at one point, one node per lane. N: weights [1]; D: slopes along the axes along
+ * which the nodes of the row differ [1/m]. */
 struct touch {
     row_of_nodes N, D[DIM_MAX];
 };
 
-/* Largest half width of a cpGIMP particle in node distances: the four nodes of a row allow no more. A particle that is
+/* Largest half width of a cpGIMP particle [node distances]; the four nodes of a row allow no more. A particle that is
  * stretched further keeps this width, and numerical fracture begins: with two particles per cell at a stretch of 4. */
 #define HALF_WIDTH_MOST 1
 
-/* Computes the weights and slopes in s of linear shape functions in 2D and 3D, as products of hat functions. A row
- * holds all corners of the cell then. inverse: 1/h of the node distance h [1/m]. */
+/* Computes the weights s->N and slopes s->D of linear shape functions in 2D and 3D, as products of hat functions, for a
+ * few points at the positions s->t in the cell. A row then holds all corners of the cell. inverse: 1/h of the node
+ * distance h [1/m]. */
 static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s, real inverse, const int dim)
 {
     for (int k = 0; k < ROW; k++) {
@@ -251,9 +258,10 @@ static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s,
     }
 }
 
-/* Finds which rows of nodes the points of s touch in direction d, for shapes with three nodes per direction: a point
- * with t < l does not touch the upper outer row, others not the lower outer row. l: half widths in node distances. The
- * code has no branches, because on a lattice t = l up to round-off and the result is unpredictable. */
+/* Finds which rows of nodes the points of stencil s (a few points of a cell) touch along axis d, for shapes with three
+ * nodes per direction: a point with t < l does not touch the upper outer row, others not the lower outer row. l: half
+ * widths in node distances. The code has no branches, because on a lattice t = l up to round-off and the result is
+ * unpredictable. */
 static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_sign_bits(s->t[d] - l) & all;
@@ -261,8 +269,8 @@ static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
-/* Computes weights and slopes of the points of s in direction d (not for linear shapes in 2D and 3D). inverse: 1/h of
- * the node distance h [1/m]; half_width: half the reference edge of a particle [m]. */
+/* Computes weights and slopes of the points of stencil s (a few points of a cell) along axis d; not for linear shapes
+ * in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width: half the reference edge of a particle [m]. */
 static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p, real inverse,
                                                        real half_width, int d, const int dim, const enum shape shape)
 {
@@ -283,7 +291,8 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
     if (SKIPS(dim, shape) && d > 0) stencil_find_touched_rows(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
 }
 
-/* Returns true if points are mapped ahead of their positions (g->ahead). */
+/* Returns true if the weights of points on grid g are those at positions ahead of the actual ones (g->ahead is not 0),
+ * as in flight. */
 static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
 {
     bool ahead = false;
@@ -291,8 +300,8 @@ static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
     return ahead;
 }
 
-/* Computes the stencil s: weights and slopes of the shape functions of n listed points (n <= AT_ONCE) of cell c.
- * half_width: half the reference edge of a particle, l_p [m]. */
+/* Computes the stencil s: weights and slopes of the shape functions of the n points `list` (n <= AT_ONCE) of cell c of
+ * grid g. half_width: half the reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
                                             const struct particles *p, const int32_t *list, int n, real half_width,
                                             const int dim, const enum shape shape)
@@ -309,8 +318,8 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
         for (int d = 0; d < dim; d++) stencil_compute_axis_weights(s, p, inverse, half_width, d, dim, shape);
 }
 
-/* Transposes the weights and slopes of a row from one lane per point to one lane per node (s->from_N, s->from_D), for
- * maps that add to nodes. */
+/* Transposes the weights and slopes of a row in the stencil s from one lane per point to one lane per node (s->from_N,
+ * s->from_D), for maps that add to nodes. Does nothing for linear shapes in 2D and 3D. */
 static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int dim, const enum shape shape)
 {
 #if ROW_NODES == 4
@@ -322,9 +331,9 @@ static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int di
 #endif
 }
 
-/* Returns weights and slopes of the nodes of a row at point `at` of the stencil, one lane per node. stencil_transpose
- * must have been called. h: node distance [m]. For linear shapes in 2D and 3D they are computed again, which is cheaper
- * than transposing. */
+/* Returns weights and slopes of the nodes of a row at point number `at` of the stencil s, one node per lane.
+ * stencil_transpose must have been called. h: node distance [m]. For linear shapes in 2D and 3D weights and slopes are
+ * computed anew, which is cheaper than transposing. */
 static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil *s, int at, real h, const int dim,
                                                       const enum shape shape)
 {
@@ -344,8 +353,8 @@ static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil 
     return own;
 }
 
-/* Returns the factor by which the weights N of a row are multiplied in row k1 (along y), k2 (along z), one lane per
- * point [1]. */
+/* Returns the factor [1] by which the weights s->N are multiplied in the row of nodes number k1 along y and k2 along z,
+ * for all points of stencil s, one per lane. */
 static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil *s, int k1, int k2, const int dim,
                                                        const enum shape shape)
 {
@@ -355,8 +364,8 @@ static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil
     return weight;
 }
 
-/* Returns the derivative of the factor stencil_row_factors along axis d, which is across the row, one lane per point
- * [1/m]. */
+/* Returns the derivative [1/m] of the factor stencil_row_factors along axis d (1 or 2, across the row of nodes), for
+ * all points of stencil s, one per lane. k1, k2: number of the row along y and z. */
 static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_stencil *s, int k1, int k2, int d,
                                                              const int dim, const enum shape shape)
 {
@@ -366,8 +375,8 @@ static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_s
     return slope;
 }
 
-/* Returns the factor by which the weights N of a row are multiplied in row k1 (along y), k2 (along z), for point `at`
- * of the stencil [1]. */
+/* Returns the factor [1] by which the weights N are multiplied in the row of nodes number k1 along y and k2 along z,
+ * for point number `at` of stencil s. */
 static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
                                              const enum shape shape)
 {
@@ -377,9 +386,8 @@ static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int a
     return weight;
 }
 
-/* Returns the derivative along axis d of the product of shape functions that all nodes of a row of the grid (nodes
- * along x) share, stencil_row_factor, for point `at` of the stencil [1/m]. d: 1 or 2; k1, k2: index of the row in the
- * stencil along y and z. */
+/* Returns the derivative [1/m] along axis d (1 or 2) of stencil_row_factor, the product of shape functions that all
+ * nodes of a row (nodes along x) share, for point number `at` of stencil s. k1, k2: number of the row along y and z. */
 static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s, int at, int k1, int k2, int d,
                                                    const int dim, const enum shape shape)
 {
@@ -389,8 +397,8 @@ static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s,
     return slope;
 }
 
-/* Returns the distances along axis d from point `at` of the stencil to the four nodes of a row [m], signed. d: an axis
- * along which the nodes of a row differ; h: node distance [m]. */
+/* Returns the signed distances [m] along axis d from point number `at` of stencil s to the nodes of a row, one node per
+ * lane. d: an axis along which the nodes of a row differ; h: node distance [m]. */
 static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_stencil *s, int at, real h, int d,
                                                            const int dim, const enum shape shape)
 {
@@ -403,15 +411,15 @@ static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_ste
     return (nodes - s->t[d][at]) * h;
 }
 
-/* Returns the signed distances along axis d from all points of the stencil, one per lane, to node k of a row, or, if d
- * is across the rows, to row k [m]; not for linear shapes in 2D and 3D. h: node distance [m]. */
+/* Returns the signed distances [m] along axis d from all points of stencil s, one per lane, to node k of a row or, if d
+ * is across the rows, to row k; not for linear shapes in 2D and 3D. h: node distance [m]. */
 static ALWAYS_INLINE row_of_points stencil_distances_of_points(const struct cell_stencil *s, int k, real h, int d)
 {
     return (k - 1 - s->t[d]) * h;
 }
 
-/* Returns the signed distance along axis d from point `at` of the stencil to row k [m]. d: an axis across the rows; h:
- * node distance [m]. */
+/* Returns the signed distance [m] along axis d from point number `at` of stencil s to the row of nodes number k. d: an
+ * axis across the rows; h: node distance [m]. */
 static ALWAYS_INLINE real stencil_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k)
 {
     return (k - 1 - s->t[d][at]) * h;

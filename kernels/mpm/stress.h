@@ -138,15 +138,15 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *stress, const row_of_poin
     for (int c = 0; c < n; c++) stress[c] += more[c];
 }
 
-/* Elastic constants (struct elastic) of a few points. */
+/* Elastic constants (as in struct elastic) of a few material points, one per lane. */
 struct elastic_points {
     row_of_points c11, c12, shear, trigger; /* [Pa] */
     bool surface;                           /* one of them has a strength surface */
 };
 
-/* Updates the stresses of a few points (one per lane) for a time step dt [s]: rotation by the spin, then Hooke's law.
- * velocity_gradient[a dim + b]: velocity gradient dv_a/dx_b [1/s]; m: elastic constants. Returns the trace of the
- * strain increment [1]. */
+/* Updates the stresses stress[components] [Pa] of a few points (one per lane) for a time step dt [s]: rotation by the
+ * spin, then Hooke's law. velocity_gradient[a dim + b]: velocity gradient dv_a/dx_b [1/s]; m: elastic constants.
+ * Returns the trace of the strain increment [1]. */
 static ALWAYS_INLINE row_of_points stress_update(row_of_points *stress, const row_of_points *velocity_gradient,
                                                  const struct elastic_points *m, real dt, const int dim)
 {
@@ -181,8 +181,8 @@ static ALWAYS_INLINE row_of_points stress_update(row_of_points *stress, const ro
     return trace;
 }
 
-/* Returns the largest principal stress [Pa] of `stress` (symmetric components), in 3D by the trigonometric solution of
- * the cubic equation. */
+/* Returns the largest principal stress [Pa] of the stress `stress` (components xx yy xy in 2D, xx yy zz xy yz zx in
+ * 3D), in 3D by the trigonometric solution of the cubic equation. */
 static ALWAYS_INLINE real stress_largest_principal(const real *stress, const int dim)
 {
     if (dim == 1) return stress[0];
@@ -201,8 +201,8 @@ static ALWAYS_INLINE real stress_largest_principal(const real *stress, const int
     return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
 }
 
-/* Returns an upper bound of the largest principal stress [Pa] of `stress` (symmetric components). The principal stress
- * itself is computed only where this bound exceeds the conversion stress. */
+/* Returns an upper bound [Pa] of the largest principal stress of the stress `stress` (components xx yy xy in 2D, xx yy
+ * zz xy yz zx in 3D). The principal stress itself is computed only where this bound exceeds the conversion stress. */
 static ALWAYS_INLINE real stress_principal_bound(const real *stress, const int dim)
 {
     if (dim == 1) return stress[0];
@@ -212,8 +212,8 @@ static ALWAYS_INLINE real stress_principal_bound(const real *stress, const int d
     return most + 2 * (fabs(stress[3]) + fabs(stress[4]) + fabs(stress[5]));
 }
 
-/* Returns an upper bound of the largest principal stress of a few points, one per lane [Pa]. stress: symmetric
- * components. */
+/* Returns upper bounds [Pa] of the largest principal stresses of a few points, one per lane. stress: components xx yy
+ * xy in 2D, xx yy zz xy yz zx in 3D. */
 static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *stress, const int dim)
 {
     if (dim == 1) return stress[0];
@@ -222,16 +222,16 @@ static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *
            2 * (points_absolute(stress[3]) + points_absolute(stress[4]) + points_absolute(stress[5]));
 }
 
-/* Returns sqrt(J2) + g1 I1 of the stress s [Pa], the measure of the strength surface of material m
- * (data/strength_surface.h). stress: symmetric components [Pa]. */
+/* Returns sqrt(J2) + g1 I1 [Pa] of the stress `stress` (symmetric components [Pa]), the measure that the strength
+ * surface of material m limits (data/strength_surface.h). */
 static ALWAYS_INLINE real stress_drucker_prager_measure(const struct elastic *m, const real *stress, const int dim)
 {
     const real across = m->space == SPACE_PLANE_STRAIN ? m->poisson : 0;
     return strength_surface_stress_ratio_of_tensor(&m->surface, stress, across, dim) * m->surface.g0;
 }
 
-/* Returns true if material point i, of material m, converts to a peridynamic particle at the stress stress: if the
- * largest principal stress exceeds its conversion stress, or if the stress exceeds the strength surface of the
+/* Returns true if material point i of p, of material m, converts to a peridynamic particle at the stress `stress`: if
+ * the largest principal stress exceeds its conversion stress, or if the stress exceeds the strength surface of the
  * material. stress: symmetric components [Pa]. */
 static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct particles *p, int64_t i,
                                           const real *stress, const int dim)
@@ -242,8 +242,9 @@ static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct 
     return stress_drucker_prager_measure(m, stress, dim) > m->failure * (p->strength ? p->strength[i] : 1);
 }
 
-/* Computes the stress that point i transmits to the grid [Pa]: all of its stress, or the part that PD-MPM bonds do not
- * carry (partial stress, src/coupling/partial_stress.c). */
+/* Computes into `stress` (symmetric components [Pa]) the stress that material point i of p transmits to the grid: all
+ * of its stress, or the part that bonds to peridynamic particles do not carry (`partial`;
+ * src/coupling/partial_stress.c). */
 static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
                                                int64_t i, real *stress, const int dim)
 {
@@ -262,8 +263,8 @@ static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const 
     for (int a = 0; a < n; a++) stress[a] += pull * local[a];
 }
 
-/* Rotates `vector` by a unit quaternion, in place. quaternion: first the three components along the axes, last the real
- * one. */
+/* Rotates vector[3] by a unit quaternion, in place. quaternion: first the three components along the axes, then the
+ * scalar component. */
 static inline void quaternion_rotate_vector(const real *quaternion, real *vector)
 {
     real u[3], old[3] = {vector[0], vector[1], vector[2]};
@@ -277,9 +278,9 @@ static inline void quaternion_rotate_vector(const real *quaternion, real *vector
     }
 }
 
-/* Computes the antisymmetric part of the stress that material point i transmits to the grid [Pa], skew[]: components
- * sigma_ab in the order xy, yz, zx. It balances the moment of the state-based bonds of the point. Returns false if
- * there is none. */
+/* Computes into `skew` the antisymmetric part of the stress that material point i of p transmits to the grid:
+ * components sigma_ab in the order xy, yz, zx, in 2D xy only [Pa]. This part balances the moment of the state-based
+ * bonds of the point. Returns true, or false if there is none. */
 static ALWAYS_INLINE bool point_skew_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
                                                     int64_t i, real *skew, const int dim)
 {

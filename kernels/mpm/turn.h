@@ -5,11 +5,11 @@
 #include "kernels/kernels.h"
 #include "row.h"
 
-/* Returns the derivative of velocity component `component` along axis `axis` by which a few points extrapolate their
- * velocity to nodes [1/s], from the spins `spin` of their groups [1/s]. The leap-frog velocity v = (x' - x)/dt is along
- * a chord of the circle of rotation: v = w x r - part w x (w x r), w the spin. time_part: dt/2 for r at the position x'
- * at the end of the step, -dt/2 at its start x [s]. Without the second-order term rotating bodies shrink: a square by
- * 0.2 % per turn at 4000 1/s. */
+/* Returns the derivative [1/s] of velocity component `component` along axis `axis` by which a few points extrapolate
+ * their velocity to nodes, from the spins `spin` [1/s] of the groups with which they rotate. The leap-frog velocity v =
+ * (x' - x)/dt is along a chord of the circle of rotation: v = w x r - part w x (w x r), w the spin. time_part: dt/2 for
+ * r at the position x' at the end of the step, -dt/2 at its start x [s]. Without the second-order term rotating bodies
+ * shrink: a square by 0.2 % per turn at 4000 1/s. */
 static ALWAYS_INLINE row_of_points rotating_velocity_slope(const row_of_points *spin, const real time_part,
                                                            int component, int axis, const int dim)
 {
@@ -21,8 +21,8 @@ static ALWAYS_INLINE row_of_points rotating_velocity_slope(const row_of_points *
 }
 
 /* Computes the velocity gradients slope[d dim + e] = dv_d/dx_e [1/s] of AT_ONCE(dim) points that rotate with their
- * groups. point[]: numbers of the points; time_part: the part of a time step over which they turn
- * (rotating_velocity_slope) [s]. */
+ * groups. point: numbers of the points; t: inputs of the transfer, with the spins t->turn; time_part: the part of a
+ * time step over which they turn (rotating_velocity_slope) [s]. */
 static ALWAYS_INLINE void rotating_velocity_gradients(const struct transfer_data *t, const int32_t *point,
                                                       const real time_part, row_of_points *slope, const int dim)
 {

@@ -35,8 +35,8 @@ static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t f
 }
 
 /* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
- * 7, in a row block that softens (data/softening.h). stretch: their present stretches [1]; largest_stretch: their
- * largest stretches, the present ones included [1]. */
+ * 7, in a row block that softens (data/softening.h). stretch: present stretches of these bonds [1]; largest_stretch:
+ * their largest stretches so far, the present ones included [1]. */
 static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch,
                                                   lanes largest_stretch)
 {
@@ -51,7 +51,8 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
 
 /* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
  * 7, which are in one column. Raises the stored largest stretches of these bonds to their present stretches `stretch`,
- * except in load steps. If none of the eight bonds has begun to soften, returns `stretch` and stores nothing. */
+ * except in load steps (quasi-static solutions). If none of the eight bonds has begun to soften, returns `stretch` and
+ * stores nothing. */
 static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch)
 {
     lanes most = lanes_load_floats(b->soft.most + first_bond);
@@ -63,10 +64,10 @@ static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, 
     return bonds_softened_stretch(b, first_bond, stretch, most);
 }
 
-/* Returns the force of the eight bonds with indices `first_bond` to `first_bond` + 7, divided by stiffness and weight
- * [1]. It equals the stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), its elastic part where bonds
- * yield, and stretch times remaining stiffness fraction where they soften. Updates the plastic or softening state.
- * stretch: total stretch [1]; w: weights, 0 for broken bonds [1]. */
+/* Returns the normalised force [1] of the eight bonds with indices `first_bond` to `first_bond` + 7, i.e. their force
+ * divided by stiffness and weight, by the law of `model`. It equals the stretch (Silling & Askari 2005; Zeng et al.
+ * 2022, eqs. 17, 29), its elastic part where bonds yield, and stretch times remaining stiffness fraction where they
+ * soften. Updates the plastic or softening state. stretch: total stretch [1]; w: weights, 0 for broken bonds [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t first_bond,
                                                   lanes stretch, lanes w)
 {
@@ -75,7 +76,7 @@ static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, con
                                     : stretch;
 }
 
-/* Returns the elastic part of the stretch of the eight bonds with indices `first_bond` to `first_bond` + 7 [1]: in
+/* Returns the elastic part [1] of the stretch of the eight bonds with indices `first_bond` to `first_bond` + 7: in
  * models that yield, `stretch` less the stored plastic stretch; in models that soften, `stretch` times the share of
  * their stiffness that the bonds keep. stretch: total stretch [1]. */
 static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t first_bond,
@@ -89,25 +90,27 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + first_bond) : stretch;
 }
 
-/* Returns the elastic part of the stretch `stretch` of the bond with index `bond` [1]: `stretch` less the plastic
- * stretch where bonds yield, times the remaining stiffness fraction where they soften. row_block: row block (the bonds
- * of eight particles) that contains the bond. */
+/* Returns the elastic part [1] of the stretch `stretch` of the bond with index `bond` in the arrays of b: `stretch`
+ * less the plastic stretch where bonds yield, times the remaining stiffness fraction where they soften. row_block: row
+ * block (the bonds of eight particles) that contains the bond. */
 static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     if (b->soft.curve) return stretch * bond_remaining_stiffness_fraction(b, row_block, bond, stretch);
     return b->plastic_stretch ? stretch - b->plastic_stretch[bond] : stretch;
 }
 
-/* Returns the elastic energy of the bond with index `bond` at the stretch `stretch` [1], divided by stiffness, weight
- * and reference length of the bond [1]. row_block: row block (the bonds of eight particles) that contains it. */
+/* Returns the elastic energy of the bond with index `bond` in the arrays of b at the stretch `stretch` [1], divided by
+ * stiffness, weight and reference length of the bond (dimensionless). row_block: row block (the bonds of eight
+ * particles) that contains the bond. */
 static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     const real elastic = bond_entry_elastic_stretch(b, row_block, bond, stretch);
     return 0.5 * ((b->soft.curve ? stretch : elastic) * elastic);
 }
 
-/* Returns the elastic energy of eight bonds divided by stiffness, weight and reference length [1]. stretch: their
- * stretches; elastic: elastic part of these, which is their normalised force [1]. */
+/* Returns the elastic energies of eight bonds, each divided by stiffness, weight and reference length of the bond
+ * (dimensionless). stretch: stretches of the bonds [1]; elastic: elastic parts of the stretches, equal to the
+ * normalised forces [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, lanes stretch, lanes elastic)
 {
     return 0.5 * (model == PD_BOND_SOFT ? stretch : elastic) * elastic;
@@ -115,7 +118,7 @@ static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, la
 
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
-/* Returns the present stretch of `bond`, a bond of particle i [1]. */
+/* Returns the stretch [1] of `bond`, a bond of particle i, at the present positions p->x. */
 static inline real bond_stretch_of(const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
@@ -123,22 +126,23 @@ static inline real bond_stretch_of(const struct particles *p, const struct bond 
     return sqrt(distance2) * bond->inverse_length - 1;
 }
 
-/* Returns the elastic part of the present stretch of `bond`, a bond of particle i: the force of the bond divided by
- * stiffness and weight [1]. */
+/* Returns the elastic part [1] of the present stretch of `bond`, a bond of particle i of p. It equals the force of the
+ * bond divided by stiffness and weight. */
 static inline real bond_elastic_stretch_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                            int32_t i)
 {
     return bond_entry_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
 }
 
-/* Returns the force of `bond`, a bond of particle i [N], equal to the force that the force kernel computes; tension is
- * positive. Returns 0 if the bond is broken. */
+/* Returns the force [N] of `bond`, a bond of particle i of p in a bond-based model, as the force kernel computes it;
+ * tension is positive. Returns 0 if the bond is broken. */
 static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_of(b, p, bond, i);
 }
 
-/* Stores the force that `bond`, a bond of particle i, exerts on this particle as a vector in f[dim] [N]. */
+/* Stores in f[dim] the force vector [N] that `bond`, a bond of particle i of p, exerts on this particle. Bond-based
+ * models only. */
 static inline void bond_force_vector(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                      int32_t i, real *f)
 {
@@ -148,7 +152,8 @@ static inline void bond_force_vector(const struct bonds *b, const struct particl
     for (int d = 0; d < p->dim; d++) f[d] *= force;
 }
 
-/* Returns the elastic energy of `bond`, a bond of particle i [J]; 0 if it is broken. */
+/* Returns the elastic energy [J] of `bond`, a bond of particle i of p in a bond-based model; 0 if the bond is
+ * broken. */
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     if (bond->w == 0) return 0;
@@ -156,8 +161,8 @@ static inline real bond_energy_of(const struct bonds *b, const struct particles 
     return b->stiffness * bond->w * energy / bond->inverse_length;
 }
 
-/* Returns the plastic work of a bond so far [J], 0 if it is broken: in closed form, since hardening is linear and the
- * plastic path only grows. */
+/* Returns the plastic work [J] of `bond` so far; 0 if the bond is broken. The work has a closed form, since hardening
+ * is linear and the plastic path only grows. Only in models whose bonds yield. */
 static inline real bond_plastic_work_of(const struct bonds *b, const struct bond *bond)
 {
     const int64_t q = bond->entry;

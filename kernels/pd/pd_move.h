@@ -5,9 +5,9 @@
 #include "kernels/divergence.h"
 #include "kernels/kernels.h"
 
-/* Returns a bit for each particle list[0 .. n - 1], n <= 8, set if the particle is moved now: if it is peridynamic, not
- * moved by the grid, and loaded[i] is 0 for its index i. loaded: [particles] not 0 for particles that are moved later,
- * after the loads are applied; NULL: none. */
+/* Returns a bit for each of the particles list[0] .. list[n - 1] of p, n <= 8: bit l is set if particle list[l] is
+ * moved now, i.e. if it is peridynamic, not moved by the grid, and loaded[i] is 0 for its index i. loaded: [particles]
+ * not 0 for particles that are moved later, after the loads are applied; NULL: none. */
 static ALWAYS_INLINE unsigned pd_particles_to_move(const struct particles *p, const int32_t *list, int n,
                                                    const uint8_t *loaded)
 {
@@ -22,8 +22,8 @@ static ALWAYS_INLINE unsigned pd_particles_to_move(const struct particles *p, co
     return bits;
 }
 
-/* Stores a[l] in to[list[l]] for those of the eight listed particles whose bit l is set in `movers`. consecutive: true
- * if all bits are set and the particle numbers are consecutive. */
+/* Stores a[l] in to[list[l]] for those of eight particles list[l], l = 0 to 7, whose bit l is set in `movers`.
+ * consecutive: true if all bits are set and the particle numbers are consecutive. */
 static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool consecutive, unsigned movers, lanes a)
 {
     if (consecutive)
@@ -33,10 +33,10 @@ static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool 
             if (movers >> l & 1) to[list[l]] = a[l];
 }
 
-/* Advances eight particles list[0 .. 7] by a leap-frog step, v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq.
- * 21). Only the particles whose bit is set in `movers` are changed. consecutive: true if all bits are set and the
- * particle numbers are consecutive; m: step sizes, and the speed above which a particle has diverged. Returns true if
- * one of the moved particles has diverged. */
+/* Advances the eight particles list[0] .. list[7] of p by a leap-frog step, v += dt_velocity f/m, x += dt v (Zeng et
+ * al. 2022, eq. 21). Only the particles whose bit is set in `movers` are changed. consecutive: true if all bits are set
+ * and the particle numbers are consecutive; m: step sizes, and the speed above which a particle has diverged. Returns
+ * true if one of the moved particles has diverged. */
 static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *list, unsigned movers,
                                            const struct pd_motion *m, const int dim, const bool consecutive)
 {
@@ -58,9 +58,10 @@ static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *l
     return any;
 }
 
-/* Advances by a leap-frog step those of the particles list[0 .. n - 1], n <= 8, that are not moved by the grid and not
- * loaded. list: eight entries, ascending, aligned to 32 bytes; m: step sizes; loaded: [particles] not 0 for particles
- * that are moved later; NULL: none. Returns true if one of the moved particles has diverged. */
+/* Advances by a leap-frog step those of the particles list[0] .. list[n - 1] of p, n <= 8, that are peridynamic, not
+ * moved by the grid and not marked in `loaded`. list: eight entries, ascending, aligned to 32 bytes; m: step sizes;
+ * loaded: [particles] not 0 for particles that are moved later; NULL: none. Returns true if one of the moved particles
+ * has diverged. */
 static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
                                         const struct pd_motion *m, const int dim)
 {

@@ -7,8 +7,8 @@
 
 #define POLAR_TINY 1e-300 /* keeps the root of a zero matrix finite */
 
-/* Computes the rotations R nearest to eight 2 x 2 matrices M (row major), with the formula of polar_rotation_2d; the
- * identity where M = 0. */
+/* Computes the rotations R nearest to eight 2 x 2 matrices M, both row major with one matrix per lane, by the formula
+ * of polar_rotation_2d; R is the identity if that formula has no solution, e.g. where M = 0. */
 static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 {
     const lanes c = M[0] + M[3], s = M[2] - M[1], size2 = c * c + s * s;
@@ -48,7 +48,8 @@ static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
     for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_broadcast(c % 4 == 0));
 }
 
-/* Computes the rotations R nearest to eight matrices M (row major), in dimension 2 or 3. */
+/* Computes the rotations R nearest to eight matrices M, both row major with one matrix per lane, in dimension dim = 2
+ * or 3. */
 static ALWAYS_INLINE void polar_rotation_lanes(const lanes *M, lanes *R, const int dim)
 {
     if (dim == 2)
