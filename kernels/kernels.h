@@ -122,12 +122,12 @@ struct pd_motion {
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
-/* Computes the forces of all bonds by the kernel `sweep` of the model, and breaks bonds stretched beyond `limit`.
- * Returns the number of bonds broken, each counted once for each of its particles. A clamped plane is a plane of
- * symmetry along which motion is prevented, too: the reaction on a mirror image in a clamped plane is added to the
- * force on the particle that the image mirrors (pd/clamp_force.c). motion: step sizes with which particles are moved in
- * the same loop; NULL: no particle is moved. The caller must set in motion->loaded the particles with bonds to such
- * images and the particles that these images mirror, which are moved after the loop. */
+/* Computes the forces of all bonds b on the particles p by the kernel `sweep` of the model, and breaks bonds stretched
+ * beyond `limit`. Returns the number of bonds broken, each counted once for each of its particles. A clamped plane is a
+ * plane of symmetry along which motion is prevented, too: the reaction on a mirror image in a clamped plane is added to
+ * the force on the particle that the image mirrors (pd/clamp_force.c). motion: step sizes with which particles are
+ * moved in the same loop; NULL: no particle is moved. The caller must set in motion->loaded the particles with bonds to
+ * such images and the particles that these images mirror, which are moved after the loop. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
@@ -153,7 +153,7 @@ KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, con
 KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
-/* Marks the bond with index q in the bond arrays as broken in row number `row` (all bonds of one particle of p): sets
+/* Marks the bond with index q in the arrays of b as broken in row number `row` (all bonds of one particle of p): sets
  * its weight to 0, and updates the counts of broken bonds, damage and flags of the particle. The caller adds the energy
  * of the bond to the fracture energy before, and marks the bond in the row of its other particle likewise. */
 KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64_t q));
@@ -180,26 +180,26 @@ typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
-/* Sets the weight of the bond with index q in the bond arrays, which is in row number `row` (all bonds of one
- * particle), to w [1]; w = 0 breaks the bond. Adds half of the loss of elastic energy to the fracture energy of the
- * row: a leap-frog velocity update is centred on the change of weights, so the other half is lost in the step to the
- * next positions. The caller changes the weight of the bond in the row of its other particle likewise. */
+/* Sets the weight of the bond with index q in the arrays of b, which is in row number `row` (all bonds of one particle
+ * of p), to w [1]; w = 0 breaks the bond. Adds half of the loss of elastic energy to the fracture energy of the row: a
+ * leap-frog velocity update is centred on the change of weights, so the other half is lost in the step to the next
+ * positions. The caller changes the weight of the bond in the row of its other particle likewise. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
 /* Returns an upper bound [1], up to round-off, of the largest stretch of the bonds in row block number `row_block`
  * (bonds of eight particles of p), by which row blocks far from breaking are skipped. */
 KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
 
-/* Breaks the bond with index q in the bond arrays, in row number `row` (all bonds of one particle), at the present
+/* Breaks the bond with index q in the arrays of b, in row number `row` (all bonds of one particle of p), at the present
  * positions, whatever its stretch, and adds its energy to the fracture energy of the row. limit->last_force: rule for
  * the share of its force that acts in the step in which it breaks. The caller breaks the bond in the row of its other
  * particle likewise. */
 KERNEL(void, bond_break_entry,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
-/* Restores the bond with index q in the bond arrays, in row number `row` (all bonds of one particle), which a trial
- * load step has broken, and sets its weight to w [1]. The caller restores the fracture energy of the row, and damage
- * and flags of its particle. */
+/* Restores the bond with index q in the arrays of b, in row number `row` (all bonds of one particle of p), which a
+ * trial load step has broken, and sets its weight to w [1]. The caller restores the fracture energy of the row, and
+ * damage and flags of its particle. */
 KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
 /* Returns the elastic energy [J] of the family of row number `row` (all bonds of one particle) in a state-based model,
@@ -225,8 +225,8 @@ KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
  * converted, its plastic strain as a material point. */
 KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
 
-/* Computes the stress of every peridynamic particle from its bonds, the virial (1/2V) sum F (x) (x_j - x_i), into
- * p->stress [Pa]. */
+/* Computes the stress of every peridynamic particle from its bonds in b into p->stress [Pa]: the virial (1/2V) sum F
+ * (x) (x_j - x_i) over the bonds, with the force F of a bond and the volume V of the particle. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
 /* Integrates velocity and position of the peridynamic particles list[n] (indices, ascending, aligned to 32 bytes),
@@ -255,8 +255,9 @@ typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct tra
 typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
- * (x_I - x_p)) of the points to the nodes x_I of g, with the spin w of the point's group in transfer->turn [1/s], to
- * second order in w dt (mpm/turn.h). In flight (g->ahead) adds their mass, too. 2D and 3D. */
+ * (x_I - x_p)) of the points of p to the nodes x_I of g, with the spin w of the point's group in transfer->turn [1/s],
+ * to second order in w dt (mpm/turn.h). If points are mapped ahead of their positions (g->ahead), adds their mass, too.
+ * 2D and 3D. */
 typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Moves the points with the nodal velocities, x_p += dt sum N v, and updates their stress, volume, stretch, plastic
@@ -271,8 +272,9 @@ typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct t
  * energy. */
 KERNEL(void, points_add_mean_dilatation, (struct particles *p, const struct transfer_data *transfer, real share));
 
-/* Distributes one value per particle to nodes: adds value[k] N of particle list[k] to `field` ([g->n], in the unit of
- * value), for k = 0 .. n - 1. half_width: half the reference edge of a particle, l_p [m]. Serial. */
+/* Distributes one value per particle to nodes: adds value[k] N of particle list[k] of p to `field` ([g->n], in the unit
+ * of `value`), for k = 0 .. n - 1, with the shape functions N of the nodes. half_width: half the reference edge of a
+ * particle, l_p [m]. Serial. */
 typedef void spread_to_nodes_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,
                                 int64_t n, const real *value, real *field);
 
@@ -309,8 +311,8 @@ KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
 
 /* Computes mass, centre, inertia and angular velocity (spin) of each group of t (neighbouring points that rotate
- * together, data/turning.h) from its points on the grid, before a step, and stores in t->turn, for each point, the
- * angular velocity of its group [1/s]. spacing: of the particles [m]. */
+ * together, data/turning.h) from its points (of p) on the grid, before a step, and stores in t->turn, for each point,
+ * the angular velocity of its group [1/s]. spacing: of the particles [m]. */
 KERNEL(void, rotation_groups_compute_spins, (struct rotation_groups *t, struct particles *p, real spacing));
 
 /* Gives each group of t (points that rotate together, data/turning.h) the angular momentum that its points have lost in
@@ -337,9 +339,9 @@ KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velo
 
 /* Applies the constraints of the grid g to its nodal velocities (Zeng et al. 2022, step 3, second part): walls
  * prescribe the velocity of their nodes, and `force` becomes the change of the prescribed velocity; nodes beyond planes
- * of symmetry move as mirror images. Adds the reactions of walls and planes to impulse [N s] and the work of the walls
- * to *work [J]. With APIC the reaction includes the momentum that the prescribed velocity replaces. smallest_mass: as
- * in grid_advance [kg]. */
+ * of symmetry move as mirror images. transfer: FLIP or APIC. Adds the reactions of walls and planes to impulse [N s]
+ * and the work of the walls to *work [J]. With APIC the reaction includes the momentum that the prescribed velocity
+ * replaces. smallest_mass: as in grid_advance [kg]. */
 KERNEL(void, grid_constrain,
        (struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work));
 
@@ -426,8 +428,8 @@ KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
  * the sum of (dt f)^2/(4 m) over the nodes, with the force f and the mass m of a node. dt: time step [s]. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Returns the elastic energy [J] of all cells of the mesh, including their contribution to the families of bonded
- * points (material points with state-based bonds). m: elastic constants by material; finite: true for finite strain,
- * false for small strain. */
+ * points (material points of p with state-based bonds). m: elastic constants by material; finite: true for finite
+ * strain, false for small strain. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 /* Computes p->end_strain and p->end_rotation, strain and rotation of the material points of the mesh with state-based
  * bonds to peridynamic particles, from the deformation of their cells. finite: true for finite strain, false for small

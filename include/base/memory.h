@@ -41,7 +41,8 @@ void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, si
  * elements are undefined. */
 void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
-/* Releases an array that one of the functions of this header has returned; does nothing for NULL. */
+/* Releases the array at `pointer`, which one of the functions of this header has returned; does nothing if `pointer` is
+ * NULL. */
 void memory_free(void *pointer);
 
 /* Sets whether memory_free keeps released arrays for later allocations of similar size (reuse true) or returns them to

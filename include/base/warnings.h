@@ -20,8 +20,8 @@ struct warnings {
     const void *scene;
 };
 
-/* Appends a warning to the list w, composed as by printf, with `?` in place of control characters, unless the list
- * contains it already. Returns true if it was appended. */
+/* Appends a warning, composed from `format` as by printf, with `?` in place of control characters, to the list w unless
+ * the list contains it already. Returns true if it was appended. */
 bool warnings_add_if_new(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Appends the warnings of the list `source_list`, from number `first_warning` on, to the list w, except those that w
@@ -32,8 +32,8 @@ void warnings_append_new_from_list(struct warnings *w, const struct warnings *so
  * text`. The line ends with the location in the scene file, in brackets, if w->locate is set and finds the location. */
 void warnings_print(const struct warnings *w, int first_warning, FILE *out);
 
-/* Appends a warning to the list w while a run is in progress and, if the list did not contain it and is not silent,
- * prints it on standard error. */
+/* Appends the warning `text` to the list w while a run is in progress. Prints it on standard error if the list did not
+ * contain it yet and is not silent. */
 void warnings_add_and_print(struct warnings *w, const char *text);
 
 /* Prints the warnings of the list w, from number `first_warning` on, on standard error, unless the list is silent. */

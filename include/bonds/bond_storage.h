@@ -251,7 +251,7 @@ struct bonds {
     real stiffness; /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
-/* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of them of
+/* Returns true if row block `row_block` of b (the stored bonds of eight particles) has eight rows, all of them of
  * peridynamic particles, so that each row stores the bonds to all neighbours of its particle. */
 static inline bool bond_row_block_has_eight_pd_particles(const struct bonds *b, int64_t row_block)
 {
@@ -280,7 +280,7 @@ static inline struct bond_softness bond_softness_load(const struct softened *sof
                                   softened->whole ? softened->whole[bond] : 0};
 }
 
-/* Stores `state` as the softening state of the bond with index `bond` in the bond arrays. Also sets or clears the mark
+/* Stores `state` as the softening state of the bond with index `bond` in the arrays of b. Also sets or clears the mark
  * that this bond has begun to soften in the properties of its column (eight bonds, one of each of eight particles,
  * stored together). */
 static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bond_softness state)
@@ -309,8 +309,9 @@ static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, i
     return bond_row_block_has_begun_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
-/* Returns the weight that the bond with index `bond` had before it softened [1]. row_block: row block (the bonds of
- * eight particles) that contains it; present_weight: its present weight [1]. Only for state-based models. */
+/* Returns the weight [1] that the bond with index `bond` in the arrays of b had before it softened. row_block: row
+ * block (the bonds of eight particles) that contains the bond; present_weight: present weight of the bond [1]. Only for
+ * state-based models. */
 static inline real bond_weight_before_softening(const struct bonds *b, int64_t row_block, int64_t bond,
                                                 real present_weight)
 {
@@ -325,9 +326,9 @@ static inline void bond_row_block_request_softening_check(struct bonds *b, int64
     __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
 }
 
-/* Returns the share 1 - d of its stiffness that the bond with index `bond` keeps at the stretch `stretch` [1], where d
- * is its softening, 0 to 1. row_block: row block (the bonds of eight particles) that contains the bond. Returns 1 in
- * state-based models, whose bond weights already contain this factor. */
+/* Returns the share 1 - d of its stiffness that the bond with index `bond` in the arrays of b keeps at the stretch
+ * `stretch` [1], where d is its softening, 0 to 1. row_block: row block (the bonds of eight particles) that contains
+ * the bond. Returns 1 in state-based models, whose bond weights already contain this factor. */
 static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int64_t row_block, int64_t bond,
                                                      real stretch)
 {
@@ -348,7 +349,7 @@ static inline real bond_half_softening_energy(const struct bonds *b, int64_t row
            fabs(b->inverse_length[bond]);
 }
 
-/* Marks particle i of p, one of whose bonds begins to soften, for conversion to a peridynamic particle if it is a
+/* Marks particle i of p, one of whose bonds in b begins to soften, for conversion to a peridynamic particle if it is a
  * material point, since the stress of a material point does not include the softening of bonds. May be called by
  * several threads at once for different particles. */
 static inline void softening_mark_point_for_conversion(struct bonds *b, struct particles *p, int32_t i)
@@ -363,10 +364,10 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
  * of the sign of its inverse length; usually called through bond_column_update_after_bond_change. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
 
-/* Recomputes the common properties of the column that contains bond `bond` after its weight or the sign of its inverse
- * length has changed. A column has one bond of each of eight particles, which form a row block. row_number: row of the
- * bond, i.e. the bonds of one particle; its row block no longer follows a stencil, the pattern that row blocks share.
- */
+/* Recomputes the common properties of the column of b that contains bond number `bond` after its weight or the sign of
+ * its inverse length has changed. A column has one bond of each of eight particles, which form a row block. row_number:
+ * row of the bond, i.e. the bonds of one particle; its row block no longer follows a stencil, the pattern that row
+ * blocks share. */
 void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of row block `row_block` (the bonds of eight particles of p),
@@ -379,7 +380,7 @@ void bond_row_block_initialise_softening(struct bonds *b, const struct particles
  * columns are already written. May be called by several threads at once. */
 void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
 
-/* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane
+/* Returns the index, in the bond arrays of b (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane
  * `lane` (0 to 7) of row block `row_block` (the bonds of eight particles), so that the caller may write to this entry.
  * If the row block only follows a stencil (a pattern of bonds shared by many row blocks), its bonds are written to the
  * arrays first. After a change of w or of the sign of inverse_length the caller calls

@@ -93,10 +93,10 @@ void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, co
                                         const struct bonds *old_bonds, const struct particles *old_particles,
                                         const int32_t *new_index);
 
-/* Saves which bonds are broken or have softened, their plastic state and the damage p->damage to the archive `a` if
- * a->saving, else restores them from it. Neighbours and weights are not stored, since bonds_make rebuilds them. If
- * a->scope is not ARCHIVE_ALL, only the plastic stretches of bonds are saved or restored. Returns FAILED if an entry is
- * missing or its size differs. */
+/* Saves which of the bonds b are broken or have softened, their plastic state and the damage p->damage to the archive
+ * `a` if a->saving, else restores them from it. Neighbours and weights are not stored, since bonds_make rebuilds them.
+ * If a->scope is not ARCHIVE_ALL, only the plastic stretches of bonds are saved or restored. Returns FAILED if an entry
+ * is missing or its size differs. */
 status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Returns the weighted volume Q = sum w r^2 over the intact bonds of row `row`, i.e. of one particle, with the weights
@@ -120,7 +120,7 @@ real bonds_dissipated_softening_energy(const struct bonds *b);
  * bonds_fracture_energy. */
 real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
 
-/* Returns true if an intact bond of row `row` (all bonds of one particle) has begun to soften, by its stretch or
+/* Returns true if an intact bond of row `row` of b (all bonds of one particle) has begun to soften, by its stretch or
  * because the strength surface of the material was reached; false if row is -1. */
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
 
@@ -134,7 +134,8 @@ void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles
 
 /* Computes for every particle the ratio of its stress to the stress on the strength surface of its material into
  * stress_ratio[p->n] [1]: 1 on the surface, 0 if the material has no surface. The stress of a material point is its
- * own, that of a peridynamic particle follows from the strain averaged over its family. source: inputs of the bonds. */
+ * own, that of a peridynamic particle follows from the strain averaged over its bonds in b. source: inputs of the
+ * bonds. */
 void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
                                              const struct bond_source *source, real *stress_ratio);
 
@@ -147,7 +148,7 @@ real bonds_row_softening_damage(const struct bonds *b, const struct particles *p
  * soften. */
 real bonds_fracture_energy(const struct bonds *b);
 
-/* Returns eight bits: bit l is set if particle l (0 to 7) of the eight particles whose bonds row block `row_block`
+/* Returns eight bits: bit l is set if particle l (0 to 7) of the eight particles whose bonds row block `row_block` of b
  * stores has an intact bond. */
 static inline unsigned bond_row_block_lanes_with_intact_bonds(const struct bonds *b, int64_t row_block)
 {
@@ -173,8 +174,8 @@ static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
  * particle without bonds). */
 void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
 
-/* Returns the number of bonds of the eight particles of row block `row_block` together, broken bonds included. A bond
- * between two of these particles counts twice. */
+/* Returns the number of bonds of the eight particles of row block `row_block` of b together, broken bonds included. A
+ * bond between two of these particles counts twice. */
 static inline int32_t bond_row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
 /* Returns the number of columns of row block `row_block`, which stores the bonds of eight particles. Column k holds at
@@ -185,7 +186,8 @@ static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t
 }
 
 /* Returns the index of the particle to which bond number `column` of the first of the eight particles of row block
- * `row_block` leads, if the bonds number `column` of all eight particles lead to consecutive particles; else -1. */
+ * `row_block` of b leads, if the bonds number `column` of all eight particles lead to consecutive particles; else
+ * -1. */
 static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, int64_t row_block, int64_t column)
 {
     const struct stencil *stencil = b->stencil[row_block];

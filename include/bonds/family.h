@@ -68,8 +68,9 @@ struct bond_limit {
  * forces are computed without a time step after them. */
 extern const struct bond_limit bond_limit_never;
 
-/* Returns the stretch at which the bond between particles i and j breaks if it is brittle [1]: the critical stretch of
- * its two materials, from `limit`, times its random strength factor. A bond that softens dissipates the same energy. */
+/* Returns the stretch [1] at which the bond between particles i and j of p breaks if it is brittle: the critical
+ * stretch of its two materials, from `limit`, times its random strength factor. A bond that softens dissipates the same
+ * energy. */
 static inline real bond_breaking_stretch(const struct particles *p, const struct bond_limit *limit, int64_t i,
                                          int64_t j)
 {
@@ -78,7 +79,7 @@ static inline real bond_breaking_stretch(const struct particles *p, const struct
     return limit->critical_stretch[pair] * (alone ? 1 : bond_strength_factor(p, i, j));
 }
 
-/* Returns the stretches [1] at which the bond between particles i and j begins to soften and breaks; both are the
+/* Returns the stretches [1] at which the bond between particles i and j of p begins to soften and breaks; both are the
  * critical stretch if the bond is brittle. limit: critical stretches and softening by pair of materials. */
 static inline struct softening_range bond_softening_range(const struct particles *p, const struct bond_limit *limit,
                                                           int64_t i, int64_t j)
@@ -158,8 +159,9 @@ struct bond_source {
 };
 
 /* Computes horizon, cutoff, weights by direction and the sums over a complete family on the lattice into f. The rules
- * f->volume, calibration, surface, shells and influence must be set. spacing: lattice spacing [m]; horizon_in_spacings:
- * delta/spacing [1]; section: cross-section in 1D [m^2], thickness in 2D [m], 1 in 3D. */
+ * f->volume, calibration, surface, shells and influence must be set. space: line, plane stress, plane strain or solid;
+ * spacing: lattice spacing [m]; horizon_in_spacings: delta/spacing [1]; section: cross-section in 1D [m^2], thickness
+ * in 2D [m], 1 in 3D. */
 void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 
 /* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for the material m, calibrated by the rule

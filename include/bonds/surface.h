@@ -36,7 +36,7 @@ struct surface_weights {
                          away */
 };
 
-/* Computes the factors on the weights of bonds near faces, for particles on a lattice, by least squares with bounds.
+/* Computes the factors on the weights of bonds near faces, for particles p on a lattice, by least squares with bounds.
  * source: inputs of the bonds; with_rotations: true for the model with particle rotations, whose factors differ because
  * relative rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a
  * lattice; weights->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was
@@ -50,9 +50,9 @@ void surface_weights_free(struct surface_weights *w);
 /* Returns the integer nearest to `spacings`, halves rounded away from 0. It is quicker than nearbyint. */
 static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
 
-/* Returns the factor by which the weight of a bond of particle i is multiplied near faces [1]; 1 if the particle is far
- * from faces or `bond_vector` is longer than any bond. bond_vector: reference vector from particle i to its neighbour,
- * dim components [m]; i must be no image. Both particles of a bond obtain bitwise equal factors. */
+/* Returns the factor [1] in `weights` by which the weight of a bond of particle i is multiplied near faces; 1 if the
+ * particle is far from faces or `bond_vector` is longer than any bond. bond_vector: reference vector from particle i to
+ * its neighbour, dim components [m]; i must be no image. Both particles of a bond obtain bitwise equal factors. */
 static inline real surface_weight_factor(const struct surface_weights *weights, int64_t i, const real *bond_vector)
 {
     int at = 0;

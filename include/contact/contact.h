@@ -191,9 +191,9 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *particle_list, int64_t particle_count);
 
-/* Marks the particles of p on which contact forces may act as loaded in `loads`, and the bonds of these particles in b
- * as active, i.e. to be computed. Needed after a restart; in all other cases contact_update_pair_list_if_outdated does
- * it. */
+/* Marks the particles of p on which forces of the contact c may act as loaded in `loads`, and the bonds of these
+ * particles in b as active, i.e. to be computed. Needed after a restart; in all other cases
+ * contact_update_pair_list_if_outdated does it. */
 void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
                                               struct loads *loads);
 
@@ -230,10 +230,10 @@ real contact_friction_dissipated_energy(const struct contact *c);
 int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
                                                 struct loads *loads, const struct family *family, real max_gap);
 
-/* Selects the contacts that act in an equilibrium solution, from the existing list of pairs: contacts that overlap, and
- * contacts between different bodies whose gap is less than `max_gap` [spacings]. Selected contacts act as linear
- * springs, also with a positive gap, until the next selection. A contact whose gap is 0 within round-off stays as it
- * was. Returns the number of contacts whose selection changed. */
+/* Selects the contacts of particles p that act in an equilibrium solution, from the existing list of pairs in c:
+ * contacts that overlap, and contacts between different bodies whose gap is less than `max_gap` [spacings]. Selected
+ * contacts act as linear springs, also with a positive gap, until the next selection. A contact whose gap is 0 within
+ * round-off stays as it was. Returns the number of contacts whose selection changed. */
 int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap);
 
 /* Chooses which contacts act when forces are computed next. selected_only: true for the contacts that
@@ -245,7 +245,7 @@ void contact_restrict_forces_to_selection(struct contact *c, bool selected_only)
  * for pairs before the next time step. */
 void contact_discard_equilibrium_selection(struct contact *c);
 
-/* Returns true if particles or rigid bodies have moved so far since the last search that pairs missing in the list
+/* Returns true if particles of p or rigid bodies have moved so far since the last search that pairs missing in the list
  * could be in contact, or if no search has been done. Updates c->moved, the largest displacement since the last
  * search. */
 bool contact_search_is_needed(struct contact *c, const struct particles *p);
@@ -260,8 +260,8 @@ real contact_pair_list_safe_displacement(const struct contact *c);
 void contact_visit_selected_as_springs(const struct contact *c, const struct particles *p,
                                        void (*visit)(void *context, const struct contact_term *term), void *context);
 
-/* Returns the root of the sum of squares [N] of the contact forces that rigid bodies exert on particles of p. Serves as
- * a scale for the residual of an equilibrium. */
+/* Returns the root of the sum of squares [N] of those forces of the contact c that rigid bodies exert on particles of
+ * p. Serves as a scale for the residual of an equilibrium. */
 real contact_rigid_force_norm(const struct contact *c, const struct particles *p);
 
 /* Saves the list of pairs of c with contact distances, friction springs and energies to the archive `a` if a->saving,

@@ -57,13 +57,13 @@ void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_
 void initial_pd_region_make(struct region *region, const struct region *scene_region, const struct particles *p,
                             const struct bond_source *source, real tip_radius);
 
-/* Computes the partial stress of each material point whose cell is crossed by PD-MPM bonds, i.e. bonds to peridynamic
- * particles. The partial stress is the part of the stress of the point that these bonds carry, stored as the matrix M
- * by which the stress of the point must be multiplied to obtain it: M = T C^-1 with the elastic stiffness C of the
- * material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds, with stiffness K, length
- * xi, direction e and share l of the length inside the cell; V: volume of the point. changed[n]: indices of the
- * particles converted since the last call; only points near them are recomputed. If `changed` is NULL, all points
- * are. */
+/* Computes the partial stress of each material point of p whose cell is crossed by PD-MPM bonds, i.e. bonds to
+ * peridynamic particles. The partial stress is the part of the stress of the point that these bonds carry, stored as
+ * the matrix M by which the stress of the point must be multiplied to obtain it: M = T C^-1 with the elastic stiffness
+ * C of the material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds b, with stiffness
+ * K, length xi, direction e and share l of the length inside the cell; V: volume of the point. source: inputs of the
+ * bonds; changed[n]: indices of the particles converted since the last call; only points near them are recomputed. If
+ * `changed` is NULL, all points are. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 

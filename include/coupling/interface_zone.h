@@ -31,11 +31,11 @@ struct interface_zone {
     real scale;         /* s, such that the largest eigenvalue of B is at most 4 [1] */
 };
 
-/* Finds the points of the interface zone and their neighbours, in the reference configuration. The zone contains the
- * material points whose distance from a peridynamic particle of their body is at most the cutoff of bonds plus one
- * spacing. Neighbours of a point are particles within 1.5 spacings. Pairs cut by a pre-crack and particles with
- * prescribed motion are left out. Replaces the previous zone in *r. source: inputs of the bonds. Release with
- * interface_zone_free. */
+/* Finds those particles of p that are points of the interface zone, and their neighbours, in the reference
+ * configuration. The zone contains the material points whose distance from a peridynamic particle of their body is at
+ * most the cutoff of bonds plus one spacing. Neighbours of a point are particles within 1.5 spacings. Pairs cut by a
+ * pre-crack and particles with prescribed motion are left out. Replaces the previous zone in *r. source: inputs of the
+ * bonds. Release with interface_zone_free. */
 void interface_zone_find_points_and_neighbours(struct interface_zone *r, const struct particles *p,
                                                const struct bond_source *source);
 
@@ -50,9 +50,9 @@ void interface_zone_free(struct interface_zone *r);
  * interface_zone_second_half_of_damped_energy returns the second half. */
 real interface_zone_damp_and_return_half_energy(struct interface_zone *r, struct particles *p, real viscosity);
 
-/* Returns the second half of the energy that interface_zone_damp_and_return_half_energy has removed in this step [J]:
- * the sum of -J . v'/2 over the members of the zone, with its impulses J (r->change) and the present velocities v',
- * those after the step. */
+/* Returns the second half [J] of the energy that interface_zone_damp_and_return_half_energy has removed in this step:
+ * the sum of -J . v'/2 over the members of the zone r, with the impulses J in r->change and the velocities v' of p
+ * after the step. */
 real interface_zone_second_half_of_damped_energy(const struct interface_zone *r, const struct particles *p);
 
 #endif

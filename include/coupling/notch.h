@@ -35,10 +35,11 @@ struct notches {
     const struct voids *voids; /* kept by reference; NULL: no voids */
 };
 
-/* Decides for each pre-crack of `source` whether it becomes a slit of the mesh. It does if it runs through material
- * points of the mesh and ends inside the body; otherwise it cuts bonds along all its length. Also finds the particles
- * beside slits and narrow voids. tip_radius: radius of the peridynamic zones at the ends of slits [m];
- * reason_against_slits: why no pre-crack may be a slit, NULL if slits are allowed. Release with notches_free. */
+/* Decides for each pre-crack of `source` (inputs of the bonds of p) whether it becomes a slit of the mesh, and stores
+ * the decisions in n. A pre-crack becomes a slit if it runs through material points of the mesh and ends inside the
+ * body; otherwise it cuts bonds along all its length. Also finds the particles beside slits and narrow voids.
+ * tip_radius: radius of the peridynamic zones at the ends of slits [m]; reason_against_slits: why no pre-crack may be a
+ * slit, NULL if slits are allowed. Release with notches_free. */
 void notches_choose_slits_or_cut_bonds(struct notches *n, const struct particles *p, const struct bond_source *source,
                                        real tip_radius, const char *reason_against_slits);
 

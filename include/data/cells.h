@@ -16,8 +16,8 @@ struct cells {
     int32_t *order;            /* ascending inside a cell */
 };
 
-/* Sorts the particles and mirror images of p into search cells by their reference positions, so that neighbours within
- * a radius of up to `cell_edge` [m] can be found. Release with cells_free. */
+/* Sorts the particles and mirror images of p into the search cells c by their reference positions, so that neighbours
+ * within a radius of up to `cell_edge` [m] can be found. Release with cells_free. */
 void cells_make_for_neighbour_search(struct cells *c, const struct particles *p, real cell_edge);
 
 /* Releases all arrays of the search cells c. */

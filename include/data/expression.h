@@ -80,10 +80,10 @@ real expression_evaluate(const struct expression *e, const real *X, int dim, rea
  * op must not be an operation that pushes a value on the stack (a number, a coordinate, the time). */
 real expression_op_apply(enum expression_op op, real a, real b);
 
-/* Returns true if the operation has no operands: it pushes a number, a coordinate or the time on the stack. */
+/* Returns true if the operation op has no operands: it pushes a number, a coordinate or the time on the stack. */
 static inline bool expression_op_has_no_operands(enum expression_op op) { return op <= EXPRESSION_T; }
 
-/* Returns true if the operation has two operands, which it replaces on the stack by their result. */
+/* Returns true if the operation op has two operands, which it replaces on the stack by their result. */
 static inline bool expression_op_is_binary(enum expression_op op) { return op >= EXPRESSION_ADD; }
 
 #endif

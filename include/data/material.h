@@ -61,7 +61,7 @@ struct material {
     real bulk;                        /* E in 1D, in-plane k2 = (c11 + c12)/2 in 2D, K in 3D [Pa] */
 };
 
-/* Returns true if the bonds of the material soften, i.e. lose their force gradually (softening.h), because a tensile
+/* Returns true if the bonds of material m soften, i.e. lose their force gradually (softening.h), because a tensile
  * strength is given; false if they are brittle. */
 static inline bool material_has_softening_bonds(const struct material *m) { return m->tensile_strength > 0; }
 
@@ -78,7 +78,7 @@ static inline bool material_yields(const struct material *m)
 
 /* Returns true if all material points of a grid cell shall use the mean of their dilatations: if material m yields or
  * is nearly incompressible (Poisson's ratio above 0.4), since linear cells would be too stiff otherwise
- * (kernels/mpm/dilatation.h). In plane stress and 1D the volume is not constrained. */
+ * (kernels/mpm/dilatation.h). False in the spaces plane stress and line, in which the volume is not constrained. */
 static inline bool material_uses_mean_dilatation(const struct material *m, enum space space)
 {
     return (space == SPACE_PLANE_STRAIN || space == SPACE_SOLID) && (material_yields(m) || m->poisson > 0.4);
@@ -102,8 +102,8 @@ static inline bool material_has_viscosity(const struct material *m)
     return m->viscosity.linear > 0 || m->viscosity.quadratic > 0;
 }
 
-/* Returns the only value of Poisson's ratio that bond-based peridynamics can represent: 1/3 in plane stress, 1/4 in
- * plane strain and in 3D, NAN in 1D, where there is none. */
+/* Returns the only value of Poisson's ratio that bond-based peridynamics can represent in the space `space`: 1/3 in
+ * plane stress, 1/4 in plane strain and in 3D, NAN in 1D, where there is none. */
 real bond_based_poisson_ratio(enum space space);
 
 /* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for a family of discrete particles: 2 k/family_sum in

@@ -126,8 +126,8 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
  * rate `rate` [1/s] and returns the value: linear in the logarithm of the rate, constant beyond the table. */
 real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate);
 
-/* Returns the modulus E' [Pa] of material m, the elastic stress divided by the strain in uniaxial tension: Young's
- * modulus E, in plane strain E/(1 - nu^2) with Poisson's ratio nu. */
+/* Returns the modulus E' [Pa] of material m in the space `space`: the elastic stress divided by the strain in uniaxial
+ * tension, i.e. Young's modulus E, in plane strain E/(1 - nu^2) with Poisson's ratio nu. */
 static inline real material_uniaxial_tension_modulus(const struct material *m, enum space space)
 {
     return space == SPACE_PLANE_STRAIN ? m->young / (1 - square(m->poisson)) : m->young;

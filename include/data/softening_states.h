@@ -15,8 +15,8 @@ struct softening_model {
 
 /* Returns the largest stresses, divided by s_0 E', that a family (particle with its neighbours) of softening bonds of
  * the model `model` reaches under growing uniform strain, by quadrature over directions. c: softening curve; s_0:
- * stretch at which bonds begin to soften; E': modulus of uniaxial tension; squared_stretch_ratio: (critical
- * stretch/s_0)^2 [1]. */
+ * stretch at which bonds begin to soften; E': modulus of uniaxial tension; space: line, plane stress, plane strain or
+ * solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
                                                                real squared_stretch_ratio,
                                                                const struct softening_model *model);
@@ -29,9 +29,9 @@ real softening_model_onset_stretch(const struct material *m, enum space space, c
 
 /* Computes, for each strain rate of the table m->rate, by which factor the stretch at which bonds of material m begin
  * to soften exceeds that in slow loading, m->onset_stretch, so that the material has its strength at this rate. Stores
- * the factors in m->rate.onset. model: peridynamic model of the bonds. Returns the smallest ratio (critical
- * stretch/onset)^2 over all rates, by which the caller checks the table: below RATE_LEAST_RATIO bonds would break
- * before they reach the strength. */
+ * the factors in m->rate.onset. space: line, plane stress, plane strain or solid; model: peridynamic model of the
+ * bonds. Returns the smallest ratio (critical stretch/onset)^2 over all rates, by which the caller checks the table:
+ * below RATE_LEAST_RATIO bonds would break before they reach the strength. */
 real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
                                                   const struct softening_model *model);
 

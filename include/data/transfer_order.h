@@ -32,9 +32,9 @@ struct transfer_order {
     int32_t *block_cell;       /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
-/* Sorts the particles listed in point_list[point_count] by the cell of grid g that contains their position, the cells
- * by block (a box of cells) and the blocks by colour, where blocks of one colour are not adjacent. Stores this order in
- * o, whose arrays grow as needed. The order depends on positions alone, not on the number of threads. */
+/* Sorts the particles of p listed in point_list[point_count] by the cell of grid g that contains their position, the
+ * cells by block (a box of cells) and the blocks by colour, where blocks of one colour are not adjacent. Stores this
+ * order in o, whose arrays grow as needed. The order depends on positions alone, not on the number of threads. */
 void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
                                         int64_t point_count, const struct grid *g);
 

@@ -24,7 +24,7 @@ struct voids {
     uint8_t *near; /* [particles and images] sum of VOID_NEAR, VOID_ACROSS */
 };
 
-/* Returns true if the region contains a solid made from a voxel image, also within a group of solids; the surface of
+/* Returns true if the region r contains a solid made from a voxel image, also within a group of solids; the surface of
  * such a solid is only known to about a voxel. */
 bool region_has_voxel_image(const struct region *r);
 

@@ -120,7 +120,7 @@ real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *
                                real inertia_factor);
 
 /* Computes the stress-intensity factors and J of the crack tip `tip` by the interaction integral. contour:
- * `contour_count` pairs of radii, integrated in one pass over the particles. motion: displacement, velocity,
+ * `contour_count` pairs of radii, integrated in one pass over the particles p. motion: displacement, velocity,
  * acceleration and loads of all particles; rule: how gradients are computed; c: neighbour search over the reference
  * positions. result: receives for each contour K_I and K_II [Pa m^(1/2)] and J [J/m^2]. */
 void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contour_count,

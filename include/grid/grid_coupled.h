@@ -18,7 +18,7 @@ struct grid_coupled {
     int64_t n;
 };
 
-/* Selects the peridynamic particles that the background grid moves in this step: lists them in c, sets
+/* Selects the peridynamic particles of p that the background grid moves in this step: lists them in c, sets
  * FLAG_GRID_COUPLED and sorts them into cells. coupling: with PM and PG, particles in cells that share a node with a
  * cell that contains a material point; with PMG and PGG, all. g: background grid, which must cover all material points
  * (with PMG and PGG all particles). Must be called before the forces are computed. */

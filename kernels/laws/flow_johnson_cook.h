@@ -30,8 +30,8 @@ static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes
     return (law->johnson_cook.A + power) * factor;
 }
 
-/* Returns for eight points the integral of the yield stress over the plastic strain from 0 to `plastic_strain` at the
- * constant temperature `temperature` [K], the plastic work per volume [J/m^3]. */
+/* Returns for eight points the integral of the yield stress of the law `law` over the plastic strain from 0 to
+ * `plastic_strain` at the constant temperature `temperature` [K], the plastic work per volume [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *law, lanes plastic_strain,
                                                              lanes temperature)
 {

@@ -22,8 +22,8 @@ static ALWAYS_INLINE lanes flow_stress_linear(const struct law *law, lanes plast
     return law->yield + law->hardening * plastic_strain;
 }
 
-/* Returns for eight points the integral of the yield stress over the plastic strain from 0 to `plastic_strain`, the
- * plastic work per volume [J/m^3]. Temperature has no effect. */
+/* Returns for eight points the integral of the yield stress of the law `law` over the plastic strain from 0 to
+ * `plastic_strain`, the plastic work per volume [J/m^3]. `temperature` has no effect. */
 static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, lanes plastic_strain, lanes temperature)
 {
     (void)temperature;

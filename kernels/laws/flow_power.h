@@ -25,8 +25,8 @@ static ALWAYS_INLINE lanes flow_stress_power(const struct law *law, lanes plasti
     return law->yield + power_of_strain(law->power.coefficient, law->power.exponent, plastic_strain, slope);
 }
 
-/* Returns for eight points the integral of the yield stress over the plastic strain from 0 to `plastic_strain`, the
- * plastic work per volume [J/m^3]. Temperature has no effect. */
+/* Returns for eight points the integral of the yield stress of the law `law` over the plastic strain from 0 to
+ * `plastic_strain`, the plastic work per volume [J/m^3]. `temperature` has no effect. */
 static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lanes plastic_strain, lanes temperature)
 {
     (void)temperature;

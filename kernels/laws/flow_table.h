@@ -24,8 +24,9 @@ static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plasti
     return least;
 }
 
-/* Returns for eight points the integral of the yield stress over the plastic strain from 0 to `plastic_strain`, the
- * plastic work per volume [J/m^3], segment by segment of the curve. Temperature has no effect. */
+/* Returns for eight points the integral of the yield stress of the law `law` over the plastic strain from 0 to
+ * `plastic_strain`, the plastic work per volume [J/m^3], segment by segment of the curve law->table. `temperature` has
+ * no effect. */
 static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lanes plastic_strain, lanes temperature)
 {
     (void)temperature;

@@ -60,8 +60,8 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
 }
 
 /* Replaces value[q] of point number q (0 .. 2^dim - 1) of eight mesh cells, one cell per lane, by mean - value[q], with
- * the mean over the points of the same cell and material. Values of materials without mean dilatation, and of lanes
- * without a cell, become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all
+ * the mean over the points (of p) of the same cell and material. Values of materials without mean dilatation, and of
+ * lanes without a cell, become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all
  * materials. */
 static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, const struct particles *p,
                                                    const struct elastic *m, const int32_t *cell,
@@ -76,10 +76,10 @@ static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, cons
     }
 }
 
-/* Computes by how much each normal strain of point number q of eight mesh cells changes, change[q] [1], if all points
- * of a cell that have one material get one dilatation, the mean of theirs. Returns true; false, without values, if no
- * point of the cells has a material with mean dilatation. cell: eight cell indices, -1 for a lane without cell; s:
- * strain of the cells; m: elastic constants of all materials. */
+/* Computes by how much each normal strain of point number q (particles of p) of eight mesh cells changes, change[q]
+ * [1], if all points of a cell that have one material get one dilatation, the mean of theirs. Returns true; false,
+ * without values, if no point of the cells has a material with mean dilatation. cell: eight cell indices, -1 for a lane
+ * without cell; s: strain of the cells; m: elastic constants of all materials. */
 static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, const struct particles *p,
                                                        const struct elastic *m, const int32_t *cell,
                                                        const struct mesh_cell *s, lanes change[CORNERS_MAX],
@@ -99,9 +99,9 @@ static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, 
     return true;
 }
 
-/* Computes the stresses of the points number `point` (0 .. 2^dim - 1) of eight mesh cells, one cell in each vector
- * lane. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; change: added to the normal
- * strains of the points [1], NULL: nothing; m: elastic constants of all materials; stress: receives symmetric
+/* Computes the stresses of the points number `point` (0 .. 2^dim - 1; particles of p) of eight mesh cells, one cell in
+ * each vector lane. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; change: added to the
+ * normal strains of the points [1], NULL: nothing; m: elastic constants of all materials; stress: receives symmetric
  * components [Pa], 0 in lanes without a point. If flows is true, applies return mapping in load steps, updates the
  * plastic state of the points and returns 0. If it is false, returns the sum of the elastic energies per volume of the
  * points [J/m^3]. */

@@ -54,9 +54,9 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
 }
 
 /* Adds to f [Pa] the forces of state-based bonds on the deformation modes of the cells in group number `group` of eight
- * partial cells (cells with missing or bonded points): f += share^T pull for each material point with bonds (struct
- * mesh_end), with the reaction `pull` of its bonds (p->end_pull) and the derivatives `share` of its mean strain by the
- * modes. f: one value for each mode of cell_strain_vector, one cell per lane. */
+ * partial cells of the mesh (cells with missing or bonded points): f += share^T pull for each material point with bonds
+ * (struct mesh_end), with the reaction `pull` of its bonds (p->end_pull) and the derivatives `share` of its mean strain
+ * by the modes. f: one value for each mode of cell_strain_vector, one cell per lane. */
 static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, const struct particles *p,
                                                        int64_t group, lanes *f, const int dim)
 {
@@ -70,9 +70,9 @@ static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, 
     }
 }
 
-/* Adds the moments of bonds about the material points of group number `group` of eight partial cells (cells with
- * missing points, partial stresses, several materials or doubled nodes), per volume of the cell, to moment[axis] [Pa];
- * in 2D moment[2] only. */
+/* Adds the moments of bonds about the material points (of p) of group number `group` of eight partial cells of the mesh
+ * (cells with missing points, partial stresses, several materials or doubled nodes), per volume of the cell, to
+ * moment[axis] [Pa]; in 2D moment[2] only. */
 static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh, const struct particles *p,
                                                         int64_t group, lanes *moment, const int dim)
 {
@@ -84,8 +84,8 @@ static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh,
 }
 
 /* Computes the stress of the mean strain, s->P, and the forces on the bending modes, s->force, of group number `group`
- * of eight partial cells (cells with missing points, partial stresses, several materials or doubled nodes) [Pa], from
- * the strain in s, the stiffness of each cell, and the forces of state-based bonds. */
+ * of eight partial cells of the mesh (cells with missing points, partial stresses, several materials or doubled nodes)
+ * [Pa], from the strain in s, the stiffness of each cell, and the forces of state-based bonds on points of p. */
 static ALWAYS_INLINE void mesh_partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
                                                       struct mesh_cell *s, const int dim)
 {

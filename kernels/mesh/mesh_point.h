@@ -21,8 +21,9 @@ static ALWAYS_INLINE void interpolate_to_quarter_points(real *low, real *high)
     *low = near;
 }
 
-/* Replaces the values at the 2^dim corners of a cell by the interpolated values at its 2^dim material points, in place.
- * The interpolation matrix is symmetric, so that the same call distributes values of the points to the corners. */
+/* Replaces the values value[2^dim] at the corners of a cell by the interpolated values at its 2^dim material points, in
+ * place. The interpolation matrix is symmetric, so that the same call distributes values of the points to the
+ * corners. */
 static ALWAYS_INLINE void cell_interpolate_to_points(real *value, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -141,9 +142,9 @@ static ALWAYS_INLINE void cell_subtract_from_mean(const struct elastic *m, const
     }
 }
 
-/* Replaces the traces of the strains of the points of cell `cell` of the mesh by their mean over the points of the same
- * material, where the points of this material have one dilatation (elastic.mean_dilatation). strain: as from
- * mesh_point_strains; m: elastic constants of all materials. */
+/* Replaces the traces of the strains of the points (particles of p) of cell `cell` of the mesh by their mean over the
+ * points of the same material, where the points of this material have one dilatation (elastic.mean_dilatation). strain:
+ * as from mesh_point_strains; m: elastic constants of all materials. */
 static ALWAYS_INLINE void mesh_strains_use_mean_dilatation(const struct mesh *mesh, const struct particles *p,
                                                            const struct elastic *m, int64_t cell,
                                                            real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)

@@ -35,8 +35,8 @@ static ALWAYS_INLINE bool points_share_mean_dilatation(const struct particles *p
     return p->material[i] == p->material[j] && p->body[i] == p->body[j];
 }
 
-/* Returns true if the points list[n] of a grid cell share one mean dilatation, because they are all of one body and one
- * material. */
+/* Returns true if the points list[n] of p, in a grid cell, share one mean dilatation, because they are all of one body
+ * and one material. */
 static ALWAYS_INLINE bool points_all_share_mean_dilatation(const struct particles *p, const int32_t *list, int n)
 {
     bool same = true;

@@ -40,12 +40,12 @@ static ALWAYS_INLINE struct elastic_points points_load_elastic_constants(const s
     return m;
 }
 
-/* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points of a cell, one per lane, from their velocity
- * gradients L[dim dim] [1/s], and sets FLAG_STRESSED where they convert at their stress (stress_converts). m: elastic
- * constants by lane; point: numbers of the points, of which there are `points`; due: receives the points where
- * materials yield, for the return mapping (points_flow.h). The volume follows the trace of the strain in the space. In
- * plane stress the elastic strain through the thickness is left out, which changes the volume by less than 0.5 % below
- * 1 % strain; the plastic one is added with the return mapping. */
+/* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points of p in one cell, one per lane, from their
+ * velocity gradients L[dim dim] [1/s], and sets FLAG_STRESSED where they convert at their stress (stress_converts). m:
+ * elastic constants by lane; point: numbers of the points, of which there are `points`; due: receives the points where
+ * materials yield, for the return mapping (points_flow.h); t: inputs of the transfer; shape: shape function. The volume
+ * follows the trace of the strain in the space. In plane stress the elastic strain through the thickness is left out,
+ * which changes the volume by less than 0.5 % below 1 % strain; the plastic one is added with the return mapping. */
 static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct transfer_data *t,
                                                struct flow_points *due, const struct elastic_points *m,
                                                const int32_t *point, int points, const row_of_points *L, const int dim,
@@ -117,10 +117,10 @@ static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid
     return bonded;
 }
 
-/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c, by
- * interpolation from the nodes. bonded: negative in lanes of points that move with the velocities after remapping
- * (points_negative_if_remapped). The nodes of a row are added first, since they have one weight in the directions
- * across the row. */
+/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (a few points of cell
+ * c), by interpolation from the nodes of g. shape, transfer: shape function and transfer scheme; bonded: negative in
+ * lanes of points that move with the velocities after remapping (points_negative_if_remapped). The nodes of a row are
+ * added first, since they have one weight in the directions across the row. */
 static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, const struct cell *c,
                                                       const struct cell_stencil *s, const row_of_points bonded,
                                                       row_of_points *velocity, row_of_points *L, const int dim,
@@ -154,9 +154,9 @@ static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, cons
     }
 }
 
-/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c by
- * interpolation from the nodes, for linear shapes in 2D and 3D. bonded: negative in lanes of points that move with the
- * velocities after remapping (points_negative_if_remapped). */
+/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (a few points of cell
+ * c) by interpolation from the nodes of g, for linear shapes in 2D and 3D. transfer: FLIP or APIC; bonded: negative in
+ * lanes of points that move with the velocities after remapping (points_negative_if_remapped). */
 static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *g, const struct cell *c,
                                                              const struct cell_stencil *s, const row_of_points bonded,
                                                              row_of_points *velocity, row_of_points *L, const int dim,
@@ -213,9 +213,9 @@ static ALWAYS_INLINE void points_add_dilatation_rate(struct points_motion *m, ro
     for (int d = 0; d < dim; d++) m->L[d * dim + d] += change * (1.0 / dim);
 }
 
-/* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of a cell that differ in body or material,
- * each over the points of the same body and material (dilatation.h). t: constants of the materials; motion: motion of
- * these points, AT_ONCE of them in each entry, whose velocity gradients are changed. */
+/* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of p in a cell that differ in body or
+ * material, each over the points of the same body and material (dilatation.h). t: constants of the materials; motion:
+ * motion of these points, AT_ONCE of them in each entry, whose velocity gradients are changed. */
 static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                                const int32_t *list, struct points_motion *motion, int n,
                                                                const int dim)
@@ -233,8 +233,8 @@ static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct part
     }
 }
 
-/* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of a cell (dilatation.h), after storing the
- * rates before averaging in t->dilatation. motion: motion of these points, AT_ONCE of them in each entry, whose
+/* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of p in a cell (dilatation.h), after storing
+ * the rates before averaging in t->dilatation. motion: motion of these points, AT_ONCE of them in each entry, whose
  * velocity gradients are changed. */
 static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                           const int32_t *list, struct points_motion *motion, int n,
@@ -264,7 +264,8 @@ static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles
 }
 
 /* Adds the displacements m->velocity [m], which the caller has already multiplied by the time step, to the positions of
- * the points of m, and stores the new positions in p. Returns a bit mask: bit k is set if point k has left cell c. */
+ * the points of m, and stores the new positions in p. Returns a bit mask: bit k is set if point k has left cell c of
+ * grid g. */
 static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
                                      const struct points_motion *m, const int dim)
 {
@@ -278,9 +279,10 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_sign_bits((row_of_points)~inside);
 }
 
-/* Updates position, stress, volume, stretch and rotation of the n points (n <= AT_ONCE) of cell c that are in m by
- * their motion. On return m->velocity holds displacements [m]. due: receives the points of materials that yield, for
- * the return mapping. Returns the number of points that have left the cell. */
+/* Updates position, stress, volume, stretch and rotation of n points of p (n <= AT_ONCE) of cell c of grid g by their
+ * motion m. t: inputs of the transfer; shape: shape function. On return m->velocity holds displacements [m]. due:
+ * receives the points of materials that yield, for the return mapping. Returns the number of points that have left the
+ * cell. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
                                     int n, const int dim, const enum shape shape)
@@ -319,10 +321,11 @@ static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const in
     if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
 }
 
-/* Updates motion, stress and volume of the points list[n] of one cell of g. due: receives the points of materials that
- * yield, for the return mapping; averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points
- * are interpolated before they are updated. Returns the number of points that have left the cell. The cell is computed
- * again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. */
+/* Updates motion, stress and volume of the points list[n] of p in one cell of g. t: inputs of the transfer, with the
+ * shape function `shape` and the scheme `transfer`; due: receives the points of materials that yield, for the return
+ * mapping; averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points are interpolated before
+ * they are updated. Returns the number of points that have left the cell. The cell is computed again for every AT_ONCE
+ * points: most cells need one pass only, so it is not kept in registers. */
 static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, struct particles *p,
                                                        const struct transfer_data *t, struct flow_points *due,
                                                        const int32_t *list, int n, const int dim,

@@ -34,7 +34,8 @@ static ALWAYS_INLINE int symmetric_component_index(int axis, int other_axis, con
 
 /* Adds to the force sums `sum` of a cell the force of the antisymmetric part `skew` of the stress of point `at` of
  * stencil s (weights of a few points): f_a = -V sum_b skew_ab grad_b. Does nothing unless the point has bonds of a
- * state-based model (partial_stress.c). row: weights and slopes of a row of nodes at this point. */
+ * state-based model (partial_stress.c). t: inputs of the transfer; row: weights and slopes of a row of nodes at this
+ * point; shape: shape function. */
 static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct particles *p,
                                                     const struct transfer_data *t, const struct cell_stencil *s,
                                                     const struct touch *row, int at, const int dim,
@@ -139,8 +140,8 @@ static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const st
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
-/* Computes by how much the mean stress of each of the n <= MEAN_POINTS points list[k] of a cell changes if points of
- * the same body and material get one mean stress (dilatation.h). change[MEAN_POINTS]: receives the changes [Pa]; t:
+/* Computes by how much the mean stress of each of the n <= MEAN_POINTS points list[k] of p in a cell changes if points
+ * of the same body and material get one mean stress (dilatation.h). change[MEAN_POINTS]: receives the changes [Pa]; t:
  * constants of the materials. */
 static NEVER_INLINE void points_mean_stress_changes(const struct particles *p, const struct transfer_data *t,
                                                     const int32_t *list, int n, real *change, const int dim)
@@ -175,8 +176,9 @@ static NEVER_INLINE void points_mean_stress_changes(const struct particles *p, c
     points_subtract_from_mean(p, t, list, n, change);
 }
 
-/* Adds mass, momentum and force of the points list[n] of one cell to the nodes of the grid g. t: inputs of the
- * transfer; averaged: result of transfer_uses_mean_dilatation. */
+/* Adds mass, momentum and force of the points list[n] of p in one cell to the nodes of the grid g. t: inputs of the
+ * transfer, with the shape function `shape` and the scheme `transfer`; averaged: result of
+ * transfer_uses_mean_dilatation. */
 static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const struct particles *p,
                                                  const struct transfer_data *t, const int32_t *list, int n,
                                                  const int dim, const enum shape shape, const enum transfer transfer,

@@ -114,8 +114,9 @@ static ALWAYS_INLINE void flow_load_points(const struct particles *p, const stru
 }
 
 /* Clears the flag that a point is stressed enough to become peridynamic (FLAG_STRESSED), which was set by the trial
- * stress, of points whose stress after plastic flow no longer exceeds the stress at which they convert. flowed: bit l
- * is set if point[l] has yielded; m: material of the points; e: their state after the return mapping. */
+ * stress, of those of eight points of p whose stress after plastic flow no longer exceeds the stress at which they
+ * convert. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the return
+ * mapping. */
 static ALWAYS_INLINE void flow_clear_conversion_flags(struct particles *p, const struct elastic *m,
                                                       const struct law_points *e, unsigned flowed, const int32_t *point,
                                                       const int dim)
@@ -130,9 +131,9 @@ static ALWAYS_INLINE void flow_clear_conversion_flags(struct particles *p, const
     }
 }
 
-/* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of the points point[LANES] that
- * have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the
- * return mapping. */
+/* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of those of the points
+ * point[LANES] of p that have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e:
+ * their state after the return mapping. */
 static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p, const struct elastic *m,
                                                             const struct law_points *e, unsigned flowed,
                                                             const int32_t *point)
@@ -145,9 +146,9 @@ static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p,
             p->volume[point[l]] = e->volume[l] * p->volume0[point[l]];
 }
 
-/* Stores the state e of the n points point[n] of material m after the return mapping. flowed: bit l is set if point[l]
- * has yielded; all other points keep their stress. stress[components]: receives the stresses of the points that have
- * yielded [Pa]. */
+/* Stores in p the state e of the n points point[n] of material m after the return mapping. flowed: bit l is set if
+ * point[l] has yielded; all other points keep their stress. stress[components]: receives the stresses of the points
+ * that have yielded [Pa]. */
 static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct elastic *m, const struct law_points *e,
                                             unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
 {
@@ -183,10 +184,11 @@ static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int 
     *(points_anywhere *)due->volume = *(const points_anywhere *)(due->volume + n);
 }
 
-/* Maps the trial stresses of the first points of `due`, at most LANES, back to their yield surfaces if their materials
- * yield, stores stress, plastic strain, plastic work, back stress and temperature, clears FLAG_STRESSED of those that
- * yield if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes must have
- * been stored. Points of several materials are mapped material by material. */
+/* Maps the trial stresses of the first points in the list `due`, at most LANES, back to their yield surfaces if their
+ * materials yield, stores stress, plastic strain, plastic work, back stress and temperature, clears FLAG_STRESSED of
+ * those that yield if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes
+ * must have been stored in p. t: time step and constants of the materials. Points of several materials are mapped
+ * material by material. */
 static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const struct transfer_data *t,
                                                     struct flow_points *due, const int dim)
 {

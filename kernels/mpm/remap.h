@@ -13,7 +13,7 @@ typedef row_of_nodes remap_rows[DIM_MAX][ROWS_MAX];
 
 /* Interpolates the change of the nodal velocities (g->force) to the points of stencil s (weights of a few points of
  * cell c) and adds it to their velocities in p. momentum[dim]: receives the new momentum of the points [kg m/s], one
- * per lane. */
+ * per lane; shape: shape function. */
 static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const struct cell_stencil *s,
                                                 const struct grid *g, const struct cell *c, struct particles *p,
                                                 const int dim, const enum shape shape)
@@ -45,7 +45,8 @@ static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const s
 }
 
 /* Updates the velocities of the n points `list` (n <= AT_ONCE) of cell c by the change of the nodal velocities of g,
- * and adds their new momentum to the sums `sum` of the cell. t: inputs of the transfer. */
+ * and adds their new momentum to the sums `sum` of the cell. p: particles; t: inputs of the transfer; shape: shape
+ * function. */
 static ALWAYS_INLINE void remap_update_points(remap_rows sum, const struct grid *g, const struct cell *c,
                                               struct particles *p, const struct transfer_data *t, const int32_t *list,
                                               int n, const int dim, const enum shape shape)
@@ -69,7 +70,8 @@ static ALWAYS_INLINE void remap_update_points(remap_rows sum, const struct grid 
 }
 
 /* Updates the velocities of the points list[n] of one cell by the change of the nodal velocities (g->force), and adds
- * their new momentum to the nodes of the grid (g->momentum). t: inputs of the transfer. */
+ * their new momentum to the nodes of the grid (g->momentum). p: particles; t: inputs of the transfer; shape: shape
+ * function. */
 static ALWAYS_INLINE void remap_update_points_of_cell(const struct grid *g, struct particles *p,
                                                       const struct transfer_data *t, const int32_t *list, int n,
                                                       const int dim, const enum shape shape)

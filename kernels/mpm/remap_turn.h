@@ -57,9 +57,9 @@ static ALWAYS_INLINE void turn_gather_arms(const struct grid *g, const struct ce
     }
 }
 
-/* Computes gain[dim] and arm[e][d] of the points of stencil s of cell c as turn_gather_arms does, for linear shapes in
- * 2D and 3D. There sum N (x_I - x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in the cell (in node
- * distances). */
+/* Interpolates gain[dim] and arm[e][d] from the nodes of g to the points of stencil s of cell c as turn_gather_arms
+ * does, for linear shapes in 2D and 3D. There sum N (x_I - x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in
+ * the cell (in node distances). */
 static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const struct cell *c,
                                                   const struct cell_stencil *s, row_of_points *gain,
                                                   row_of_points arm[DIM_MAX][DIM_MAX], const int dim)
@@ -150,8 +150,8 @@ static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g
 }
 
 /* Adds the momentum of the points list[n] of one cell to the nodes of the grid g, with their velocity extrapolated to
- * each node (turn_scatter_point); also their mass if points are mapped ahead of their positions (g->ahead). t: inputs
- * of the transfer. */
+ * each node (turn_scatter_point); also their mass if points are mapped ahead of their positions (g->ahead). p:
+ * particles; t: inputs of the transfer; shape: shape function. */
 static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                             const enum shape shape)

@@ -103,7 +103,7 @@ static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *s
     stress_rotation_increment(sum, spin, increment, dim);
 }
 
-/* Rotates the stresses of a few points (one per lane; symmetric components), each by its own antisymmetric matrix W
+/* Rotates the stresses stress[components] [Pa] of a few points (one per lane), each by its own antisymmetric matrix W
  * with the components `spin` [rad]: to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second
  * order between. */
 static ALWAYS_INLINE void stress_rotate(row_of_points *stress, const row_of_points *spin, const int dim)
@@ -243,8 +243,8 @@ static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct 
 }
 
 /* Computes into `stress` (symmetric components [Pa]) the stress that material point i of p transmits to the grid: all
- * of its stress, or the part that bonds to peridynamic particles do not carry (`partial`;
- * src/coupling/partial_stress.c). */
+ * of its stress, or the part that bonds to peridynamic particles do not carry. partial: partial stresses, by which the
+ * two parts differ; NULL: none. */
 static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
                                                int64_t i, real *stress, const int dim)
 {
@@ -279,8 +279,9 @@ static inline void quaternion_rotate_vector(const real *quaternion, real *vector
 }
 
 /* Computes into `skew` the antisymmetric part of the stress that material point i of p transmits to the grid:
- * components sigma_ab in the order xy, yz, zx, in 2D xy only [Pa]. This part balances the moment of the state-based
- * bonds of the point. Returns true, or false if there is none. */
+ * components sigma_ab in the order xy, yz, zx, in 2D xy only [Pa]. partial: partial stresses, with the marks of points
+ * that have bonds. This part balances the moment of the state-based bonds of the point. Returns true, or false if there
+ * is none. */
 static ALWAYS_INLINE bool point_skew_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
                                                     int64_t i, real *skew, const int dim)
 {

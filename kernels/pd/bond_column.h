@@ -39,10 +39,10 @@ static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int
     return (struct column){b, column_number, b->common[column_number].first, NULL, NULL, kind};
 }
 
-/* Returns a view of a column (one bond of each of eight consecutive particles) whose bonds are not stored but follow
- * from `stencil`, a bond pattern that many row blocks of a lattice share. column_in_stencil: number of the column in
- * the stencil; first_particle: first of the eight particles; column_number: index of the column among all columns;
- * kind: COLUMN_STENCIL, WHOLE or UNIT. */
+/* Returns a view of a column (one bond of each of eight consecutive particles) whose bonds b does not store, but which
+ * follow from `stencil`, a bond pattern that many row blocks of a lattice share. column_in_stencil: number of the
+ * column in the stencil; first_particle: first of the eight particles; column_number: index of the column among all
+ * columns; kind: COLUMN_STENCIL, WHOLE or UNIT. */
 static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t column_number,
                                                        const struct stencil *stencil, int64_t column_in_stencil,
                                                        int64_t first_particle, const enum column_kind kind)
@@ -104,8 +104,8 @@ static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, 
 }
 
 /* Returns component `axis` of the reference bond vectors X_j - X_i [m] of the eight bonds of `column` (one bond of each
- * of eight particles). X: component `axis` of the reference positions X_i of the eight particles to which these bonds
- * belong [m]. */
+ * of eight particles of p). X: component `axis` of the reference positions X_i of the eight particles to which these
+ * bonds belong [m]. */
 static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, const struct particles *p, int axis,
                                                     lanes X)
 {

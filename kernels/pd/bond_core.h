@@ -30,8 +30,8 @@ struct core {
     real ratio, K, y[DIM_MAX], distance;
 };
 
-/* Returns the repulsive core (struct core) of `bond`, a bond of particle i of p. The member `ratio` is 1 if the core
- * does not act, because the bond is broken or longer than CORE_FROM times its reference length. */
+/* Returns the repulsive core (struct core) of `bond`, a bond in b of particle i of p. The member `ratio` is 1 if the
+ * core does not act, because the bond is broken or longer than CORE_FROM times its reference length. */
 static inline struct core bond_repulsive_core_of(const struct bonds *b, const struct particles *p,
                                                  const struct bond *bond, int32_t i)
 {
@@ -47,8 +47,8 @@ static inline struct core bond_repulsive_core_of(const struct bonds *b, const st
     return c;
 }
 
-/* Adds the forces [N] of the repulsive cores of all bonds in row block `row_block` (the bonds of eight particles) to
- * the forces p->f on these particles. */
+/* Adds the forces [N] of the repulsive cores of all bonds in row block `row_block` of b (the bonds of eight particles)
+ * to the forces p->f on these particles. */
 RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {

@@ -76,9 +76,9 @@ static inline struct bond_break_moment bond_break_moment_of(const struct particl
     return (struct bond_break_moment){lag * limit->dt, 0.5 - 0.5 * lag * (1 + part)};
 }
 
-/* Computes, for the stored bond with index `bond` between particles i and j, when in the last step it exceeded its
- * breaking stretch, and which share of its force acts in this step (bond_break_moment_of). Inverse length and plastic
- * stretch are read from b. */
+/* Returns, for the bond with index `bond` in the arrays of b between particles i and j of p, when in the last step it
+ * exceeded its breaking stretch, and which share of its force acts in this step (bond_break_moment_of). limit: breaking
+ * stretches and rule for the share. Inverse length and plastic stretch are read from b. */
 static inline struct bond_break_moment bond_break_moment_of_stored(const struct bonds *b, const struct particles *p,
                                                                    const struct bond_limit *limit, int64_t bond,
                                                                    int32_t i, int32_t j)

@@ -35,8 +35,8 @@ static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t f
 }
 
 /* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
- * 7, in a row block that softens (data/softening.h). stretch: present stretches of these bonds [1]; largest_stretch:
- * their largest stretches so far, the present ones included [1]. */
+ * 7 in the arrays of b, in a row block that softens (data/softening.h). stretch: present stretches of these bonds [1];
+ * largest_stretch: their largest stretches so far, the present ones included [1]. */
 static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch,
                                                   lanes largest_stretch)
 {
@@ -50,9 +50,9 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
 }
 
 /* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
- * 7, which are in one column. Raises the stored largest stretches of these bonds to their present stretches `stretch`,
- * except in load steps (quasi-static solutions). If none of the eight bonds has begun to soften, returns `stretch` and
- * stores nothing. */
+ * 7 in the arrays of b, i.e. of one column (one bond of each of eight particles). Raises the stored largest stretches
+ * of these bonds to their present stretches `stretch`, except in load steps (quasi-static solutions). If none of the
+ * eight bonds has begun to soften, returns `stretch` and stores nothing. */
 static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch)
 {
     lanes most = lanes_load_floats(b->soft.most + first_bond);
@@ -64,10 +64,11 @@ static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, 
     return bonds_softened_stretch(b, first_bond, stretch, most);
 }
 
-/* Returns the normalised force [1] of the eight bonds with indices `first_bond` to `first_bond` + 7, i.e. their force
- * divided by stiffness and weight, by the law of `model`. It equals the stretch (Silling & Askari 2005; Zeng et al.
- * 2022, eqs. 17, 29), its elastic part where bonds yield, and stretch times remaining stiffness fraction where they
- * soften. Updates the plastic or softening state. stretch: total stretch [1]; w: weights, 0 for broken bonds [1]. */
+/* Returns the normalised force [1] of the eight bonds with indices `first_bond` to `first_bond` + 7 in the arrays of b,
+ * i.e. their force divided by stiffness and weight, by the law of `model`. It equals the stretch (Silling & Askari
+ * 2005; Zeng et al. 2022, eqs. 17, 29), its elastic part where bonds yield, and stretch times remaining stiffness
+ * fraction where they soften. Updates the plastic or softening state. stretch: total stretch [1]; w: weights, 0 for
+ * broken bonds [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t first_bond,
                                                   lanes stretch, lanes w)
 {
@@ -109,8 +110,8 @@ static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t r
 }
 
 /* Returns the elastic energies of eight bonds, each divided by stiffness, weight and reference length of the bond
- * (dimensionless). stretch: stretches of the bonds [1]; elastic: elastic parts of the stretches, equal to the
- * normalised forces [1]. */
+ * (dimensionless). model: law of the bonds; stretch: stretches of the bonds [1]; elastic: elastic parts of the
+ * stretches, equal to the normalised forces [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, lanes stretch, lanes elastic)
 {
     return 0.5 * (model == PD_BOND_SOFT ? stretch : elastic) * elastic;
@@ -126,8 +127,8 @@ static inline real bond_stretch_of(const struct particles *p, const struct bond 
     return sqrt(distance2) * bond->inverse_length - 1;
 }
 
-/* Returns the elastic part [1] of the present stretch of `bond`, a bond of particle i of p. It equals the force of the
- * bond divided by stiffness and weight. */
+/* Returns the elastic part [1] of the present stretch of `bond`, a bond in b of particle i of p. It equals the force of
+ * the bond divided by stiffness and weight. */
 static inline real bond_elastic_stretch_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                            int32_t i)
 {
@@ -141,8 +142,8 @@ static inline real bond_force_of(const struct bonds *b, const struct particles *
     return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_of(b, p, bond, i);
 }
 
-/* Stores in f[dim] the force vector [N] that `bond`, a bond of particle i of p, exerts on this particle. Bond-based
- * models only. */
+/* Stores in f[dim] the force vector [N] that `bond`, a bond in b of particle i of p, exerts on this particle.
+ * Bond-based models only. */
 static inline void bond_force_vector(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                      int32_t i, real *f)
 {
@@ -152,7 +153,7 @@ static inline void bond_force_vector(const struct bonds *b, const struct particl
     for (int d = 0; d < p->dim; d++) f[d] *= force;
 }
 
-/* Returns the elastic energy [J] of `bond`, a bond of particle i of p in a bond-based model; 0 if the bond is
+/* Returns the elastic energy [J] of `bond`, a bond in b of particle i of p in a bond-based model; 0 if the bond is
  * broken. */
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {

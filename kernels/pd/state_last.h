@@ -71,10 +71,10 @@ static inline void rotation_blend(struct state *t, int32_t i, const struct famil
         blend_with_value_without_breaking(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Replaces pressure, spring stiffness and rotation of the particle of row `row` (all bonds of one particle) by S a + (1
- * - S) a', if bonds of the particle break in this step: a is the value with these bonds, a' the value without them, and
- * S the mean share of their force that acts in this step. Does nothing for material points, to whose state their cells
- * contribute. */
+/* Replaces pressure, spring stiffness and rotation in b->state of the particle of row `row` (all bonds of one particle
+ * of p) by S a + (1 - S) a', if bonds of the particle break in this step: a is the value with these bonds, a' the value
+ * without them, and S the mean share of their force that acts in this step. limit: breaking stretches. Does nothing for
+ * material points, to whose state their cells contribute. */
 static inline void state_blend_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                    int64_t row)
 {
@@ -91,9 +91,10 @@ static inline void state_blend_row(struct bonds *b, const struct particles *p, c
     blend_with_value_without_breaking(&b->state.spring[i], spring, left.share);
 }
 
-/* Copies the states of the particles of a row block (bonds of eight particles) to b->state.before; the bonds that break
- * in this step use them. Then replaces the states in b->state by means of those with and without the breaking bonds,
- * which the remaining bonds use in this step. Only for row blocks in which bonds exceed their limit. */
+/* Copies the states of the particles of row block number `row_block` (bonds of eight particles of p) to
+ * b->state.before; the bonds that break in this step use them. Then replaces the states in b->state by means of those
+ * with and without the breaking bonds, which the remaining bonds use in this step. limit: breaking stretches. Only for
+ * row blocks in which bonds exceed them. */
 static inline void state_blend_breaking_rows(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                              int64_t row_block)
 {
@@ -127,9 +128,9 @@ static inline real state_component_before_breaking(const struct bonds *b, const 
     return sign * (component == 0 ? t->pressure[i] : component == 1 ? t->spring[i] : t->rotation[component - 2][i]);
 }
 
-/* Computes the force f[dim] [N] of the state-based bond `bond` on particle i, to whose bonds it belongs, from the
- * states (pressure, spring, rotation) of the families of both particles. present: true for their present states, false
- * for the states before bonds broke in this step. */
+/* Computes the force f[dim] [N] of the state-based bond `bond` on particle i of p, to whose bonds in b it belongs, from
+ * the states (pressure, spring, rotation) of the families of both particles. present: true for their present states,
+ * false for the states before bonds broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool present, real *f, const int dim)
 {
@@ -158,9 +159,9 @@ static inline void state_bond_force(const struct bonds *b, const struct particle
         f[d] = bond->w * (along * y[d] / length + (rotates ? spring * (y[d] - xi[d]) + turned[d][0] : 0));
 }
 
-/* Computes the force f[dim] [N] of `bond` on particle i of p, to whose bonds it belongs, in a bond-based or state-based
- * model. present, for state-based models: true for the present states of both particles, false for the states before
- * bonds broke in this step. */
+/* Computes the force f[dim] [N] of `bond` on particle i of p, to whose bonds in b it belongs, in a bond-based or
+ * state-based model. present, for state-based models: true for the present states of both particles, false for the
+ * states before bonds broke in this step. */
 static inline void bond_force_of_any_model(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                            int32_t i, bool present, real *f)
 {

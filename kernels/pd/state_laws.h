@@ -43,9 +43,9 @@ struct state_bond {
  * model. */
 static ALWAYS_INLINE bool state_model_has_rotations(const enum pd_model model) { return model == PD_MOSPD; }
 
-/* Computes vectors and lengths of the eight bonds of `column` (one bond of each of eight particles) into *s. x, X:
- * [dim] present and reference positions of these eight particles [m]; X is read only in models with rotations of the
- * particles. */
+/* Computes vectors and lengths of the eight bonds of `column` (one bond of each of eight particles of p) into *s.
+ * model: peridynamic model; x, X: [dim] present and reference positions of these eight particles [m]; X is read only in
+ * models with rotations of the particles. */
 static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const struct particles *p,
                                                      const struct column column, const lanes *x, const lanes *X,
                                                      const int dim, const enum pd_model model)

@@ -42,9 +42,9 @@ static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
     return s;
 }
 
-/* Advances the particles of entry k (from 0) in the list of active row blocks (bonds of eight particles) by a leap-frog
- * step with the step sizes of m. Sets s->diverged if one of the particles has diverged, i.e. is too fast or not
- * finite. */
+/* Advances the particles of entry k (from 0) in the list of active row blocks of b (bonds of eight particles of p) by a
+ * leap-frog step with the step sizes of m. Sets s->diverged if one of the particles has diverged, i.e. is too fast or
+ * not finite. */
 static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                                const struct pd_motion *m, const int dim)
 {
@@ -74,9 +74,9 @@ static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bon
     }
 }
 
-/* Advances in time the particles of those row blocks (bonds of eight particles each) whose positions no later row block
- * of this thread reads. The forces of entry k of the list of active row blocks and of all entries before it must be
- * complete. m: step sizes. */
+/* Advances in time the particles of p in those row blocks of b (bonds of eight particles each), in the part s of the
+ * list, whose positions no later row block of this thread reads. The forces of entry k of the list of active row blocks
+ * and of all entries before it must be complete. m: step sizes. */
 static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                    int64_t k, const struct pd_motion *m, const int dim)
 {

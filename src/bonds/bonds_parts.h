@@ -177,9 +177,9 @@ void regular_bonds_free(struct regular_bonds *bonds);
 bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
                                             int64_t first_particle, struct regular_bonds *found_bonds);
 
-/* Lists the neighbours of the eight particles from `first_particle` on as regular_bonds_find_for_eight_particles does,
- * without regard to pre-cracks. Returns false also if one of the eight is a mirror image or near a void, or if `map`
- * has no sites. */
+/* Lists the neighbours of the eight particles of p from `first_particle` on in `found_bonds` as
+ * regular_bonds_find_for_eight_particles does, without regard to pre-cracks. source: inputs of the bonds. Returns false
+ * also if one of the eight is a mirror image or near a void, or if `map` has no sites. */
 bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
@@ -201,8 +201,8 @@ int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bond
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 
 /* Computes the inverse lengths inverse_length[8] [1/m] and weights weight[8] [1] of the bonds between the particles
- * first_particle + l and first_neighbour + l of p, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli
- * by pair of materials. */
+ * first_particle + l and first_neighbour + l of p, l = 0 to 7, without regard to cracks and voids. source: inputs of
+ * the bonds; pairs: micro-moduli by pair of materials. */
 void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
                                    const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
                                    real *inverse_length, real *weight);
@@ -263,7 +263,7 @@ int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t 
 
 /* Fills the columns of row block `row_block` of b, which stores the bonds of eight particles, from the first
  * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, family volumes and
- * alignment of the row block. one_offset_per_column: result of bond_row_block_count_columns. */
+ * alignment of the row block. p: particles; one_offset_per_column: result of bond_row_block_count_columns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
@@ -305,8 +305,8 @@ void stencil_free(struct stencil *stencil);
 
 /* Appends the column `added_column` (eight bonds) of the row block with the eight consecutive particles from
  * `first_particle` on to the stencil `stencil`. A lane of `added_column` with weight 0 and inverse length 0 has no
- * bond. Returns false, and leaves an unusable stencil, if the eight neighbours are not consecutive, or if bonds differ
- * in length or are cut. */
+ * bond. b, p: bonds and particles. Returns false, and leaves an unusable stencil, if the eight neighbours are not
+ * consecutive, or if bonds differ in length or are cut. */
 bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
                         int64_t first_particle, const struct column_copy *added_column);
 
@@ -316,9 +316,9 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
 const struct stencil *stencil_find_or_add(struct stencils *table, const struct stencil *stencil,
                                           const struct stencil *first_guess);
 
-/* Makes row block `row_block` use the stencil of the row block that contains particle `particle`, so that it needs no
- * stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, `row_block` uses the
- * stencil that it already has. A stencil is a list of columns that many row blocks (bonds of eight particles) of a
+/* Makes row block `row_block` of b use the stencil of the row block that contains particle `particle`, so that it needs
+ * no stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, `row_block` uses
+ * the stencil that it already has. A stencil is a list of columns that many row blocks (bonds of eight particles) of a
  * lattice share. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 

@@ -41,12 +41,13 @@ struct seen {
     int mirrors;
 };
 
-/* Returns the particle of the body that mirror image `entry` (an index of the particle arrays) shows, possibly through
- * several mirrors, and the axes that these mirrors reverse (bit d: axis d). */
+/* Returns the source of the mirror image `entry` (an index of the particle arrays): a particle of the body, possibly
+ * through several mirrors, with the axes that these mirrors reverse (bit d: axis d). b: particles near faces. */
 struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t entry);
 
-/* Returns the particle of the body that belongs to entry `entry` of the particle arrays, `entry` itself or, for a
- * mirror image, the particle that it shows, and the axes that the mirrors in between reverse (bit d: axis d). */
+/* Returns the particle of the body that belongs to entry `entry` of the particle arrays: `entry` itself or, for a
+ * mirror image, its source, with the axes that the mirrors in between reverse (bit d: axis d). b: particles near
+ * faces. */
 static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
 {
     return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);
@@ -90,7 +91,7 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
  * particle; if it is a mirror image, the relative position is reflected as well. */
 int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
 
-/* Lists the particles near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
+/* Lists the particles of p near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
  * message, if the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is
  * not a whole number of spacings away, unfitting_pair[1] this neighbour. Release with near_faces_free. */
 status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,

@@ -57,7 +57,7 @@ static inline real contact_pair_vector(const struct contact *c, const struct par
 }
 
 /* Returns the contact stiffness k [N/m] of the pair of entries `entry` and `other_entry` of the contact list
- * c->particle (particles that may come into contact), from the materials and volumes of both particles. */
+ * c->particle (particles that may come into contact), from the materials and volumes of both particles in p. */
 static inline real contact_pair_stiffness(const struct contact *c, const struct particles *p, int64_t entry,
                                           int64_t other_entry)
 {
@@ -71,8 +71,8 @@ static inline bool contact_is_possible(const struct contact *c)
     return c->law.between != CONTACT_NONE || c->rigids > 0;
 }
 
-/* Returns true if contact forces may act on the particle of row `row` of the contact list (particles that may come into
- * contact) in this step. They may not on particles at rest and on particles far from all faces, as
+/* Returns true if contact forces may act in this step on the particle of row `row` of the contact list of c (particles
+ * that may come into contact). They may not on particles at rest and on particles far from all faces, as
  * contact_activate_newly_moving_particles has determined. */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
@@ -86,7 +86,7 @@ void contact_activate_newly_moving_particles(struct contact *c, const struct par
                                              struct loads *loads);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
- * (contact_select_active_and_count_changes): one per particle of the contact list (particles that may come into
+ * (contact_select_active_and_count_changes): one per particle of the contact list of c (particles that may come into
  * contact) for the form `surface`, one per pair for the form `pair`. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_selection_marks(const struct contact *c)
 {
@@ -114,9 +114,9 @@ static inline bool contact_is_active(const uint8_t *marks, int64_t contact_numbe
  * `surface`, in which faces are smooth. */
 real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the gap [m] of pair number `pair`: the distance of its two particles minus the distance at which their
- * contact begins; negative if they overlap. row: row of the contact list (particles that may come into contact) to
- * which the pair belongs. */
+/* Returns the gap [m] of pair number `pair` of particles of p in the contact c: the distance of its two particles minus
+ * the distance at which their contact begins; negative if they overlap. row: row of the contact list (particles that
+ * may come into contact) to which the pair belongs. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t pair);
 
 /* Returns the gap [m] between a particle and rigid body number `body_number`: their distance minus the distance at
@@ -162,7 +162,7 @@ real contact_notch_width_between_entries(const struct contact *c, const struct p
  * the height of the surface of the body above the particle, minus 1/2 [spacings]. */
 void contact_list_compute_entry_data(struct contact *c, const struct particles *p);
 
-/* Adds the contact forces of all pairs of particle number `row` of the contact list (particles that may come into
+/* Adds the contact forces of all pairs of particle number `row` of the contact list of c (particles that may come into
  * contact) to p->f of this particle, by the contact law of form `pair` (forces between two particles each). found:
  * receives largest overlap and number of contacts. */
 void contact_pair_add_forces_on_particle(const struct contact *c, struct particles *p, int64_t row,
@@ -191,8 +191,8 @@ void contact_density_profile_make(struct contact_profile *table, int dim);
 void contact_face_compute_gap_of_particle(struct contact *c, const struct particles *p, int64_t row, real dt,
                                           struct contact_found *found);
 
-/* Adds the contact force on particle number `row` of the contact list (particles that may come into contact) to p->f,
- * by the contact law of form `surface` (forces of smooth faces). Second of two passes:
+/* Adds the contact force on particle number `row` of the contact list of c (particles that may come into contact) to
+ * p->f, by the contact law of form `surface` (forces of smooth faces). Second of two passes:
  * contact_face_compute_gap_of_particle must have been called for all particles of the list. */
 void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
@@ -226,9 +226,10 @@ struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
 
-/* Computes the contribution of entry `other` of the contact list (particles that may come into contact) to the density
- * of the face at entry `entry`, at the positions x - v t, where x and v are the present positions and velocities and t
- * is `time_before_present` [s]. The energy derivative in the result is that at the present positions. */
+/* Returns the contribution of entry `other` of the contact list of c (particles of p that may come into contact) to the
+ * density of the face at entry `entry`, at the positions x - v t, where x and v are the present positions and
+ * velocities and t is `time_before_present` [s]. The energy derivative in the result is that at the present
+ * positions. */
 struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
                                                         int64_t entry, int64_t other, real time_before_present);
 
@@ -238,9 +239,9 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
 void contact_friction_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip,
                                      real stiffness, real slip_force);
 
-/* Advances the friction spring of particle number `row` of the contact list (particles that may come into contact) by a
- * time step dt [s], by the contact law of form `surface` (forces of smooth faces). First of two passes over the
- * particles; contact_face_add_friction_on_particle adds the forces. */
+/* Advances the friction spring of particle number `row` of the contact list of c (particles of p that may come into
+ * contact) by a time step dt [s], by the contact law of form `surface` (forces of smooth faces). First of two passes
+ * over the particles; contact_face_add_friction_on_particle adds the forces. */
 void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
 
 /* Adds friction forces on particle number `row` of the contact list (particles that may come into contact) to p->f: the

@@ -39,7 +39,7 @@ struct response {
 };
 
 /* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond [N m], as the factors
- * of struct response. i: particle to whose bonds `bond` belongs; source: inputs of the bonds. */
+ * of struct response. i: particle of p to whose bonds in b `bond` belongs; source: inputs of the bonds. */
 struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
                                                 const struct bond_source *source, int32_t i, const struct bond *bond);
 
@@ -51,17 +51,17 @@ struct response bond_force_derivative_by_strain(const struct particles *p, const
 void partial_tensor_add_bond_contribution(real *tensor, const real *point_position, const real *other_position,
                                           const real *centre, real half_edge, struct response response, int dim);
 
-/* Reduces the tensor `tensor` of the material point `point` [J], by which state-based bonds reduce the stiffness of its
- * cell, as far as needed for a positive elastic energy of the point (partial_positive.c). mean_strain_derivative:
- * receives the derivative of the point's mean strain by the strain of its cell, in symmetric components [1]; 0 if the
- * point has no bonds. Returns true if it has bonds. */
+/* Reduces the tensor `tensor` [J] of the material point `point` of p, by which its state-based bonds b reduce the
+ * stiffness of its cell, as far as needed for a positive elastic energy of the point (partial_positive.c).
+ * mean_strain_derivative: receives the derivative of the point's mean strain by the strain of its cell, in symmetric
+ * components [1]; 0 if the point has no bonds. source: inputs of the bonds. Returns true if the point has bonds. */
 bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
-/* Reduces the tensor `tensor` of the material point `point` [J], by which bond-based bonds to peridynamic particles
- * reduce the stiffness of its cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C: volume and
- * elastic tensor of the point. A cell with a negative eigenvalue would be unstable with any time step. This has an
- * effect only if particles are not on a lattice or bonds are stiffer than the material. */
+/* Reduces the tensor `tensor` [J] of the material point `point` of p, by which bond-based bonds to peridynamic
+ * particles reduce the stiffness of its cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C:
+ * volume and elastic tensor of the point. A cell with a negative eigenvalue would be unstable with any time step. This
+ * has an effect only if particles are not on a lattice or bonds are stiffer than the material. */
 void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
@@ -91,8 +91,8 @@ bool partial_table_is_filled(const struct partial_table *t);
  * lattice cell. The table can then be used for every particle; it holds for square or cubic cells of this size only. */
 bool partial_table_covers_all_particles(const struct partial_table *t);
 
-/* Returns true if `particle` has the volume of a lattice cell, so that the table of bond lengths inside cells (struct
- * partial_table) can be used for it. source: inputs of the bonds. */
+/* Returns true if particle number `particle` of p has the volume of a lattice cell, so that the table of bond lengths
+ * inside cells (struct partial_table) can be used for it. source: inputs of the bonds. */
 bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *source, int64_t particle);
 
 /* Recomputes the strain responses that the table t stores for each bond of a material point: the derivative of the
@@ -103,9 +103,10 @@ void partial_table_update_strain_responses(struct partial_table *t, const struct
                                            const struct bond_source *source, const int32_t *point_list,
                                            int64_t point_count);
 
-/* Computes the tensor `tensor` of the material point `point` [J], by which bonds reduce the stiffness of its cell, from
- * the table t and the strain responses that it stores for the bonds of the material points around `point`. The
- * responses must be up to date (partial_table_update_strain_responses). near: working memory. */
+/* Computes the tensor `tensor` [J] of the material point `point` of p, by which the bonds b reduce the stiffness of its
+ * cell, from the table t and the strain responses that it stores for the bonds of the material points around `point`.
+ * The responses must be up to date (partial_table_update_strain_responses). source: inputs of the bonds; near: working
+ * memory. */
 void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                                         const struct bond_source *source, int64_t point, struct neighbour_list *near,
                                         real *tensor);

@@ -62,8 +62,8 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
                            const struct bonds *b, const struct loads *loads, real longest_bond, real wave_speed,
                            struct warnings *warnings);
 
-/* Adds a warning to *warnings if waves from the loads do not travel to the nearest crack tip within the duration.
- * tips: crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
+/* Adds a warning to *warnings if waves from the loads on particles of p do not travel to the nearest crack tip within
+ * the duration. tips: crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
                                         const struct crack_tips *tips, real wave_speed, struct warnings *warnings);
 
@@ -75,7 +75,8 @@ void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct part
 uint8_t *engine_find_prescribed_components(const struct loads *loads, const struct particles *p);
 
 /* Adds warnings to *warnings about values that look like mistakes of units, unless the key `accept` of the scene
- * silences them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
+ * silences them. s, p, loads: scene, particles and loads; clock: time step and number of steps; wave_speed: speed of
+ * the fastest wave in any material [m/s]. */
 void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *loads,
                                    const struct run_clock *clock, real wave_speed, struct warnings *warnings);
 
@@ -88,8 +89,8 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
  * in any material. */
 void engine_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports that hold all particles, about pairs of supports that prescribe different
- * motions of the same particles, and about loads on particles whose motion a support prescribes. */
+/* Adds warnings to *warnings about supports of scene s that hold all particles of p, about pairs of supports that
+ * prescribe different motions of the same particles, and about loads on particles whose motion a support prescribes. */
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 
@@ -99,9 +100,9 @@ void engine_warn_of_conflicting_supports(const struct scene *s, const struct loa
 void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
                                           const struct grid *grid, struct warnings *warnings);
 
-/* Adds warnings to *warnings about bodies only a few particles thick, whose stiffness the correction of bonds near
- * faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds near faces; also warns if the solver that
- * computes them has given up. */
+/* Adds warnings to *warnings about bodies of scene s only a few particles (of p) thick, whose stiffness the correction
+ * of bonds near faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds near faces; also warns if
+ * the solver that computes them has given up. */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
                                       const struct surface_weights *weights, struct warnings *warnings);
 

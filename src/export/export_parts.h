@@ -107,9 +107,10 @@ struct lammps_types {
     int32_t (*pair)[2]; /* [pairs] pairs of types excluded while bonds are created */
 };
 
-/* Assigns a LAMMPS type to each particle. Particles of one type have the same material and loads. Where bonds must be
- * cut, further types distinguish particles, so that pairs of types can be excluded from bonding. Stores the types in
- * *types. Returns REFUSED if too many types are needed. Release *types with lammps_types_free. */
+/* Assigns a LAMMPS type to each particle of the scene of `exported`. Particles of one type have the same material and
+ * loads. Where bonds must be cut, further types distinguish particles, so that pairs of types can be excluded from
+ * bonding. Stores the types in *types. Returns REFUSED if too many types are needed. Release *types with
+ * lammps_types_free. */
 status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *exported);
 
 /* Releases the arrays of the particle types *types of LAMMPS. */
@@ -122,9 +123,9 @@ void lammps_types_free(struct lammps_types *types);
  * for a load, or not enough groups of particles for all loads. */
 status lammps_find_loads_of_particles(struct exported *exported);
 
-/* Computes the velocity [m/s] with which the particle with the index `particle` starts in LAMMPS into `velocity`.
- * Components that a boundary condition prescribes have their value at half a time step, all others the value of the
- * initial velocity in the scene. */
+/* Computes into `velocity` the velocity [m/s] with which the particle with the index `particle` of the export
+ * `exported` starts in LAMMPS. Components that a boundary condition prescribes have their value at half a time step,
+ * all others the value of the initial velocity in the scene. */
 void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX]);
 
 /* Writes the names of all per-particle columns exported->column to the file `file`, as arguments of the LAMMPS command
@@ -135,9 +136,9 @@ void lammps_write_column_names(FILE *file, const struct exported *exported);
  * Variables of the script read the columns through these commands. */
 void lammps_write_compute_commands(FILE *file, const struct exported *exported);
 
-/* Returns the value of the per-particle column number `column` of plate.data for the particle with the index
- * `particle`: a component of the initial displacement [m], or of the force of a load on the particle, 0 if the load
- * does not act on it. The force is per volume [N/m^3] for pair styles, else in [N]. */
+/* Returns the value of the per-particle column number `column` of plate.data for the particle with the index `particle`
+ * of the export `exported`: a component of the initial displacement [m], or of the force of a load on the particle, 0
+ * if the load does not act on it. The force is per volume [N/m^3] for pair styles, else in [N]. */
 real lammps_column_value(const struct exported *exported, int column, int64_t particle);
 
 /* Writes the LAMMPS commands of all loads and supports to the file `file`. types: types of the particles. */
@@ -149,8 +150,8 @@ void lammps_loads_write(FILE *file, const struct exported *exported, const struc
  * of the particles. */
 void lammps_data_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
 
-/* Writes the contents of the input script in.lammps to the file `file` (export_script.c). types: types of the
- * particles. */
+/* Writes the contents of the input script in.lammps for the export `exported` to the file `file` (export_script.c).
+ * types: types of the particles. */
 void lammps_script_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
 
 /* Writes the estimated duration of the run in LAMMPS and in Cleave, and which results of Cleave LAMMPS does not
@@ -161,9 +162,9 @@ void lammps_write_run_time_estimate(FILE *file, const struct exported *exported)
  * of a shorter run. */
 int64_t lammps_reference_step_count(const struct exported *exported);
 
-/* Makes lammps_reference_step_count time steps in Cleave and writes the contents of check.csv to the file `file`: the
- * positions of the particles, and the share of their bonds that is broken. Returns FAILED, with a message, if a step
- * fails. */
+/* Makes lammps_reference_step_count time steps of the run of `exported` in Cleave and writes the contents of check.csv
+ * to the file `file`: the positions of the particles, and the share of their bonds that is broken. Returns FAILED, with
+ * a message, if a step fails. */
 status lammps_run_and_write_comparison_positions(FILE *file, struct exported *exported);
 
 #endif
