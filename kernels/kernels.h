@@ -13,8 +13,8 @@
 #include "data/transfer_order.h"
 #include "data/turning.h"
 
-/* Shape functions of the material points on the background grid, and schemes by which velocities are transferred
- * between points and grid. */
+/* Shape functions of the material points on the background grid; and schemes (FLIP, APIC) by which velocities are
+ * transferred between points and grid. */
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
 /* Peridynamic models, each with kernels of its own. */
@@ -279,7 +279,7 @@ typedef void spread_to_nodes_fn(const struct grid *g, const struct particles *p,
                                 int64_t n, const real *value, real *field);
 
 /* The kernels of a run, which depend on dimension, model, shape function and transfer; chosen once at set-up
- * (kernels_choose). */
+ * (kernels_choose). The type of each member describes what the kernel does. */
 struct kernels {
     bond_force_fn *bond_force;
     bond_energy_fn *bond_energy;

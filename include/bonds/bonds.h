@@ -230,7 +230,8 @@ static inline struct bond bond_read(const struct bonds *b, int64_t row_block, in
 }
 
 /* Iterator over the bonds of one row, i.e. of one particle, including bonds that are broken or cut by pre-cracks. It
- * changes no bond. Usage:
+ * changes no bond. bond: present bond; row_block, lane: position of the row; k: number of the next bond, of `columns`.
+ * Usage:
  *
  *     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) ... it.bond ... */
 struct bond_iterator {

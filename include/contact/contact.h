@@ -112,8 +112,9 @@ struct contact_term {
     real stiffness;         /* [N/m], form `surface`: [J] */
 };
 
-/* All contact of a run. Pairs of particles that may come into contact before the next search are listed in rows, one
- * for each particle. A pair is in the rows of both its particles, so that each row is computed by one thread. */
+/* All contact of a run, by the law `law`. Pairs of particles that may come into contact before the next search are
+ * listed in rows, one for each particle. A pair is in the rows of both its particles, so that each row is computed by
+ * one thread. */
 struct contact {
     struct contact_law law;
     bool made;         /* a search has been done */

@@ -16,7 +16,7 @@ struct notch {
     const char *reason;
 };
 
-/* All pre-cracks of a run: which of them are slits (free surfaces of the mesh) and which cut bonds; and the particles
+/* The n pre-cracks of a run: which of them are slits (free surfaces of the mesh) and which cut bonds; and the particles
  * beside slits and narrow voids (gaps of a body). */
 struct notches {
     int n;

@@ -43,8 +43,8 @@ enum expression_op {
 
 enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 }; /* largest stack and largest number of steps */
 
-/* One step of a compiled expression: it pushes a value on a stack, or replaces the topmost one or two values by a
- * result. */
+/* One step of a compiled expression, with the operation op: it pushes a value on a stack, or replaces the topmost one
+ * or two values by a result. */
 struct expression_step {
     enum expression_op op;
     real value; /* value of a NUMBER [SI] */

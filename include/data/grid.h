@@ -27,7 +27,8 @@ struct damping_shares {
     real velocities, increments;
 };
 
-/* The background grid: a box of equal square or cubic cells with values at their nodes. All arrays are owned. */
+/* The background grid in dim dimensions: a box of equal square or cubic cells with values at their nodes. All arrays
+ * are owned. */
 struct grid {
     int dim;
     int body;                  /* 1 + the only body whose points are on it; 0: any body */

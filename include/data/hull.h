@@ -19,7 +19,8 @@ struct hull_node {
     int32_t first, count, left;
 };
 
-/* A surface of triangles (3D) or segments (2D) with a search tree over them. All arrays are owned. */
+/* A surface of triangles (dim = 3) or segments (dim = 2) with a search tree of `nodes` nodes over them. All arrays are
+ * owned. */
 struct hull {
     int dim;
     int64_t corners, faces;   /* lengths of `corner`, `face` */

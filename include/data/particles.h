@@ -32,7 +32,8 @@ enum particle_flag {
     FLAG_NEAR = 128         /* material point near another body (approach.h) */
 };
 
-/* Material points and peridynamic particles of all bodies, as a structure of arrays, which it owns. */
+/* Material points and peridynamic particles of all bodies in dim dimensions, as a structure of arrays, which it
+ * owns. */
 struct particles {
     int64_t n, n_all;                 /* particles of the body; with images */
     int64_t n_body;                   /* particles of the body, with those that are not made (hollow.h) */

@@ -50,7 +50,7 @@ void region_build_search_trees(struct region *r, int dim);
 /* Releases all solids and the search trees of the region r. */
 void region_free(struct region *r);
 
-/* A list of n numbers in ascending order. */
+/* A list of n numbers value[n] in ascending order. */
 struct number_list {
     int n;
     real *value;

@@ -13,7 +13,8 @@ enum {
     VOID_ACROSS = 2 /* ... and the faces on both sides of the void face each other */
 };
 
-/* Shapes of bodies with voids (slots, slits, gaps between solids), and marks of the particles near these voids. */
+/* Shapes of bodies with voids (slots, slits, gaps between solids), and marks of the particles near these voids. dim:
+ * dimension of the bodies; shapes, mirrors: lengths of the lists below. */
 struct voids {
     int dim, shapes;
     const struct region **shape;       /* [shapes] shapes of bodies with voids, borrowed */

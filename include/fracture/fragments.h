@@ -13,8 +13,8 @@ struct fragment {
     real mass, x[DIM_MAX], v[DIM_MAX]; /* mass [kg]; centre of mass [m], velocity of the centre [m/s] */
 };
 
-/* All fragments (sets of particles that unbroken bonds connect) of the bodies of a run, and the particles without a
- * bond. Both arrays are owned. */
+/* All fragments (sets of particles that unbroken bonds connect) of the bodies of a run, fragment[n], and the particles
+ * without a bond. Both arrays are owned. */
 struct fragments {
     int64_t n; /* fragments of two particles or more, the heaviest first */
     struct fragment *fragment;

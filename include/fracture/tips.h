@@ -25,7 +25,8 @@
 #define TIP_DAMAGE 0.35
 enum { TIPS_MAX = 64 };
 
-/* A crack tip that is tracked from sample to sample: where it started, present position, growth and speed. */
+/* A crack tip that is tracked from sample to sample: where it started, present position, growth and speed. body: number
+ * of the body in which the tip is. */
 struct crack_tip {
     bool from_crack; /* starts at the end of a pre-crack */
     int body;
@@ -45,7 +46,8 @@ struct crack_tip {
     int64_t ends;      /* separate groups of particles that are equally far within a spacing */
 };
 
-/* All crack tips of a run, the crack to which each particle belongs, and the recorded growth. The arrays are owned. */
+/* All crack tips of a run, tip[n], in dim dimensions; the crack to which each particle belongs; and the growth recorded
+ * at `samples` times. The arrays are owned. */
 struct crack_tips {
     int dim, n;
     struct crack_tip tip[TIPS_MAX];
@@ -99,7 +101,7 @@ int64_t tips_count_ends_with_largest_growth(const struct crack_tips *t);
 bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
                                const struct mirror_plane *mirror, int mirror_count);
 
-/* Symmetry and cross-section of the body, on which the area of a crack depends. */
+/* Symmetry (planes mirror[mirrors]) and cross-section of the body, on which the area of a crack depends. */
 struct tip_surroundings {
     const struct mirror_plane *mirror; /* [mirrors] planes of symmetry */
     int mirrors;

@@ -32,7 +32,7 @@ struct grid_contact_node {
 };
 
 /* Contact of material points between bodies that have a background grid each: its constants, the nodes in contact, and
- * the sums of energy so far. All arrays are owned. */
+ * the sums of energy so far. sides: number of these bodies. All arrays are owned. */
 struct grid_contact {
     /* coefficient of friction [1]; distance of points of two bodies in contact [m]; length by which the shape function
      * of a point extends beyond a cell [m] */

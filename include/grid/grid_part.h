@@ -10,8 +10,8 @@
 #include "grid/grid_coupled.h"
 #include "run/run.h"
 
-/* A background grid and its material points: those of all bodies, or, if bodies in contact have a grid each, those of
- * one body. */
+/* A background grid and the n material points on it, sorted by cell in `order`: those of all bodies or, if bodies in
+ * contact have a grid each, those of one body. */
 struct grid_field {
     struct grid grid;
     struct transfer_order order;

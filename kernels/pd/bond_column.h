@@ -14,8 +14,8 @@ enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead
  * saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
-/* A view of one column, i.e. of eight bonds that are stored together, one of each of eight particles (a row block).
- * number: index of the column among all columns, so that its bonds have the indices number * LANES + l in the bond
+/* A view of one column, i.e. of eight bonds that are stored together, one of each of eight particles (a row block of
+ * b). number: index of the column among all columns, so that its bonds have the indices number * LANES + l in the bond
  * arrays, for the particles l = 0 .. 7; kind: what the eight bonds have in common, a compile-time constant wherever a
  * column is used. */
 struct column {

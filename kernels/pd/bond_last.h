@@ -32,13 +32,13 @@ struct bond_break_moment {
 };
 
 /* Computes when, within the last step, the bond between the particles i and j exceeded its breaking stretch, and how
- * much of its force acts in the velocity update of this step. Returns two numbers: the lag, the time from this moment
- * to the present positions [s], and the share, the fraction of the force that acts [1]. limit->last_force selects the
- * rule: with LAST_FORCE_HALF, WHOLE and NONE the share is 1/2, 1 and 0, and the lag 0; with LAST_FORCE_MOMENT both
- * follow from the stretches before and after the step as below. With this rule both are 0 if the bond exceeded its
- * limit already before the step, and if bonds soften, whose energy loss in the step is computed elsewhere
- * (stretch_at_break in bond_break.c). inverse_length: inverse of the reference length of the bond [1/m]; plastic:
- * plastic stretch s_p of the bond [1]. The result for j and i is bitwise equal.
+ * much of its force acts in the velocity update of this step. p: particles. Returns the lag, the time from this moment
+ * to that of the present positions [s], and the share, the fraction of the force that acts [1]. limit->last_force
+ * selects the rule: with LAST_FORCE_HALF, WHOLE and NONE the share is 1/2, 1 and 0, and the lag 0; with
+ * LAST_FORCE_MOMENT both follow from the stretches before and after the step as below. With this rule both are 0 if the
+ * bond exceeded its limit already before the step, and if bonds soften, whose energy loss in the step is computed
+ * elsewhere (stretch_at_break in bond_break.c). inverse_length: inverse of the reference length of the bond [1/m];
+ * plastic: plastic stretch s_p of the bond [1]. The result for j and i is bitwise equal.
  *
  * In the last step positions moved from x - dt v to x, and the bond passed its limit s_c at time t*. The velocity
  * update by the forces at x extends from half a step before x to half a step after. By impulse, a bond that breaks at

@@ -18,7 +18,7 @@ enum {
 };
 
 /* The part of the list of active row blocks (bonds of eight particles, not at rest) that one thread processes, and its
- * progress in moving particles. */
+ * progress in moving particles. diverged: true if a moved particle is too fast or not finite. */
 struct sweep {
     const int32_t *row_block; /* active row blocks, ascending */
     int64_t first, end, all;  /* entries first .. end-1 of `all` entries are this thread's */

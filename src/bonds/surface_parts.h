@@ -21,8 +21,8 @@ struct offsets {
     int32_t *mirrored;    /* [2^dim n] index of an offset reflected in mirrors, one bit per axis */
 };
 
-/* Particles near faces, i.e. particles with a missing neighbour and neighbours of such particles, with all their
- * neighbours by offset (lattice vector from particle to neighbour). */
+/* The n particles of p near faces, i.e. particles with a missing neighbour and neighbours of such particles, with all
+ * their neighbours by offset (lattice vector from particle to neighbour). source: inputs of the bonds. */
 struct near_faces {
     const struct particles *p;
     const struct bond_source *source;
@@ -163,9 +163,9 @@ struct class_fit {
     real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
 };
 
-/* The least-squares problem for the factors f of groups of bonds: minimise the sum over classes of (M - goal) Q (M -
- * goal) plus the sum over groups of prior (f - 1)^2 with low <= f <= high. M: sum of f times the moments over the bonds
- * of a class; Q: quadratic form of the class. */
+/* The least-squares problem for the factors f of groups of bonds near faces. alike: classes of particles and groups of
+ * bonds. Minimise the sum over classes of (M - goal) Q (M - goal) plus the sum over groups of prior (f - 1)^2 with low
+ * <= f <= high. M: sum of f times the moments over the bonds of a class; Q: quadratic form of the class. */
 struct surface_fit_problem {
     const struct bond_classes *alike;
     int offsets, thirds, fourths; /* neighbours of a full family; third and fourth moments of a bond */

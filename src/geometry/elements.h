@@ -32,8 +32,9 @@ struct element {
     int64_t middle; /* index of its first middle node in the mesh's `middle`; -1: all edges are straight */
 };
 
-/* Sides of an element kind: corners counter-clockwise seen from outside; the fourth corner of a triangle is -1. Corners
- * are numbered as in Gmsh and Abaqus, which agree. In 2D, sides are edges with two corners. */
+/* The n sides of an element kind. corner: corners of each side, counter-clockwise seen from outside; the fourth corner
+ * of a triangle is -1. Corners are numbered as in Gmsh and Abaqus, which agree. In 2D, sides are edges with two
+ * corners. */
 struct element_sides {
     int n;
     signed char corner[ELEMENT_SIDES_MAX][4];
@@ -61,8 +62,9 @@ struct element_set {
     int32_t *member; /* indices; from `resolved` on still labels of the file (abaqus.c) */
 };
 
-/* A finite-element mesh under construction, to which the reader of a file appends nodes and elements in the order of
- * the file. */
+/* A finite-element mesh under construction, to which the reader of a file appends nodes, elements, middle nodes and
+ * sets in the order of the file. The members nodes, elements, middles and sets count the entries of the arrays after
+ * them. */
 struct element_mesh {
     int64_t nodes;
     real (*node)[DIM_MAX]; /* coordinates [unit of the file] */
@@ -174,7 +176,8 @@ struct patch {
     int32_t corner[4], middle[4], centre; /* node indices; -1: none */
 };
 
-/* A surface under construction, to which faces are appended. */
+/* The surface of the mesh m under construction, to which faces are appended. scale: length of the unit of the file
+ * [m]. */
 struct surface_builder {
     struct element_mesh *m;
     int dim, body_dim; /* dimension of space; dimension of the elements that make up the body */
