@@ -112,12 +112,12 @@ struct pd_motion {
 };
 
 /* Computes the force of all intact bonds on the particle of every active row into p->f, then breaks bonds that are
- * stretched beyond `limit`. A row holds all bonds of one particle; it is active unless the region is still at rest. A
- * breaking bond acts until the time within the step at which it exceeds its limit (pd/bond_last.h), so that crack path
- * and fracture energy are of second order in the time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where the motion of
- * neither particle is prescribed), damage, counts of broken bonds and fracture energy. motion: step sizes, with which
- * active peridynamic particles that are neither on the grid nor marked in motion->loaded are also moved in this loop
- * (pd/sweep.h); NULL: no particle is moved. Returns the number of bonds broken, each counted once for each of its
+ * stretched beyond `limit`. A row holds all bonds of one particle; a row is active unless its region is still at rest.
+ * A breaking bond acts until the time within the step at which it exceeds its limit (pd/bond_last.h), so that crack
+ * path and fracture energy are of second order in the time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where the motion
+ * of neither particle is prescribed), damage, counts of broken bonds and fracture energy. motion: step sizes, with
+ * which active peridynamic particles that are neither on the grid nor marked in motion->loaded are also moved in this
+ * loop (pd/sweep.h); NULL: no particle is moved. Returns the number of bonds broken, each counted once for each of its
  * particles. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
@@ -164,19 +164,20 @@ KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
 
 /* Raises the stored largest stretches of all bonds of b that soften to their stretches at the present positions of p,
- * as a force computation does. Call it before energies are read without a force computation. */
+ * as a force computation does. To be called before energies are read without a force computation. */
 KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p));
 
 /* Computes pressure (from the dilatation), spring stiffness and rotation of all families (all neighbours of a particle)
- * from the present positions into b->state: the first of the two loops of a state-based force. Call it before these
- * quantities are read without a force computation. Stores the reactions on the cells of material points with bonds in
- * p->end_pull and p->end_moment. */
+ * from the present positions into b->state: the first of the two loops of a state-based force. To be called before
+ * these quantities are read without a force computation. Stores the reactions on the cells of material points with
+ * bonds in p->end_pull and p->end_moment. */
 typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
 /* Breaks the bonds of one row block (all bonds of eight particles) whose stretch exceeds `limit`, and adds their energy
  * to the fracture energy of their rows. The forces p->f on these particles must be up to date; of the force of a broken
- * bond only the share remains in p->f that acts until the bond breaks within the step (pd/bond_last.h). Slow, since it
- * computes bond by bond: call it only where a bond may break. Returns the number of bonds broken in these rows. */
+ * bond only the share remains in p->f that acts until the bond breaks within the step (pd/bond_last.h). The computation
+ * is slow, bond by bond: only for row blocks in which a bond may break. Returns the number of bonds broken in these
+ * rows. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
@@ -210,7 +211,7 @@ KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p
 /* Returns half the elastic energy [J] of the intact bonds of all rows (a row: all bonds of one particle). A bond
  * between two peridynamic particles is in two rows, so that its whole energy is included. In state-based models,
  * returns the energy of the families at the last computation of their states. The sum has equal bits on any number of
- * threads. row_energy: [b->rows] the share of each row is added to it [J]; NULL if it is not wanted. */
+ * threads. row_energy: [b->rows]: the share of each row is added to its entry [J]; NULL: not needed. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, real *row_energy);
 
 /* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) [J] of the bonds of all rows of b (a row: all bonds of
@@ -365,17 +366,18 @@ KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 KERNEL(void, mesh_clear, (struct mesh *mesh));
 
 /* Adds the internal forces of all cells of the mesh that are not at rest to the nodes. Marks the cells in which a point
- * may exceed its conversion stress, for mesh_points_mark. p: gives the reactions of bonds on material points
- * (particles.end_*); if it has plastic_correction, points beyond the yield stress flow, and their plastic state is
+ * may exceed its conversion stress, for mesh_points_mark. p: particles, with the reactions of bonds on material points
+ * (p->end_*). If p has the arrays plastic_correction, points beyond the yield stress flow, and their plastic state is
  * updated (mesh_flow.h). Points of flow laws with mode LAW_EXPLICIT keep the state of the last mesh_points_flow
  * instead. m: elastic constants by material. finite: true for Biot strain in axes that rotate with the cell, false for
  * the symmetric displacement gradient (mesh_law.h). */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples
- * of mesh->rounding. Walls prescribe the velocity of their nodes; their reaction is added to impulse [N s] and its work
- * to *work [J]. Applies dashpots and adds their energy and impulse to grid.absorbed. f becomes m dv/dt_velocity of each
- * node. Returns the largest velocity component of a node [m/s]; INFINITY if a component is not finite. */
+ * of mesh->rounding. Walls prescribe the velocity of their nodes; the reactions of the walls are added to impulse[dim]
+ * [N s] and their work to *work [J]. Applies dashpots and adds their energy and impulse to mesh->grid.absorbed. f
+ * becomes m dv/dt_velocity of each node. Returns the largest velocity component of a node [m/s]; INFINITY if a
+ * component is not finite. */
 KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 
 /* Interpolates position and velocity of all material points of the mesh from the nodes of the mesh, and stores them in
@@ -396,9 +398,10 @@ KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p))
  * material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 /* Updates the plastic state of all material points of the mesh whose flow law has mode LAW_EXPLICIT, for a step of dt
- * [s] that has ended with the present displacements. p->mesh_stress holds their stresses at the start of the step and
- * receives those at its end; with dt = 0, before the first step, it receives those of the present displacements, and no
- * point flows. m: elastic constants by material; finite: true for finite strain, false for small strain. */
+ * [s] that has ended with the present displacements. p->mesh_stress contains the stresses of the points at the start of
+ * the step and receives the stresses at its end. With dt = 0, before the first step, p->mesh_stress receives the
+ * stresses of the present displacements, and no point yields. m: elastic constants by material; finite: true for finite
+ * strain, false for small strain. */
 KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, real dt,
                                 bool finite));
 /* Computes the displacement gradient du_a/dX_b [1] of every material point i of the mesh into to[a dim + b][i], i being

@@ -25,9 +25,9 @@ void *memory_new_lazy_uninitialised(const char *label, int64_t count, size_t siz
  * with memory_free. */
 void *memory_new_lazy_zeroed(const char *label, int64_t count, size_t size);
 
-/* Changes the length of an array of memory_new from old_count to `count` elements of `size` bytes and returns it.
- * Elements that both lengths include are kept, new ones are zero. pointer: the array, invalid afterwards, or NULL to
- * allocate a new one. label: name of the array for messages about memory. */
+/* Changes the length of the array `pointer` of memory_new from old_count to `count` elements of `size` bytes and
+ * returns the new array; `pointer` is invalid afterwards. The first elements are kept, additional elements are zero.
+ * pointer: NULL: a new array is allocated. label: name of the array for messages about memory. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
 /* Returns an array of at least `count` elements of `size` bytes: `pointer` itself if it has so many, else a copy at
@@ -37,8 +37,8 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
 void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, size_t size);
 
 /* Grows an array of memory_new_lazy_uninitialised or memory_new_uninitialised from old_count to `count` elements of
- * `size` bytes and returns it; it may have moved, so that `pointer` is invalid afterwards. The contents of the new
- * elements are undefined. */
+ * `size` bytes and returns the array, which may have moved, so that `pointer` is invalid afterwards. The contents of
+ * the new elements are undefined. */
 void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
 /* Releases the array at `pointer`, which one of the functions of this header has returned; does nothing if `pointer` is

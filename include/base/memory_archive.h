@@ -10,22 +10,23 @@ struct memory_entry {
     size_t size;
 };
 
-/* An archive (base/archive.h) whose entries are in memory. */
+/* An archive (base/archive.h) whose entries are copies in memory, owned by the archive. */
 struct memory_archive {
     struct archive archive;     /* must be first: `exchange` converts its pointer */
     int64_t n, next;            /* entries; next one to be restored */
     struct memory_entry *entry; /* [n] in the order of saving */
 };
 
-/* Initialises an empty archive in memory, open for saving. scope: part of the state that it holds. State is saved by
- * calling the state functions of the modules with &m->archive. Release with memory_archive_free. */
+/* Initialises the empty archive in memory m, open for saving. scope: part of the state of a run that the archive is to
+ * hold. State is saved by calling the state functions of the modules with &m->archive. Release with
+ * memory_archive_free. */
 void memory_archive_make(struct memory_archive *m, enum archive_scope scope);
 
-/* Switches an archive in memory from saving to restoring and returns to its first entry. The state functions, called in
- * the same order with &m->archive, then restore what they saved. It may be called repeatedly. */
+/* Switches the archive in memory m from saving to restoring and returns to its first entry. The state functions, called
+ * in the same order with &m->archive, then restore what they saved. It may be called repeatedly. */
 void memory_archive_rewind_for_loading(struct memory_archive *m);
 
-/* Frees all entries of an archive in memory. Does nothing if it has none. */
+/* Frees all entries of the archive in memory m. Does nothing if m has no entries. */
 void memory_archive_free(struct memory_archive *m);
 
 #endif

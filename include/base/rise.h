@@ -38,7 +38,7 @@ void growth_samples_add(struct growth_samples *samples, int64_t step, real value
 /* Returns how fast the quantity recorded in `samples` has grown to `value` > 0 at time step number `step`: RISE_FAST if
  * it increased tenfold within RISE_STEPS steps (growth between two records is taken as exponential), RISE_SLOW if that
  * took longer, RISE_UNSURE if the records do not decide. *tenfold_steps receives the approximate duration of the last
- * tenfold increase [steps], INFINITY if it is longer than the records. */
+ * tenfold increase [steps], INFINITY if that increase began before the first record. */
 enum growth_rate growth_samples_classify(const struct growth_samples *samples, int64_t step, real value,
                                          real *tenfold_steps);
 

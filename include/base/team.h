@@ -25,8 +25,8 @@ struct machine machine_properties(void);
 /* Returns the name of the processor; does not read the topology of the machine again after team_set_thread_count. */
 const char *machine_processor_name(void);
 
-/* Returns the memory that this process may use [byte]: that of the machine or, if it is less, what a limit (ulimit,
- * control group) had left when team_set_thread_count was called. */
+/* Returns the memory [byte] that this process may use: the memory of the machine or, if a limit (ulimit, control group)
+ * left less when team_set_thread_count was called, what this limit left. */
 int64_t machine_memory_size(void);
 
 /* Returns the name of the limit that machine_memory_size reports: "memory of the machine", "ulimit -v", ... */
@@ -50,7 +50,7 @@ void core_shares_free(struct core_shares *s);
 /* Returns the wall clock [s]. */
 double wall_clock_seconds(void);
 
-/* Returns the processor time that the calling thread has used [s]; time taken by other programs does not count. */
+/* Returns the processor time [s] that the calling thread has used; time taken by other programs does not count. */
 double thread_cpu_clock_seconds(void);
 
 /* SUM_BLOCK: number of terms per block of a reproducible sum; TERMS_MAX: largest number of sums that reproducible_sums

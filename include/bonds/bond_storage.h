@@ -51,8 +51,8 @@ struct bond_plasticity {
 /* Value of the members `onset` and `most` of struct softened for a bond that may not soften yet, or is brittle. The
  * member `end` of this bond is then the stretch above which the bond is examined. */
 #define SOFTENING_NEVER 1e30f
-/* State of a row block (the bonds of eight particles) before the next sweep over the bonds. DUE_NOT: no bond of it may
- * begin to soften; DUE_NEW: one may, and is to be examined; DUE_AGAIN, DUE_DENIED: see below. */
+/* State of a row block (the bonds of eight particles) before the next sweep over the bonds. DUE_NOT: no bond of the row
+ * block may begin to soften; DUE_NEW: a bond may begin to, and is to be examined; DUE_AGAIN, DUE_DENIED: see below. */
 enum softening_due {
     DUE_NOT,
     DUE_NEW,
@@ -267,7 +267,7 @@ struct bond_softness {
 
 /* Returns the softening state (struct bond_softness) to be stored for a bond that is brittle or has not begun to
  * soften. range: stretches at which softening begins and the bond breaks [1]. The member `end` of the result is just
- * below range.onset; when the stretch exceeds it, the bond is examined. */
+ * below range.onset; when the stretch of the bond exceeds `end`, the bond is examined. */
 static inline struct bond_softness bond_softness_before_onset(struct softening_range range)
 {
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
@@ -303,7 +303,7 @@ static inline bool bond_row_block_has_begun_softening(const struct bonds *b, int
 }
 
 /* Returns true if the bond with index `bond` has begun to soften, or has been allowed to do so from a stored stretch
- * on. row_block: row block (the bonds of eight particles) that contains it. */
+ * on. row_block: row block (the bonds of eight particles) that contains the bond. */
 static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     return bond_row_block_has_begun_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
@@ -337,9 +337,10 @@ static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int6
     return softening_remaining_stiffness_fraction(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], most);
 }
 
-/* Returns half the energy that the softening of the bond with index `bond` has dissipated so far [J]; the other
- * particle of the bond has the other half. row_block: row block (the bonds of eight particles) that contains the bond.
- * Returns 0 if the bond is broken, and in state-based models, which add this energy to the fracture energy at once. */
+/* Returns half the energy [J] that the softening of the bond with index `bond` in the arrays of b has dissipated so
+ * far; the other particle of the bond has the other half. row_block: row block (the bonds of eight particles) that
+ * contains the bond. Returns 0 if the bond is broken, and in state-based models, which add this energy to the fracture
+ * energy at once. */
 static inline real bond_half_softening_energy(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     if (b->soft.whole || !bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;

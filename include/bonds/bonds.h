@@ -115,8 +115,8 @@ const char *bonds_describe_first_inconsistency(const struct bonds *b);
 /* Returns the energy [J] that the intact bonds of b have dissipated by softening so far. */
 real bonds_dissipated_softening_energy(const struct bonds *b);
 
-/* Returns the energy released by the broken bonds of row `row` (all bonds of one particle) since the start, plus half
- * of the energy that its intact bonds have dissipated by softening [J]. The sum over all rows is
+/* Returns the energy [J] released by the broken bonds of row `row` of b (all bonds of one particle) since the start,
+ * plus half of the energy that the intact bonds of the row have dissipated by softening. The sum over all rows is
  * bonds_fracture_energy. */
 real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
 
@@ -132,16 +132,16 @@ bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
  * the bonds. */
 void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Computes for every particle the ratio of its stress to the stress on the strength surface of its material into
- * stress_ratio[p->n] [1]: 1 on the surface, 0 if the material has no surface. The stress of a material point is its
+/* Computes into stress_ratio[p->n] [1] the ratio of the stress of each particle of p to the stress on the strength
+ * surface of its material: 1 on the surface, 0 if the material has no surface. The stress of a material point is its
  * own, that of a peridynamic particle follows from the strain averaged over its bonds in b. source: inputs of the
  * bonds. */
 void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
                                              const struct bond_source *source, real *stress_ratio);
 
-/* Returns the damage of the particle of row `row` by the softening of its intact bonds [1]: the sum of d V_j divided by
- * the volume of all neighbours, with the softening d (0 to 1) of the bond to neighbour j and the volume V_j of this
- * neighbour; 0 if row is -1. */
+/* Returns the damage (0 to 1) of the particle of row `row` of b by the softening of its intact bonds: the sum of d V_j
+ * divided by the volume of all neighbours, with the softening d (0 to 1) of the bond to neighbour j and the volume V_j
+ * of this neighbour; 0 if row is -1. */
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Returns the energy [J] released by all bonds of b broken since the start plus that dissipated by intact bonds which

@@ -17,7 +17,8 @@ enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD 
 enum surface_rule { SURFACE_NONE, SURFACE_VOLUME, SURFACE_MOMENTS };
 enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
 
-/* Influence function omega(r): 1, exp(-r^2/delta^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing). */
+/* Influence function omega(r) of a bond of length r, with the horizon delta; in the order of the names: 1,
+ * exp(-r^2/delta^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing). */
 enum influence { INFLUENCE_ONE, INFLUENCE_GAUSSIAN, INFLUENCE_INVERSE, INFLUENCE_INVERSE_SQUARE, INFLUENCE_LINEAR };
 
 /* Energy of a bond of weight w and length r: c w s^2 r with its stretch s (bond-based), w e^2 with its elongation e
@@ -43,8 +44,8 @@ struct family {
     real shell_weight[2]; /* weights of bonds near the axes, near the diagonals (shells: isotropic) [1] */
 };
 
-/* Last force of a breaking bond, in the first step in which its stretch exceeds its limit: its force until the moment
- * within the step at which it passes the limit (MOMENT), or half, all or none of its force. */
+/* Force that a breaking bond exerts in the step in which its stretch exceeds its limit: its force until the moment
+ * within the step at which the stretch passes the limit (MOMENT), or half, all or none of its force. */
 enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FORCE_NONE };
 
 /* Number of time steps between two examinations of bonds that exceeded their onset but that the stress did not allow to
@@ -193,9 +194,9 @@ static inline bool family_has_equal_weights(const struct family *f)
     return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];
 }
 
-/* Returns the weight of a bond in the reference state, the product of volume fraction beta, influence function omega
- * and weight by direction [1]. f: rules of the weights; bond_vector: reference vector of the bond, dim components [m];
- * bond_length: its length [m]. */
+/* Returns the weight [1] of a bond in the reference state: the product of volume fraction beta, influence function
+ * omega and weight by direction. f: rules of the weights; bond_vector: reference vector of the bond, dim components
+ * [m]; bond_length: its length [m]. */
 real family_bond_weight(const struct family *f, const real *bond_vector, real bond_length);
 
 #endif

@@ -4,9 +4,9 @@
 
 #include "run/run.h"
 
-/* Checks the largest overlap of two particles of run e that were in contact in the last step. Returns OK if there was
- * none, or if it is small. Adds a warning to the run, at most once, if it exceeds 0.3 spacings. Returns FAILED, with a
- * message, if it exceeds 0.9 spacings, where particles are about to pass each other. */
+/* Checks the largest overlap of two particles of run e that were in contact in the last step. Adds a warning to the
+ * run, at most once, if this overlap exceeds 0.3 spacings. Returns FAILED, with a message, if it exceeds 0.9 spacings,
+ * else OK. At 0.9 spacings particles are about to pass through each other. */
 status contact_check_largest_overlap(struct run *e);
 
 #endif

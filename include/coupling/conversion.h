@@ -35,12 +35,12 @@ struct conversion_sync {
     void (*converted)(void *context, const int32_t *list, int64_t n);
 };
 
-/* Converts material points to peridynamic particles at the end of a step: those that lost a bond (FLAG_LOST_BOND) or
- * are near another body (FLAG_NEAR). If rule->criteria has the stress criterion, those with FLAG_STRESSED convert, too.
- * If rule->block is set, the particles of the same body within the cutoff of any of these points convert with them.
- * Clears these flags, rebuilds the bonds b if a particle converts, and updates the partial stresses (`partial`, NULL:
- * none) near converted particles and broken bonds. sync: functions to call before and after bonds are made, NULL if no
- * particle is in a mesh; t: time [s]. Counts are added to c. Returns the number of particles converted. */
+/* Converts material points of p to peridynamic particles at the end of a step: points that lost a bond (FLAG_LOST_BOND)
+ * or are near another body (FLAG_NEAR). If rule->criteria has the stress criterion, those with FLAG_STRESSED convert,
+ * too. If rule->block is true, the particles of the same body within the cutoff of any of these points convert with
+ * them. Clears these flags, rebuilds the bonds b if a particle converts, and updates the partial stresses (`partial`,
+ * NULL: none) near converted particles and broken bonds. sync: functions to call before and after bonds are made, NULL
+ * if no particle is in a mesh; t: time [s]. Counts are added to c. Returns the number of particles converted. */
 int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t);

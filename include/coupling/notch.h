@@ -5,8 +5,8 @@
 
 #include "bonds/bonds.h"
 
-/* Decrease of the distance between the two faces of a slit at which the particles beside it become peridynamic
- * [spacings]. */
+/* Decrease [spacings] of the distance between the two faces of a slit (a pre-crack as free surface of the mesh) at
+ * which the material points beside the slit become peridynamic. */
 #define NOTCH_GAP 1e-4
 
 /* How a pre-crack is represented. slit: true: as a slit, i.e. a free surface of the mesh, false: by cut bonds along all

@@ -51,8 +51,8 @@ struct expression_step {
 };
 
 /* A compiled expression of x, y, z and t: n steps, evaluated on a stack; n = 0 means that there is none. text: source
- * of the expression with its units, in which variables of the scene are replaced by their values; compiling it gives an
- * equal expression. */
+ * of the expression with its units, in which variables of the scene are replaced by their values; compiling `text`
+ * gives an equal expression. */
 struct expression {
     int n;
     struct expression_step *step;

@@ -21,8 +21,8 @@ struct absorbed {
 };
 
 /* Effect of bulk damping on a velocity update, for the work of supports, which refers to undamped motion
- * (step/damping.h). velocities, increments: relative amounts by which the velocities before the update, and their
- * increments in it, would be larger without damping [1]; 0 if there is no damping. */
+ * (step/damping.h). velocities, increments: relative amounts [1] by which the velocities before the update, and the
+ * increments of velocity in the update, would be larger without damping; 0 if there is no damping. */
 struct damping_shares {
     real velocities, increments;
 };
@@ -76,8 +76,8 @@ struct mirror_node {
     real reaction[DIM_MAX];         /* impulse of the plane on the body in this step [N s] */
 };
 
-/* A wall: one velocity component of one node that is prescribed. The force on it is replaced by the force that the
- * prescribed motion requires. */
+/* A wall: one velocity component of one node that is prescribed. The force on this component is replaced by the force
+ * that the prescribed motion requires. */
 struct wall {
     int32_t node;
     int16_t component, load; /* load: index of the boundary condition */

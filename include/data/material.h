@@ -129,8 +129,8 @@ real material_critical_stretch(const struct material *m, enum space space, real 
  * m->law is not given. */
 real material_uniaxial_stress(const struct material *m, real strain);
 
-/* Computes the members of m that follow from those given by the scene: hardening modulus, elastic constants and wave
- * speeds, for the given space (1D, plane stress, plane strain, 3D). */
+/* Computes the members of m that follow from the members given by the scene, for the space `space` (line, plane stress,
+ * plane strain or solid): hardening modulus, elastic constants and wave speeds. */
 void material_compute_derived_constants(struct material *m, enum space space);
 
 /* Strengths [Pa] that follow from the strength surface of a material: in uniaxial tension, equal biaxial tension, shear
@@ -151,8 +151,8 @@ struct surface_strengths material_strength_surface_strengths(const struct materi
 real material_smallest_strain_at_strength(const struct material *m, enum space space);
 
 /* Sets m->surface to `surface`, the strength surface of Drucker and Prager at which the bonds of material m begin to
- * soften, and m->surface_least_strain to the smallest strain at which it can be reached [1]. space: space of the body,
- * on which the stress normal to the plane depends. The elastic constants of m must be set. */
+ * soften, and m->surface_least_strain to the smallest strain [1] at which this surface can be reached. space: space of
+ * the body, on which the stress normal to the plane depends. The elastic constants of m must be set. */
 void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface);
 
 /* Returns the ratio U of the stress `stress` to the stress on the strength surface of material m that has the same
@@ -160,12 +160,12 @@ void material_set_strength_surface(struct material *m, enum space space, struct 
  * in 3D [Pa]; space: determines the stress normal to a plane. m must have a strength surface. */
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress);
 
-/* Computes the elastic stiffness of material m [Pa] into `matrix`, row-major n x n, for the n =
+/* Computes into `matrix` the elastic stiffness [Pa] of material m, row-major n x n, for the n =
  * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
  * contain 2G. */
 void material_stiffness_matrix(const struct material *m, int dim, real *matrix);
 
-/* Computes the inverse of the elastic stiffness of material m [1/Pa] into `matrix`, row-major n x n, for the n =
+/* Computes into `matrix` the inverse of the elastic stiffness of material m [1/Pa], row-major n x n, for the n =
  * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
  * contain 1/(2G). */
 void material_compliance_matrix(const struct material *m, int dim, real *matrix);

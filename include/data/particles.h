@@ -148,8 +148,8 @@ static inline int64_t image_source_particle(const struct particles *p, const str
     return i;
 }
 
-/* Bits of the arguments `optional_arrays` of the functions below: each bit stands for optional arrays of struct
- * particles, whose comments name it. */
+/* Bits of the arguments `optional_arrays` of the functions below. Each bit stands for some optional arrays of struct
+ * particles; the comment on such an array names its bit. */
 enum {
     WITH_GRADIENT = 1,
     WITH_STRETCH = 2,

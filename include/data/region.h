@@ -8,7 +8,7 @@
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Distance from a surface below which points count as on it, and so inside [spacings]. */
+/* Distance [spacings] from the surface of a region below which points count as being on the surface, i.e. as inside. */
 #define ON_SURFACE 1e-8
 
 /* Returns true if the point X (dim components [m]) is inside the region r or on its surface, after the region has been

@@ -21,9 +21,9 @@
 #define SOFTENING_LEAST 1e-6   /* least relative distance of onset and critical stretch; closer, a bond is brittle */
 enum { SOFTENING_PIECES = 8 }; /* largest number of straight pieces of a curve */
 
-/* A softening curve G(x) from G(0) = 1 to G(1) = 0, the largest of `pieces` straight lines and 0. The force of a bond
- * of stretch k, divided by its largest force, is G((k - s_0)/(s_f - s_0)), with the stretches s_0 and s_f at which it
- * begins to soften and breaks. */
+/* A softening curve G(x) from G(0) = 1 to G(1) = 0, the largest of `pieces` straight lines and 0. A bond begins to
+ * soften at the stretch s_0 and breaks at s_f; its force at the stretch k, divided by its largest force, is G((k -
+ * s_0)/(s_f - s_0)). */
 struct softening_curve {
     int pieces;
     real level[SOFTENING_PIECES], slope[SOFTENING_PIECES]; /* piece k: level - slope x [1] */
@@ -32,8 +32,8 @@ struct softening_curve {
 };
 
 /* Softening of the bonds between two materials. onset: stretch s_0 [1] at which softening begins, INFINITY for brittle
- * bonds; strength_scatters: true if the random strength factor of a bond multiplies s_0 alone, false if it also
- * multiplies the critical stretch; surface: true if a strength surface starts the softening, the factor (with
+ * bonds; strength_scatters: true if the random strength factor of a bond multiplies s_0 alone, false if the factor
+ * multiplies the critical stretch, too; surface: true if a strength surface starts the softening, the factor (with
  * strength_scatters) then multiplies the strength of the particle instead of s_0; rate: how s_0 increases with the
  * strain rate, NULL if it does not. */
 struct softening_pair {

@@ -18,16 +18,16 @@ struct strength_surface {
     real g0, g1; /* [Pa] [1] */
 };
 
-/* Returns the strength surface of Drucker and Prager with the given strengths in uniaxial tension and compression [Pa];
- * compressive_strength >= tensile_strength. */
+/* Returns the strength surface of Drucker and Prager with the strengths tensile_strength [Pa] in uniaxial tension and
+ * compressive_strength [Pa] in uniaxial compression; compressive_strength >= tensile_strength. */
 struct strength_surface strength_surface_from_compression(real tensile_strength, real compressive_strength);
 
-/* Returns the strength surface of Drucker and Prager with the given strengths in uniaxial and hydrostatic tension [Pa];
- * hydrostatic_strength > tensile_strength/3. */
+/* Returns the strength surface of Drucker and Prager with the strengths tensile_strength [Pa] in uniaxial and
+ * hydrostatic_strength [Pa] in hydrostatic tension; hydrostatic_strength > tensile_strength/3. */
 struct strength_surface strength_surface_from_hydrostatic(real tensile_strength, real hydrostatic_strength);
 
-/* Returns the strength surface of Drucker and Prager with the given strengths in uniaxial and equal biaxial tension
- * [Pa]; tensile_strength/2 < biaxial_strength <= tensile_strength. */
+/* Returns the strength surface of Drucker and Prager with the strengths tensile_strength [Pa] in uniaxial and
+ * biaxial_strength [Pa] in equal biaxial tension; tensile_strength/2 < biaxial_strength <= tensile_strength. */
 struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength);
 
 /* Returns the ratio U = (sqrt(J2) + g1 I1)/g0 of a stress to the stress on the strength surface s that has the same
@@ -54,8 +54,8 @@ static inline real strength_surface_stress_ratio_of_tensor(const struct strength
 }
 
 /* Returns the strength [Pa] of a material under principal stresses that grow in proportion: the number by which the
- * three principal values direction[3] [1] must be multiplied to reach the strength surface s; INFINITY if they never
- * reach it. */
+ * three principal values direction[3] [1] must be multiplied to reach the strength surface s; INFINITY if no multiple
+ * reaches the surface. */
 real strength_surface_strength_along(const struct strength_surface *s, const real *direction);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include "bonds/bonds.h"
 
-/* A fragment: a set of particles that unbroken bonds connect. body: number of the body it comes from; particles: number
- * of its particles. */
+/* A fragment: a set of particles that unbroken bonds connect. body: number of the body to which the particles belong;
+ * particles: number of particles. */
 struct fragment {
     int body;
     int64_t particles;

@@ -106,9 +106,9 @@ struct sif {
     real K[MODES], J;
 };
 
-/* Computes the weight q of the interaction integral and the slope of q at distance r = `distance` from the crack tip
- * [m]. *weight receives q, 1 for r <= contour->inner and 0 for r >= contour->outer; *slope receives dq/dr [1/m]. form:
- * function by which q decreases between the two radii. */
+/* Computes the weight q of the interaction integral and the slope of q at the distance r = `distance` [m] from the
+ * crack tip. *weight receives q, 1 for r <= contour->inner and 0 for r >= contour->outer; *slope receives dq/dr [1/m].
+ * form: function by which q decreases between the two radii. */
 void sif_contour_weight(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
 
 /* Returns the integrand [N/m^3] of the interaction integral I at a point, i.e. the contribution of the point divided by

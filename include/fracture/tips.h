@@ -117,9 +117,9 @@ struct crack_area {
 
 /* Returns the area [m^2] of all cracks t of the particles p, as created up to the last sample. For a crack that starts
  * at a pre-crack, the area of one face is the sum of its growth over strips one spacing wide along the front; branches
- * do not count. For any other crack it is half the number of its particles times the area of a particle, since
- * particles of both faces are counted; in a plane of symmetry, where only one face is modelled, it is the whole number
- * times this area. s: planes of symmetry and thickness. */
+ * do not count. For any other crack the area is half the number of its particles times the area of a particle, since
+ * particles of both faces are counted. In a plane of symmetry, where only one face is modelled, the whole number
+ * counts. s: planes of symmetry and thickness. */
 struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
                                         const struct tip_surroundings *s);
 

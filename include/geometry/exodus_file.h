@@ -53,13 +53,15 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t nam
 
 /* Reads an array of `count` finite numbers of the file f into a new array *value, which the caller releases with
  * memory_free. In the file the array is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0.
- * Returns REFUSED, with a message and *value NULL, if it is missing, contains no numbers, or has another size. */
+ * Returns REFUSED, with a message and *value NULL, if this array is missing, contains no numbers, or has another
+ * size. */
 status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t count,
                          real **value);
 
 /* Reads an array of `count` whole numbers of the file f into a new array *value, which the caller releases with
  * memory_free. In the file the array is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0.
- * Returns REFUSED, with a message and *value NULL, if it is missing, contains no numbers, or has another size. */
+ * Returns REFUSED, with a message and *value NULL, if this array is missing, contains no numbers, or has another
+ * size. */
 status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t count,
                             int64_t **value);
 

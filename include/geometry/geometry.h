@@ -34,7 +34,7 @@ status geometry_read(struct geometry *g, const char *path, int dim, real scale, 
 /* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */
 const struct geometry_set *geometry_find_named_part(const struct geometry *g, const char *name);
 
-/* Releases all arrays of g and zeroes it. */
+/* Releases all arrays of g, the surfaces of a body and its parts, and sets all members of g to 0. */
 void geometry_free(struct geometry *g);
 
 /* Finds slits in the finite-element mesh from which the closed surface h was made: pairs of faces that coincide because

@@ -63,10 +63,10 @@ void grid_contact_side_make_for_body(struct grid_contact_side *side, struct grid
 void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_contact_side *side,
                                     const struct particles *p);
 
-/* Exchanges momentum between two bodies at each node that grid_contact_find_shared_nodes has listed, if they touch and
- * approach there: normal momentum without rebound, tangential momentum by friction. Changes the nodal velocities of the
- * grids of both bodies, and the velocity increments stored in their nodal forces. side: grids and points of the bodies,
- * c->sides elements. Returns the energy [J] dissipated by these exchanges. */
+/* Exchanges momentum between two bodies at each node that grid_contact_find_shared_nodes has listed, if the bodies
+ * touch and approach there: normal momentum without rebound, tangential momentum by friction. Changes the nodal
+ * velocities of the grids of both bodies, and the velocity increments stored in their nodal forces. side: grids and
+ * points of the bodies, c->sides elements. Returns the energy [J] dissipated by these exchanges. */
 real grid_contact_apply_impulses_and_return_loss(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Returns the part [J] of the energy dissipated by contact in this step that

@@ -8,7 +8,8 @@
 
 /* ---- microbench_machine.c: limits of the machine ----------------------------------------------------------------- */
 
-/* Data of the lattice benchmark: the bond law with contiguous loads, no bond data, positions in cache. */
+/* Data of the lattice benchmark, which evaluates the law of bonds under ideal conditions: consecutive memory accesses,
+ * no stored bond data, and positions that fit into the cache. */
 struct microbench_lattice;
 /* Creates the data of the lattice benchmark: about 80,000 particles on a lattice in `dim` dimensions, with bonds to all
  * neighbours within 3.015 spacings. Release with microbench_lattice_free. */

@@ -324,8 +324,8 @@ static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const in
 /* Updates motion, stress and volume of the points list[n] of p in one cell of g. t: inputs of the transfer, with the
  * shape function `shape` and the scheme `transfer`; due: receives the points of materials that yield, for the return
  * mapping; averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points are interpolated before
- * they are updated. Returns the number of points that have left the cell. The cell is computed again for every AT_ONCE
- * points: most cells need one pass only, so it is not kept in registers. */
+ * they are updated. Returns the number of points that have left the cell. Quantities of the cell are computed anew for
+ * every AT_ONCE points, since most cells need one pass only. */
 static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, struct particles *p,
                                                        const struct transfer_data *t, struct flow_points *due,
                                                        const int32_t *list, int n, const int dim,

@@ -5,8 +5,9 @@
 #include "kernels/laws/law_update.h"
 #include "stress.h"
 
-/* List of points of materials that yield, which wait for their return mapping, with the data that it reads. Points are
- * collected from several cells until they fill a vector, since a cell has fewer points than a vector has lanes. */
+/* List of n points of materials that yield, which wait for their return mapping, with the input data of the mapping.
+ * FLOW_ROOM: capacity. Points are collected from several cells until they fill a vector, since a cell has fewer points
+ * than a vector has lanes. */
 enum { FLOW_ROOM = LANES + POINTS };
 struct flow_points {
     int n;                                /* fewer than LANES between cells */
@@ -160,8 +161,8 @@ static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct el
     flow_clear_conversion_flags(p, m, e, flowed, point, dim);
 }
 
-/* Stores in p the back stresses, from the state e, of those of eight points whose bits are set in `lanes_set`. They are
- * stored for all these points, whether they have yielded or not, since their components rotate with the points. point:
+/* Stores in p the back stresses, from the state e, of those of eight points whose bits are set in `lanes_set`. The back
+ * stresses are stored whether the points have yielded or not, since their components rotate with the points. point:
  * numbers of the points. */
 static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struct law_points *e, unsigned lanes_set,
                                                 const int32_t *point, const int dim)

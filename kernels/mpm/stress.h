@@ -80,8 +80,7 @@ static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *stress,
 
 /* Computes in `increment` the change of the stress s = `stress` of a few points by an exact rotation, each by its own
  * angle up to SPIN_SERIES. spin: components of the antisymmetric matrix W [rad]; angle2: square of the angle a [rad^2].
- * With
- * A s = W s - s W, whose eigenvalues are 0, +-i a and +-2i a at the angle a,
+ * With A s = W s - s W, whose eigenvalues are 0, +-i a and +-2i a at the angle a,
  *     R s R^T = s + c1 A s + c2 A^2 s + c3 A^3 s + c4 A^4 s,
  *     c1 = (8 sin a - sin 2a)/6a, c2 = (15 - 16 cos a + cos 2a)/12a^2,
  *     c3 = (2 sin a - sin 2a)/6a^3, c4 = (3 - 4 cos a + cos 2a)/12a^4. */

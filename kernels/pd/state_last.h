@@ -110,9 +110,9 @@ static inline void state_blend_breaking_rows(struct bonds *b, const struct parti
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
 /* Returns one number of the state that particle i had before its bonds broke in this step. component: 0 pressure, 1
- * spring stiffness, from 2 on the stored rotation. For a mirror image it is the state of the particle that it mirrors,
- * with the rotation reflected: the bond from this particle to the image of the other particle breaks in the same step
- * and must use equal numbers. */
+ * spring stiffness, from 2 on the stored rotation. For a mirror image, returns the state of its source particle, with
+ * the rotation reflected: the bond from this particle to the image of the other particle breaks in the same step and
+ * must use equal numbers. */
 static inline real state_component_before_breaking(const struct bonds *b, const struct particles *p, int component,
                                                    int64_t i)
 {

@@ -74,9 +74,9 @@ static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bon
     }
 }
 
-/* Advances in time the particles of p in those row blocks of b (bonds of eight particles each), in the part s of the
- * list, whose positions no later row block of this thread reads. The forces of entry k of the list of active row blocks
- * and of all entries before it must be complete. m: step sizes. */
+/* Advances in time those particles of p whose positions no later row block of this thread reads. They belong to row
+ * blocks of b (bonds of eight particles each) in the part s of the list of active row blocks. The forces of entry k of
+ * the list of active row blocks and of all entries before it must be complete. m: step sizes. */
 static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                    int64_t k, const struct pd_motion *m, const int dim)
 {

@@ -58,8 +58,8 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 }
 
 /* Returns a pointer to the eight entries of list[n] from list[k] on. If fewer than eight are left, copies these to
- * `padded`, fills it up with copies of list[k] and returns `padded`, so that fewer than eight never count as
- * consecutive (list_is_consecutive). */
+ * `padded`, fills the rest of `padded` with copies of list[k] and returns `padded`, so that fewer than eight entries
+ * never count as consecutive (list_is_consecutive). */
 static ALWAYS_INLINE const int32_t *list_eight_entries(const int32_t *list, int64_t k, int64_t n, int32_t padded[LANES])
 {
     if (k + LANES <= n) return list + k;

@@ -37,7 +37,7 @@ void bond_row_buffer_free(struct row *row);
 /* Lists in neighbour[capacity] the neighbours within the cutoff of the particle or mirror image number `particle` of p,
  * in ascending order. Particles behind a void (a narrow gap of the body) are left out. source: inputs of the bonds;
  * map: from lattice sites to particles, used where possible instead of a search; NULL: always search. Returns the
- * number of neighbours; if it exceeds `capacity`, the list is incomplete. */
+ * number of neighbours; if this number exceeds `capacity`, the list is incomplete. */
 int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *source,
                                            const struct particles *p, int32_t particle, int32_t *neighbour,
                                            int capacity);
@@ -74,15 +74,15 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
                                  int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
                                  const int32_t *new_index);
 
-/* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there, and with it
- * two marks of each row block (bonds of eight particles): whether a bond in it has begun to soften, and whether one may
- * begin to before the next computation of forces. To be restored after the columns of changed row blocks. Returns
- * FAILED if an entry is missing or its size differs. */
+/* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there. Two marks of
+ * each row block (bonds of eight particles) are included: whether a bond of the row block has begun to soften, and
+ * whether a bond may begin to before the next computation of forces. To be restored after the columns of changed row
+ * blocks. Returns FAILED if an entry is missing or its size differs. */
 status softening_save_or_load_bond_states(struct bonds *b, struct archive *a);
 
-/* Returns true if the row of particle i in the previous bonds maker->old lists its present neighbours, so that they
- * need not be searched for. This requires that such a row exists, and either that maker->fresh[i] is 0, or that the row
- * has all neighbours and the particle is peridynamic. */
+/* Returns true if the row of particle i in the previous bonds maker->old lists the present neighbours of this particle,
+ * so that the neighbours need not be searched for. This requires that such a row exists, and either that
+ * maker->fresh[i] is 0, or that the row has all neighbours and the particle is peridynamic. */
 static inline bool bond_row_previous_is_still_valid(const struct row_maker *maker, int64_t i)
 {
     const int64_t before = maker->old ? maker->old->row_of[i] : -1;
@@ -214,8 +214,9 @@ bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const stru
                                           const struct particles *p, int64_t first_particle,
                                           struct regular_bonds *found_bonds);
 
-/* Returns the number of columns that `bonds`, the bonds of eight particles on a lattice, need: one for each index
- * distance (index of the neighbour less index of the particle) at which one of them has a bond. */
+/* Returns the number of columns (eight bonds, one of each particle) that `bonds`, the bonds of eight lattice particles,
+ * need: one for each index distance (index of the neighbour less index of the particle) at which one of the particles
+ * has a bond. */
 int regular_bonds_count_columns(const struct regular_bonds *bonds);
 
 /* Returns the number of bonds of the eight lattice particles of `bonds` together. A bond between two of these particles
@@ -317,9 +318,9 @@ const struct stencil *stencil_find_or_add(struct stencils *table, const struct s
                                           const struct stencil *first_guess);
 
 /* Makes row block `row_block` of b use the stencil of the row block that contains particle `particle`, so that it needs
- * no stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, `row_block` uses
- * the stencil that it already has. A stencil is a list of columns that many row blocks (bonds of eight particles) of a
- * lattice share. Returns false, and changes nothing, if there is no stencil. */
+ * no stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, the row block
+ * keeps the stencil that it already has. A stencil is a list of columns that many row blocks (bonds of eight particles)
+ * of a lattice share. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
 /* Writes `bonds`, one bond of each of eight particles, to the entries of column number `column_number` (from 0) in the

@@ -67,8 +67,8 @@ static inline int32_t near_faces_neighbour_at_offset(const struct near_faces *b,
 }
 
 /* Returns the neighbour at offset number `offset` (a relative position on the lattice) of `from`, a particle near faces
- * or its image in mirrors. The result contains the particle of the body and the axes that mirrors reverse on the way to
- * this neighbour; its member `particle` is -1 if there is no neighbour or the bond is cut. */
+ * b or its image in mirrors. The result contains the particle of the body and the axes that mirrors reverse on the way
+ * to this neighbour; its member `particle` is -1 if there is no neighbour or the bond is cut. */
 static inline struct seen near_faces_mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset)
 {
     const int32_t own = b->offset.mirrored[from->mirrors * b->offset.n + offset];
@@ -88,7 +88,7 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
 
 /* Returns the offset number (index of the relative position of a neighbour) that a bond has at its other particle: that
  * of the opposite relative position. offset: offset number of the bond at its first particle; other_particle: the other
- * particle; if it is a mirror image, the relative position is reflected as well. */
+ * particle; if this is a mirror image, the relative position is reflected as well. b: particles near faces. */
 int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
 
 /* Lists the particles of p near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a

@@ -20,8 +20,8 @@
 #define CONTACT_FLATNESS 3
 
 /* State of a row (a particle of the contact list) until the next search. ROW_FAR: too far from all faces. ROW_NEAR: may
- * come into contact, but its particles are at rest. ROW_SOURCE: neighbour of an active row, whose contact force acts on
- * it. ROW_ACTIVE: its own contact is evaluated. */
+ * come into contact, but its particles are at rest. ROW_SOURCE: neighbour of an active row, on which the contact force
+ * of that row acts. ROW_ACTIVE: its own contact is evaluated. */
 enum row_state { ROW_FAR, ROW_NEAR, ROW_SOURCE, ROW_ACTIVE };
 
 /* Summary of the contacts of a step. touching: number of contacts; overlap: largest overlap [m]; deepest: index of the
@@ -42,8 +42,8 @@ static inline void contact_found_add_overlap(struct contact_found *found, real o
     found->touching++;
 }
 
-/* Computes vector[dim], the vector between the present positions of two particles of the contact list (particles that
- * may come into contact), from that of entry `other_entry` to that of entry `entry` [m]. Returns its square [m^2]. */
+/* Computes vector[dim] [m], the vector from the present position of entry `other_entry` of the contact list of c
+ * (particles of p that may come into contact) to that of entry `entry`. Returns its square [m^2]. */
 static inline real contact_pair_vector(const struct contact *c, const struct particles *p, int64_t entry,
                                        int64_t other_entry, real *vector)
 {
@@ -79,9 +79,9 @@ static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
     return c->followed[row] >= ROW_SOURCE;
 }
 
-/* Activates further particles of the contact list (particles that may come into contact), after neighbours that were at
- * rest have started to move: marks them as loaded in `loads` and their bonds as active in b. To be called in steps
- * without a search for pairs. */
+/* Activates further particles of the contact list of c (particles of p that may come into contact), after neighbours
+ * that were at rest have started to move: marks these particles as loaded in `loads` and their bonds as active in b. To
+ * be called in steps without a search for pairs. */
 void contact_activate_newly_moving_particles(struct contact *c, const struct particles *p, struct bonds *b,
                                              struct loads *loads);
 
@@ -174,8 +174,9 @@ void contact_pair_add_forces_on_particle(const struct contact *c, struct particl
 real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Returns the distance [m] at which contact of the entries `entry` and `other` of the contact list (particles that may
- * come into contact) begins: the contact distance, reduced if they are closer in the reference configuration or at
- * present. previous_distance: contact distance on the previous list of pairs [m], NAN if the pair was not on it. */
+ * come into contact) begins: the contact distance, reduced if the two particles are closer in the reference
+ * configuration or at present. previous_distance: contact distance on the previous list of pairs [m], NAN if the pair
+ * was not on it. */
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
                                  real previous_distance);
 
@@ -184,10 +185,11 @@ real contact_pair_onset_distance(const struct contact *c, const struct particles
  * space. */
 void contact_density_profile_make(struct contact_profile *table, int dim);
 
-/* Computes the gap between the particle of row `row` of the contact list (particles that may come into contact) and the
- * faces beside it, and the derivatives of its contact energy, into c->face[row]. It is the first of two passes over the
- * rows; contact_face_add_force_on_particle adds the forces. Only for laws of the form `surface` (forces of smooth
- * faces). dt: time since the last call [s]; found: receives largest overlap and number of contacts. */
+/* Computes into c->face[row] the gap between the particle of row `row` of the contact list of c (particles of p that
+ * may come into contact) and the faces beside the particle, and the derivatives of its contact energy. This is the
+ * first of two passes over the rows; contact_face_add_force_on_particle adds the forces. Only for laws of the form
+ * `surface` (forces of smooth faces). dt: time since the last call [s]; found: receives largest overlap and number of
+ * contacts. */
 void contact_face_compute_gap_of_particle(struct contact *c, const struct particles *p, int64_t row, real dt,
                                           struct contact_found *found);
 
@@ -202,15 +204,15 @@ real contact_face_energy_of_particle(const struct contact *c, const struct parti
 
 /* Computes the height above the face at which contact of particle number `row` of the contact list (particles that may
  * come into contact) begins, after a search, by the contact law of form `surface` (forces of smooth faces).
- * previous_entry: entry of the particle on the previous list `previous`, -1 if it was not listed. If the particle was
- * in contact on that list, the height is chosen so that its contact energy does not change. */
+ * previous_entry: entry of the particle on the previous list `previous`, -1 if the particle was not listed. If the
+ * particle was in contact on that list, the height is chosen so that its contact energy does not change. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 
 /* Returns a correcting force of a contact, a derivative of an energy by the gap in the unit of stiffness times gap,
  * which removes the energy that leap-frog integration adds when contact begins or ends; 0 if no energy is to be
  * removed. The contact has the energy 1/4 stiffness gap^2, gap < 0. balance: account of this contact, updated if
- * `step_was_made` is true, i.e. if a time step was made since the last call; if it is false, the last force is returned
+ * `step_was_made` is true, i.e. if a time step was made since the last call; otherwise the last force is returned
  * again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
 

@@ -74,25 +74,27 @@ real particle_cell_half_edge(const struct particles *p, const struct bond_source
  * cell of a material point is computed quickly. Empty if particles are not on lattices. */
 struct partial_table;
 
-/* Creates the table that contains, for every possible bond between particles p on a lattice, the fraction of its length
- * inside each cell that it crosses. It is empty if they are not on lattices or have too many bond vectors. tensor_size:
- * number of values of the tensor T, by which bonds reduce the stiffness of a cell. Release with partial_table_free. */
+/* Creates the table that contains, for every possible bond between particles p on a lattice, the fraction of the length
+ * of the bond inside each cell that the bond crosses. The table is empty if the particles are not on lattices or have
+ * too many bond vectors. source: inputs of the bonds; tensor_size: number of values of the tensor T, by which bonds
+ * reduce the stiffness of a cell. Release with partial_table_free. */
 struct partial_table *partial_table_make_of_bond_shares_in_cells(const struct particles *p,
                                                                  const struct bond_source *source, int tensor_size);
 
 /* Releases the table t. */
 void partial_table_free(struct partial_table *t);
 
-/* Returns true if the table t of bond lengths inside cells could be made: if particles are on lattices, with few enough
- * different bonds. Otherwise it is empty. */
+/* Returns true if the table t of bond lengths inside cells could be made, because particles are on lattices with few
+ * enough different bonds; false if the table is empty. */
 bool partial_table_is_filled(const struct partial_table *t);
 
 /* Returns true if all particles for which the table t of bond lengths inside cells was made have the volume of a
- * lattice cell. The table can then be used for every particle; it holds for square or cubic cells of this size only. */
+ * lattice cell. The table can then be used for every particle; its numbers are those of square or cubic cells of this
+ * size only. */
 bool partial_table_covers_all_particles(const struct partial_table *t);
 
-/* Returns true if particle number `particle` of p has the volume of a lattice cell, so that the table of bond lengths
- * inside cells (struct partial_table) can be used for it. source: inputs of the bonds. */
+/* Returns true if the table of bond lengths inside cells (struct partial_table) can be used for particle number
+ * `particle` of p, because the particle has the volume of a lattice cell. source: inputs of the bonds. */
 bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *source, int64_t particle);
 
 /* Recomputes the strain responses that the table t stores for each bond of a material point: the derivative of the

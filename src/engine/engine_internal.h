@@ -94,15 +94,15 @@ void engine_warn_of_particles_faster_than_waves(const struct particles *p, real 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports at an end of a body that is in the middle of a grid cell with an edge of
- * two particle spacings, which falsifies the stiffness of the body; states the error. grid: any grid of the run, whose
- * members `anchor` and `h` give the positions of all nodes. */
+/* Adds warnings to *warnings about supports of scene s at an end of a body that is in the middle of a grid cell with an
+ * edge of two particle spacings. This falsifies the stiffness of the body; the warning states the error. p, loads:
+ * particles and loads; grid: any grid of the run, whose members `anchor` and `h` give the positions of all nodes. */
 void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
                                           const struct grid *grid, struct warnings *warnings);
 
 /* Adds warnings to *warnings about bodies of scene s only a few particles (of p) thick, whose stiffness the correction
- * of bonds near faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds near faces; also warns if
- * the solver that computes them has given up. */
+ * of bonds near faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds near faces; the function
+ * also warns if the solver that computes these weights has not converged. */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
                                       const struct surface_weights *weights, struct warnings *warnings);
 
@@ -119,8 +119,8 @@ real engine_particle_count_between_positions(const struct scene *s, real low, re
  * nothing from it. */
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *warnings about surfaces of scene s, read from files, whose closed shells overlap or lie inside one
- * another, so that they enclose a part of the body twice. */
+/* Adds warnings to *warnings about surfaces of scene s, read from files, whose closed shells overlap or are inside one
+ * another, so that a part of the body is enclosed twice. */
 void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings);
 
 /* Adds warnings to *warnings about bodies of scene s that move at the start and meet no other body within the duration.
@@ -139,7 +139,7 @@ void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struc
 void engine_warn_of_frames_after_end_of_run(const struct scene *s, struct warnings *warnings);
 
 /* Checks whether the run of scene s fits the memory that the process may use. p: particles; bond_source: inputs of the
- * bonds. Returns REFUSED, with a message that contains the estimated size, if it does not, else OK. */
+ * bonds. Returns OK if the run fits, else REFUSED, with a message that contains the estimated size. */
 status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *bond_source);
 
 #endif

@@ -17,12 +17,12 @@ struct export_mesh {
     int64_t first[258]; /* first position of material number m; [materials]: n */
 };
 
-/* Reads the scene of the request with its overrides, creates all particles of its bodies and sorts them by material and
- * id. Returns REFUSED, with a message, if the scene is faulty. Release *m with export_mesh_free, also after a
- * failure. */
+/* Reads the scene of the request with its overrides, creates all particles of its bodies and sorts the particles by
+ * material and id into *m. Returns REFUSED, with a message, if the scene is faulty. Release *m with export_mesh_free,
+ * also after a failure. */
 status export_mesh_make(struct export_mesh *m, const struct export_request *request);
 
-/* Name of a set of nodes in the exported mesh; a struct, so that functions can return it by value. */
+/* Name of a set of nodes in the exported mesh; a structure, so that functions can return a name by value. */
 struct set_name {
     char text[NAME_MAX_LENGTH];
 };

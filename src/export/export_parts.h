@@ -91,10 +91,10 @@ struct exported {
     int64_t bonds, cut; /* pairs bonded in the scene; pairs that LAMMPS would bond in addition */
 };
 
-/* Compares the bonds that LAMMPS would create with those of the scene. Stores their numbers in exported->bonds (bonds
- * of the scene) and exported->cut (further ones of LAMMPS, which must be cut). Lists in *touched the particles at bonds
- * that must be cut. Returns REFUSED if LAMMPS would lack a bond of the scene or give it another weight. Release
- * *touched with touched_particles_free. */
+/* Compares the bonds that LAMMPS would create with those of the scene. Stores the numbers of bonds in exported->bonds
+ * (bonds of the scene) and exported->cut (further ones of LAMMPS, which must be cut). Lists in *touched the particles
+ * at bonds that must be cut. Returns REFUSED, with a message, if LAMMPS would lack a bond of the scene or give a bond
+ * another weight. Release *touched with touched_particles_free. */
 status lammps_find_bonds_to_cut(struct touched *touched, struct exported *exported);
 
 /* Types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs of
@@ -109,8 +109,8 @@ struct lammps_types {
 
 /* Assigns a LAMMPS type to each particle of the scene of `exported`. Particles of one type have the same material and
  * loads. Where bonds must be cut, further types distinguish particles, so that pairs of types can be excluded from
- * bonding. Stores the types in *types. Returns REFUSED if too many types are needed. Release *types with
- * lammps_types_free. */
+ * bonding. Stores the types in *types. Returns REFUSED, with a message, if too many types are needed. Release *types
+ * with lammps_types_free. */
 status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *exported);
 
 /* Releases the arrays of the particle types *types of LAMMPS. */
@@ -118,9 +118,9 @@ void lammps_types_free(struct lammps_types *types);
 
 /* ---- loads (export_loads.c) -------------------------------------------------------------------------------------- */
 
-/* Finds which loads act on each particle and stores them as bits in exported->loads, which it allocates. Lists in
- * exported->column the per-particle columns of plate.data that the loads need. Returns REFUSED if LAMMPS has no command
- * for a load, or not enough groups of particles for all loads. */
+/* Finds which loads act on each particle, and allocates exported->loads and stores them there as bits. Lists in
+ * exported->column the per-particle columns of plate.data that the loads need. Returns REFUSED, with a message, if
+ * LAMMPS has no command for a load, or not enough groups of particles for all loads. */
 status lammps_find_loads_of_particles(struct exported *exported);
 
 /* Computes into `velocity` the velocity [m/s] with which the particle with the index `particle` of the export

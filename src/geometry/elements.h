@@ -194,7 +194,7 @@ struct surface_builder {
 };
 
 /* Appends to the faces of surface b a face with the nodes `first_node`, `second_node` and, in 3D, `third_node`
- * (indices); in 2D it is a segment and `third_node` is ignored. */
+ * (indices); in 2D the face is a segment and `third_node` is ignored. */
 void surface_builder_add_face(struct surface_builder *b, int32_t first_node, int32_t second_node, int32_t third_node);
 
 /* Appends the side of an element to the faces of the surface b, as one or two triangles. corner_node[corner_count]:
@@ -203,7 +203,7 @@ void surface_builder_add_face(struct surface_builder *b, int32_t first_node, int
 void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_node, int corner_count);
 
 /* Appends a copy of *side, a side of an element with middle nodes, to the surface b.
- * surface_builder_divide_sides_into_faces divides it into faces later. */
+ * surface_builder_divide_sides_into_faces later divides this side into faces. */
 void surface_builder_add_side_with_middle_nodes(struct surface_builder *b, const struct patch *side);
 
 /* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is

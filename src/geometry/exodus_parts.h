@@ -52,7 +52,7 @@ void exodus_classic_read_array(const struct exodus_file *f, const struct exodus_
                                real *real_value, int64_t *whole_value);
 
 /* Opens the netCDF-4 file f->path with HDF5 and stores its handle in f. Returns REFUSED, with a message, if HDF5 cannot
- * read it. */
+ * read the file. */
 status exodus_hdf5_open(struct exodus_file *f);
 
 /* Closes the netCDF-4 file of f, opened by exodus_hdf5_open. */
