@@ -111,7 +111,7 @@ struct pd_motion {
     bool diverged;         /* result: a particle has diverged */
 };
 
-/* Computes the force of all intact bonds on the particle of every active row into p->f, then breaks bonds that are
+/* Computes the force of all intact bonds of b on the particle of every active row into p->f, then breaks bonds that are
  * stretched beyond `limit`. A row holds all bonds of one particle; a row is active unless its region is still at rest.
  * A breaking bond acts until the time within the step at which it exceeds its limit (pd/bond_last.h), so that crack
  * path and fracture energy are of second order in the time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where the motion
@@ -133,10 +133,10 @@ KERNEL(int64_t, bond_forces,
         struct pd_motion *motion));
 
 /* Starts the softening of all bonds of b whose stretch exceeds their onset (the stretch at which softening begins), if
- * the stress across the bond allows it (pd/bond_begin.c). limit: onsets and breaking stretches. Examines the row blocks
- * (the bonds of eight particles) in which the last force computation has found such a bond. The result is the same for
- * both particles of a bond. A bond beyond its onset already loses some energy at once, which is added to the fracture
- * energy. Called by bond_forces. */
+ * the stress across the bond allows it (pd/bond_begin.c). p: particles; limit: onsets and breaking stretches. Examines
+ * the row blocks (the bonds of eight particles) in which the last force computation has found such a bond. The result
+ * is the same for both particles of a bond. A bond beyond its onset already loses some energy at once, which is added
+ * to the fracture energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Starts the softening of all bonds of b whose stretch at the present positions of p exceeds their onset (the stretch
@@ -144,12 +144,13 @@ KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const
  * preceding force computation. For load steps. */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
-/* Increases the damage of bonds that have begun to soften to that of the present positions, where this sets energy free
- * (pd/state_soften.c), and breaks bonds at the end of their softening; for state-based models. The pressures, springs
- * and rotations in b->state must be those of the present positions. *changed: set to true if the damage of a bond has
- * changed; the states of those row blocks (bonds of eight particles) that have b->soft.begun set must then be computed
- * again. Row blocks with bonds beyond their onset of softening that have not begun are marked in b->soft.due for
- * bonds_begin_to_soften. Returns the number of bonds broken, each counted once for each of its particles. */
+/* Increases the damage of bonds of b that have begun to soften to that of the present positions of p, where this sets
+ * energy free (pd/state_soften.c), and breaks bonds at the end of their softening; for state-based models. The
+ * pressures, springs and rotations in b->state must be those of the present positions. limit: onsets and breaking
+ * stretches; *changed: set to true if the damage of a bond has changed; the states of those row blocks (bonds of eight
+ * particles) that have b->soft.begun set must then be computed again. Row blocks with bonds beyond their onset of
+ * softening that have not begun are marked in b->soft.due for bonds_begin_to_soften. Returns the number of bonds
+ * broken, each counted once for each of its particles. */
 KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
@@ -159,8 +160,9 @@ KERNEL(int64_t, state_soften,
 KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64_t q));
 
 /* Breaks the bonds of b whose largest stretch has reached the end of their softening (the stretch at which a softening
- * bond breaks). The energy that such a bond has dissipated becomes fracture energy of its row. For load steps, between
- * two equilibria. Returns the number of bonds broken, each counted once for each of its particles. */
+ * bond breaks). The energy that such a bond has dissipated becomes fracture energy of its row (the bonds of one
+ * particle of p). For load steps, between two equilibria. Returns the number of bonds broken, each counted once for
+ * each of its particles. */
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
 
 /* Raises the stored largest stretches of all bonds of b that soften to their stretches at the present positions of p,
@@ -173,11 +175,11 @@ KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p
  * bonds in p->end_pull and p->end_moment. */
 typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
-/* Breaks the bonds of one row block (all bonds of eight particles) whose stretch exceeds `limit`, and adds their energy
- * to the fracture energy of their rows. The forces p->f on these particles must be up to date; of the force of a broken
- * bond only the share remains in p->f that acts until the bond breaks within the step (pd/bond_last.h). The computation
- * is slow, bond by bond: only for row blocks in which a bond may break. Returns the number of bonds broken in these
- * rows. */
+/* Breaks the bonds of row block number `row_block` of b (all bonds of eight particles) whose stretch exceeds `limit`,
+ * and adds their energy to the fracture energy of their rows. The forces p->f on these particles must be up to date; of
+ * the force of a broken bond only the share remains in p->f that acts until the bond breaks within the step
+ * (pd/bond_last.h). The computation is slow, bond by bond: only for row blocks in which a bond may break. Returns the
+ * number of bonds broken in these rows. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
@@ -187,7 +189,7 @@ KERNEL(int64_t, bond_break_row_block,
  * positions. The caller changes the weight of the bond in the row of its other particle likewise. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns an upper bound [1], up to round-off, of the largest stretch of the bonds in row block number `row_block`
+/* Returns an upper bound [1], up to round-off, of the largest stretch of the bonds in row block number `row_block` of b
  * (bonds of eight particles of p), by which row blocks far from breaking are skipped. */
 KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
 
@@ -203,13 +205,13 @@ KERNEL(void, bond_break_entry,
  * damage and flags of its particle. */
 KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns the elastic energy [J] of the family of row number `row` (all bonds of one particle) in a state-based model,
- * from the present weights of its bonds and the positions at a time `lag` [s] before the present ones. Independent of
- * the last force computation. */
+/* Returns the elastic energy [J] of the family of row number `row` of b (all bonds of one particle of p) in a
+ * state-based model, from the present weights of its bonds and the positions at a time `lag` [s] before the present
+ * ones. Independent of the last force computation. */
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row, real lag));
 
-/* Returns half the elastic energy [J] of the intact bonds of all rows (a row: all bonds of one particle). A bond
- * between two peridynamic particles is in two rows, so that its whole energy is included. In state-based models,
+/* Returns half the elastic energy [J] of the intact bonds of all rows of b (a row: all bonds of one particle of p). A
+ * bond between two peridynamic particles is in two rows, so that its whole energy is included. In state-based models,
  * returns the energy of the families at the last computation of their states. The sum has equal bits on any number of
  * threads. row_energy: [b->rows]: the share of each row is added to its entry [J]; NULL: not needed. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, real *row_energy);
@@ -218,10 +220,10 @@ typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, re
  * one particle), broken bonds included; 0 if no bond yields. s_y: yield stretch; alpha: accumulated plastic stretch;
  * H_b: hardening; k: stiffness of a bond. */
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
-/* Returns half the plastic work [J] of the bonds of row number `row`, i.e. of one particle. Only in models whose bonds
- * yield. */
+/* Returns half the plastic work [J] of the bonds of row number `row` of b, i.e. of one particle. Only in models whose
+ * bonds yield. */
 KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
-/* Returns the mean accumulated plastic stretch [1] of the intact bonds of row number `row`, i.e. of one particle,
+/* Returns the mean accumulated plastic stretch [1] of the intact bonds of row number `row` of b, i.e. of one particle,
  * weighted by bond energy at equal stretch. In uniaxial flow this is the plastic strain; for a point that has just
  * converted, its plastic strain as a material point. */
 KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
@@ -230,13 +232,13 @@ KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
  * (x) (x_j - x_i) over the bonds, with the force F of a bond and the volume V of the particle. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* Integrates velocity and position of the peridynamic particles list[n] (indices, ascending, aligned to 32 bytes),
+/* Integrates velocity and position of the peridynamic particles list[n] of p (indices, ascending, aligned to 32 bytes),
  * except those that the grid moves: v += dt_velocity f/m, x += dt v. motion: step sizes and largest speed. Returns true
  * if one of the particles has diverged (is too fast, or not finite). */
 typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *motion);
 
-/* Returns true if one of the n particles in `list` is faster than `limit` [m/s] or has a position or velocity that is
- * not finite. list: indices, ascending, aligned to 32 bytes. */
+/* Returns true if one of the n particles of p in `list` is faster than `limit` [m/s] or has a position or velocity that
+ * is not finite. list: indices, ascending, aligned to 32 bytes. */
 KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list, int64_t n, real limit));
 
 /* Adds mass, momentum and force of the points of p to the nodes of g: the first particle-to-grid map (Zeng et al. 2022,
@@ -247,12 +249,13 @@ typedef void p2g_fn(struct grid *g, const struct particles *p, const struct tran
 
 /* Remapping of MUSL (modified update stress last; Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the
  * change of nodal velocities to the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to
- * the nodes of g; below called the second map, after the first one by p2g. */
+ * the nodes of g; called the second map in other comments (the first map is p2g). transfer: order of the points, step
+ * sizes. */
 typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h). Adds the
- * change of nodal velocities to the points, v_p += sum N (f/m dt), and stores in transfer->turn the angular momentum
- * that each point loses in this interpolation [kg m^2/s], for its group. 2D and 3D. */
+ * change of the nodal velocities of g to the points of p, v_p += sum N (f/m dt), and stores in transfer->turn the
+ * angular momentum [kg m^2/s] that each point loses in this interpolation, for its group. 2D and 3D. */
 typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
@@ -261,16 +264,17 @@ typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p,
  * 2D and 3D. */
 typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
-/* Moves the points with the nodal velocities, x_p += dt sum N v, and updates their stress, volume, stretch, plastic
- * strain and conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et al.
- * 2015). Returns the number of points that have entered another cell. */
+/* Moves the points of p with the nodal velocities of g, x_p += dt sum N v, and updates their stress, volume, stretch,
+ * plastic strain and conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et
+ * al. 2015). transfer: order of the points, step sizes, elastic constants. Returns the number of points that have
+ * entered another cell. */
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
-/* Corrects stress and volume of the material points of p for the mean dilatation of their cells (mpm/dilatation.h):
- * adds `share` [1] times the difference between the changes in a step by the mean dilatation of the cell and by the
- * dilatation of the point. Called with -1/2 before points that have left their cells are sorted and with 1/2
- * afterwards: half of the step then has the old cells and half the new ones, so that changes of cells gain no
- * energy. */
+/* Corrects stress and volume of the material points of p, in the order of `transfer`, for the mean dilatation of their
+ * cells (mpm/dilatation.h): adds `share` [1] times the difference between the changes in a step by the mean dilatation
+ * of the cell and by the dilatation of the point. Called with -1/2 before points that have left their cells are sorted
+ * and with 1/2 afterwards: half of the step then has the old cells and half the new ones, so that changes of cells gain
+ * no energy. */
 KERNEL(void, points_add_mean_dilatation, (struct particles *p, const struct transfer_data *transfer, real share));
 
 /* Distributes one value per particle to nodes: adds value[k] N of particle list[k] of p to `field` ([g->n], in the unit
@@ -316,9 +320,9 @@ KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
  * the angular velocity of its group [1/s]. spacing: of the particles [m]. */
 KERNEL(void, rotation_groups_compute_spins, (struct rotation_groups *t, struct particles *p, real spacing));
 
-/* Gives each group of t (points that rotate together, data/turning.h) the angular momentum that its points have lost in
- * the transfer from the grid (t->turn [kg m^2/s]), as a rotation about its centre of mass: adds this rotation to the
- * velocities of its points. Then stores in t->turn, for each point, the new angular velocity of its group [1/s].
+/* Gives each group of t (points that rotate together, data/turning.h) the angular momentum that its points (of p) have
+ * lost in the transfer from the grid (t->turn [kg m^2/s]), as a rotation about its centre of mass: adds this rotation
+ * to the velocities of its points. Then stores in t->turn, for each point, the new angular velocity of its group [1/s].
  * Positions must be those of rotation_groups_compute_spins. */
 KERNEL(void, rotation_groups_restore_angular_momentum, (struct rotation_groups *t, struct particles *p));
 
@@ -334,8 +338,8 @@ KERNEL(void, grid_clear, (struct grid *g));
 
 /* Computes the nodal velocities (momentum + dt_velocity force)/mass of g (Zeng et al. 2022, step 3, first part);
  * `force` becomes the change of velocity, momentum becomes 0. Nodes lighter than smallest_mass [kg] are left at rest.
- * Applies dashpots and adds their energy and impulse to g->absorbed. Contact of bodies on separate grids acts between
- * this function and grid_constrain. */
+ * transfer: FLIP or APIC. Applies dashpots and adds their energy and impulse to g->absorbed. Contact of bodies on
+ * separate grids acts between this function and grid_constrain. */
 KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass));
 
 /* Applies the constraints of the grid g to its nodal velocities (Zeng et al. 2022, step 3, second part): walls
@@ -407,15 +411,15 @@ KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles 
 /* Computes the displacement gradient du_a/dX_b [1] of every material point i of the mesh into to[a dim + b][i], i being
  * the index of the particle. */
 KERNEL(void, mesh_points_gradient, (const struct mesh *mesh, real *const *to));
-/* Sets FLAG_STRESSED on material points of the mesh whose largest principal stress exceeds their conversion stress, in
- * the cells that the last mesh_force marked as `stressed`. m: elastic constants by material; finite: true for finite
- * strain, false for small strain. */
+/* Sets FLAG_STRESSED on material points of the mesh (particles of p) whose largest principal stress exceeds their
+ * conversion stress, in the cells that the last mesh_force marked as `stressed`. m: elastic constants by material;
+ * finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
-/* Sets mark[cell] = 1 for whole cells (with all points, of one material, without bonds) in which the principal stress
- * of a point may exceed `share` [1] times the conversion stress; other entries are not changed. mark: [grid.n], indexed
- * by cell; all: true to examine all such cells, false only those that the last mesh_force marked as `stressed`; m:
- * elastic constants by material; finite: true for finite strain, false for small strain. */
+/* Sets mark[cell] = 1 for whole cells of the mesh (with all points, of one material, without bonds) in which the
+ * principal stress of a point may exceed `share` [1] times the conversion stress; other entries are not changed. mark:
+ * [grid.n], indexed by cell; all: true to examine all such cells, false only those that the last mesh_force marked as
+ * `stressed`; m: elastic constants by material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark,
                                bool finite));
 

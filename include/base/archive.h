@@ -36,10 +36,10 @@ struct archive {
  * makes the calling function return the status. */
 #define ARCHIVE_VALUE(a, name, variable) TRY((a)->exchange((a), (name), &(variable), sizeof(variable)))
 
-/* Saves `element_count` elements of `element_size` bytes, one per particle (mirror images included), under the name
- * `name` if a->saving, else restores them. If a->now is not NULL while restoring, the run has other particles than the
- * stored one: each element is stored at the new index of its particle, and elements of particles that were not stored
- * keep their value. Returns the status of a->exchange. */
+/* Saves `element_count` elements of `element_size` bytes of `array`, one per particle (mirror images included), under
+ * the name `name` if a->saving, else restores them. If a->now is not NULL while restoring, the run has other particles
+ * than the stored one: each element is stored at the new index of its particle, and elements of particles that were not
+ * stored keep their value. Returns the status of a->exchange. */
 status archive_save_or_load_particle_array(struct archive *a, const char *name, void *array, int64_t element_count,
                                            size_t element_size);
 

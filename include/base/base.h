@@ -59,12 +59,13 @@ static inline uint64_t hash_add_word(uint64_t hash, uint64_t word)
  * file, command line) is not valid, INTERRUPTED by a signal. The values are the exit statuses of the program. */
 typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 
-/* Composes the message of a failure (one line) as printf does, stores it for status_message, and returns `s`. It is
- * called once, where the fault is found; functions above it in the call chain only return the status (macro TRY). Each
- * thread has its own message. */
+/* Composes the message of a failure (one line) from `format` as printf does, stores the message for status_message, and
+ * returns `s`. Called once, where the fault is found; functions above it in the call chain only return the status
+ * (macro TRY). Each thread has its own message. */
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Appends a line, composed as by printf, to the message set by status_set, for a further fault of the same kind. */
+/* Appends a line, composed from `format` as by printf, to the message set by status_set, for a further fault of the
+ * same kind. */
 void status_add_line(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Returns the message of the last failure in this thread. */

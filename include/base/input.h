@@ -7,7 +7,7 @@
 
 #include "base.h"
 
-/* Opens a regular file for reading and registers it as an input of this command. The caller closes *file.
+/* Opens the regular file `path` for reading and registers it as an input of this command. The caller closes *file.
  * expected_content: what the file should be, for the message; NULL: left out. REFUSED with `PATH: cause; EXPECTED is
  * expected` if the file cannot be opened or is a folder, pipe, socket or device, except for a pipe that is already open
  * (/dev/stdin, /dev/fd/N). */

@@ -38,7 +38,7 @@ void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, si
 
 /* Grows an array of memory_new_lazy_uninitialised or memory_new_uninitialised from old_count to `count` elements of
  * `size` bytes and returns the array, which may have moved, so that `pointer` is invalid afterwards. The contents of
- * the new elements are undefined. */
+ * the new elements are undefined. label: name of the array for messages about memory. */
 void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
 /* Releases the array at `pointer`, which one of the functions of this header has returned; does nothing if `pointer` is

@@ -4,7 +4,7 @@
 
 #include "base/archive.h"
 
-/* A stored entry: a copy of `size` bytes, owned by the archive. */
+/* A stored entry of an archive: a copy of `size` bytes at `data`, owned by the archive. */
 struct memory_entry {
     void *data;
     size_t size;

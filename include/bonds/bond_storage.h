@@ -296,14 +296,16 @@ static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bon
  * others of its row block (eight particles stored together): never softens. */
 static const struct bond_softness bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
 
-/* Returns true if at least one bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
+/* Returns true if at least one bond of row block `row_block` of b (the bonds of eight particles) has begun to
+ * soften. */
 static inline bool bond_row_block_has_begun_softening(const struct bonds *b, int64_t row_block)
 {
     return b->soft.curve && b->soft.begun[row_block];
 }
 
-/* Returns true if the bond with index `bond` has begun to soften, or has been allowed to do so from a stored stretch
- * on. row_block: row block (the bonds of eight particles) that contains the bond. */
+/* Returns true if the bond with index `bond` in the arrays of b has begun to soften, or will begin to as soon as its
+ * stretch exceeds the onset stored for it. row_block: row block (the bonds of eight particles) that contains the
+ * bond. */
 static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     return bond_row_block_has_begun_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
@@ -318,7 +320,7 @@ static inline real bond_weight_before_softening(const struct bonds *b, int64_t r
     return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : present_weight;
 }
 
-/* Requests an examination of row block `row_block` (the bonds of eight particles) before forces are computed next,
+/* Requests an examination of row block `row_block` of b (the bonds of eight particles) before forces are computed next,
  * because one of its bonds may begin to soften (kernels/pd/bond_begin.c). May be called by several threads at once. */
 static inline void bond_row_block_request_softening_check(struct bonds *b, int64_t row_block)
 {
@@ -371,14 +373,14 @@ void bond_column_update_common_properties(const struct bonds *b, int64_t column_
  * blocks share. */
 void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
 
-/* Initialises the stored softening state of all bonds of row block `row_block` (the bonds of eight particles of p),
- * none of which has begun to soften. limit: critical stretches and softening by pair of materials. */
+/* Initialises the stored softening state of all bonds of row block `row_block` of b (the bonds of eight particles of
+ * p), none of which has begun to soften. limit: critical stretches and softening by pair of materials. */
 void bond_row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                          int64_t row_block);
 
-/* Writes the columns of row block `row_block` (the bonds of eight particles), which stored none and followed a stencil
- * (a pattern of bonds shared by many row blocks of a lattice), so that its bonds can be changed. Does nothing if the
- * columns are already written. May be called by several threads at once. */
+/* Writes the columns of row block `row_block` of b (the bonds of eight particles), which stored none and followed a
+ * stencil (a pattern of bonds shared by many row blocks of a lattice), so that its bonds can be changed. Does nothing
+ * if the columns are already written. May be called by several threads at once. */
 void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
 
 /* Returns the index, in the bond arrays of b (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane

@@ -99,13 +99,13 @@ void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, co
  * is missing or its size differs. */
 status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a);
 
-/* Returns the weighted volume Q = sum w r^2 over the intact bonds of row `row`, i.e. of one particle, with the weights
- * w [1] and reference lengths r of the bonds [m^2]. The sum is computed anew, because subtracting broken bonds from a
+/* Returns the weighted volume Q = sum w r^2 [m^2] over the intact bonds of row `row` of b, i.e. of one particle, with
+ * the weights w and reference lengths r of the bonds. The sum is computed anew, because subtracting broken bonds from a
  * stored sum would leave round-off when few bonds remain. */
 real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row);
 
-/* Recomputes the stored weighted volume Q = sum w r^2 [m^2] of every particle with bonds, with the weights w and
- * reference lengths r of its intact bonds. Only for state-based models. source: inputs as in bonds_make. */
+/* Recomputes the weighted volume Q = sum w r^2 [m^2] that b stores for every particle of p with bonds, with the weights
+ * w and reference lengths r of its intact bonds. Only for state-based models. source: inputs as in bonds_make. */
 void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Checks the stored bonds b against the invariants listed in bond_storage.h. Returns a text that describes the first
@@ -124,12 +124,12 @@ real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
  * because the strength surface of the material was reached; false if row is -1. */
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
 
-/* Starts the softening of bonds where the stress has reached the strength surface of the material (bonds_strength.c).
- * Computes, at the present positions and for particles with large bond stretches, the ratio U of the stress of the
- * particle to the stress on the strength surface. Where U reaches 1 (or the strength factor of the particle, if
- * strength scatters), those bonds of the particle that have not begun to soften do so from their present stretch on.
- * Material points at such bonds are marked for conversion. Does nothing if no material has a surface. source: inputs of
- * the bonds. */
+/* Starts the softening of bonds of b where the stress of particles p has reached the strength surface of the material
+ * (bonds_strength.c). Computes, at the present positions and for particles with large bond stretches, the ratio U of
+ * the stress of the particle to the stress on the strength surface. Where U reaches 1 (or the strength factor of the
+ * particle, if strength scatters), those bonds of the particle that have not begun to soften do so from their present
+ * stretch on. Material points at such bonds are marked for conversion. Does nothing if no material has a surface.
+ * source: inputs of the bonds. */
 void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Computes into stress_ratio[p->n] [1] the ratio of the stress of each particle of p to the stress on the strength
@@ -141,7 +141,7 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
 
 /* Returns the damage (0 to 1) of the particle of row `row` of b by the softening of its intact bonds: the sum of d V_j
  * divided by the volume of all neighbours, with the softening d (0 to 1) of the bond to neighbour j and the volume V_j
- * of this neighbour; 0 if row is -1. */
+ * of this neighbour in p; 0 if row is -1. */
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Returns the energy [J] released by all bonds of b broken since the start plus that dissipated by intact bonds which
@@ -178,8 +178,8 @@ void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, 
  * bond between two of these particles counts twice. */
 static inline int32_t bond_row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
-/* Returns the number of columns of row block `row_block`, which stores the bonds of eight particles. Column k holds at
- * most one bond of each of these particles, so that none has more bonds than there are columns. */
+/* Returns the number of columns of row block `row_block` of b, which stores the bonds of eight particles. Column k
+ * holds at most one bond of each of these particles, so that none has more bonds than there are columns. */
 static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t row_block)
 {
     return b->column_count[row_block];
@@ -208,9 +208,9 @@ struct column_copy {
  * its stencil, a pattern of bonds that many row blocks share. Does not change b. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t column);
 
-/* A bond of a particle as stored. nbr: its neighbour; inverse_length: 1/r, negative if load has broken the bond [1/m];
- * w: weight, 0 if broken or cut by a pre-crack [1]; entry: index of the bond in the bond arrays, for example
- * plastic_stretch. */
+/* A bond of a particle as stored. nbr: particle or image to which the bond leads; inverse_length: 1/r [1/m], negative
+ * if load has broken the bond; w: weight [1], 0 if the bond is broken or cut by a pre-crack; entry: index of the bond
+ * in the bond arrays, for example plastic_stretch. */
 struct bond {
     int64_t entry;
     int32_t nbr;
@@ -241,8 +241,8 @@ struct bond_iterator {
     int lane;
 };
 
-/* Returns an iterator over all bonds of one row, i.e. of one particle, to be advanced by bond_next. row < 0: an
- * iterator without bonds. */
+/* Returns an iterator over all bonds of row number `row` of b, i.e. of one particle, to be advanced by bond_next. row <
+ * 0: an iterator without bonds. */
 static inline struct bond_iterator bond_iterator_of_row(const struct bonds *b, int64_t row)
 {
     if (row < 0) return (struct bond_iterator){.b = b};

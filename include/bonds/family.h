@@ -10,7 +10,8 @@
 #include "data/voids.h"
 
 /* Rules by which the weights of bonds are computed (keys pd.* of the scene). volume_rule: which part of the volume of a
- * neighbour near the horizon counts; calibration: how the micro-modulus follows from the elastic constants;
+ * neighbour near the horizon counts: all (WHOLE), or a part that falls linearly over one spacing (RAMP; CUT_RAMP
+ * without neighbours beyond the horizon); calibration: how the micro-modulus follows from the elastic constants;
  * surface_rule: correction of bonds near faces; shell_rule: whether weights depend on the direction of the bond. */
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
@@ -21,11 +22,12 @@ enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
  * exp(-r^2/delta^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing). */
 enum influence { INFLUENCE_ONE, INFLUENCE_GAUSSIAN, INFLUENCE_INVERSE, INFLUENCE_INVERSE_SQUARE, INFLUENCE_LINEAR };
 
-/* Energy of a bond of weight w and length r: c w s^2 r with its stretch s (bond-based), w e^2 with its elongation e
- * (ordinary state-based), w |eta|^2 with the displacement eta of its ends (with particle rotations). */
+/* Measure from which the energy of a bond follows. With the weight w and length r of the bond: c w s^2 r of its stretch
+ * s (bond-based models), w e^2 of its elongation e (ordinary state-based), w |eta|^2 of the relative displacement eta
+ * of its two particles (models with particle rotations). */
 enum bond_energy { ENERGY_OF_STRETCH, ENERGY_OF_ELONGATION, ENERGY_OF_DISPLACEMENT };
 
-/* Rules and sizes that define families and their weights. */
+/* Rules (enumerations above) and sizes that define families and the weights of their bonds. */
 struct family {
     enum space space;
     enum volume_rule volume;
@@ -48,13 +50,13 @@ struct family {
  * within the step at which the stretch passes the limit (MOMENT), or half, all or none of its force. */
 enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FORCE_NONE };
 
-/* Number of time steps between two examinations of bonds that exceeded their onset but that the stress did not allow to
- * soften; empirical. */
+/* Number of time steps between two examinations of a bond whose stretch exceeds its onset of softening while the stress
+ * does not yet allow it to soften; empirical. */
 enum { SOFTENING_RETRY_STEPS = 8 };
 
-/* Stretches at which bonds break or begin to soften. materials: number of materials. critical_stretch: stretch at which
- * a brittle bond breaks, for each pair of materials: entry m materials + q for the materials m and q; INFINITY for
- * bonds that never break. */
+/* Stretches at which bonds break or begin to soften. materials: number of materials; last_force: force of a bond in the
+ * step in which it breaks; critical_stretch: stretch at which a brittle bond breaks, for each pair of materials: entry
+ * m materials + q for the materials m and q; INFINITY for bonds that never break. */
 struct bond_limit {
     const real *critical_stretch; /* [1] */
     int materials;
@@ -131,7 +133,8 @@ static inline struct state_modulus state_based_moduli_of_material(const struct m
                                   (with_rotations ? 2 : D + 2) * D * m->shear};
 }
 
-/* Inputs of bonds_make besides the particles; all pointers are borrowed. */
+/* Inputs of bonds_make besides the particles: rules of families, limits, `materials` materials, cracks, images. All
+ * pointers are borrowed. */
 struct bond_source {
     struct family family;
     const struct cells *cells; /* search over reference positions, cell edge >= cutoff */

@@ -41,14 +41,14 @@ void site_map_free(struct site_map *map);
 struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *source,
                                         const struct particles *p);
 
-/* Removes one user of a site map shared by several sets of bonds; the last user releases it. Does nothing if `map` is
- * NULL. */
+/* Removes one user of a site map shared by several sets of bonds; the last user releases the map. Does nothing if `map`
+ * is NULL. */
 void site_map_release(struct site_map *map);
 
-/* Lists in neighbour[], ascending, the particles and images within the cutoff of the particle with index `particle`
- * that belong to its body, by means of the map `map` from lattice sites to particles. `neighbour` must have room for
- * map->most entries. Returns their number, or -1 if images are among them: these cannot be listed in ascending order,
- * and the caller must search. */
+/* Lists in neighbour[], ascending, the particles and images of p within the cutoff of the particle with index
+ * `particle`, by means of the map `map` from lattice sites to particles. `neighbour` must have room for map->most
+ * entries. Returns their number, or -1 if images are among them: these cannot be listed in ascending order, and the
+ * caller must search. */
 int site_map_list_neighbours_of_particle(const struct site_map *map, const struct particles *p, int32_t particle,
                                          int32_t *neighbour);
 
@@ -56,8 +56,8 @@ int site_map_list_neighbours_of_particle(const struct site_map *map, const struc
  * `particle` of p; false if all pre-cracks are too far away. */
 bool particle_is_near_precrack(const struct bond_source *source, const struct particles *p, int64_t particle);
 
-/* Returns true if a bond of row block `row_block` (the bonds of eight particles of p) may lead to a mirror image; false
- * if certainly none does. In most row blocks only the last bonds are read. */
+/* Returns true if a bond of row block `row_block` of b (the bonds of eight particles of p) may lead to a mirror image;
+ * false if certainly none does. In most row blocks only the last bonds are read. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block);
 
 #endif

@@ -170,8 +170,9 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
  * caller. */
 void contact_free(struct contact *c);
 
-/* Returns the critical time step [s] of particles of p that are pushed by contact forces on one side and held by bonds
- * on the other. materials: array of the materials; bonds_time_step: critical time step of the bonds alone [s]. */
+/* Returns the critical time step [s] of particles of p that are pushed by forces of the contact c on one side and held
+ * by bonds on the other. materials: array of the materials; bonds_time_step: critical time step of the bonds alone
+ * [s]. */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,
                                 real bonds_time_step);
 
@@ -185,7 +186,7 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
                                           struct loads *loads, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count);
 
-/* Requests a search for contact pairs before the next time step if one of the particles in
+/* Requests a search for pairs of the contact c before the next time step if one of the particles in
  * particle_list[particle_count] (indices), which have become peridynamic, is at the surface of a body, i.e. has fewer
  * bonds in b than a particle inside a body. family: horizon and lattice. Does nothing if contact is not possible in
  * this run. */
@@ -216,18 +217,19 @@ void contact_record_first_and_last_contact_time(struct contact *c, real t);
 real contact_elastic_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal [m] of the bounding box of all particles of p that touch rigid body number `rigid_body` (from 0)
- * at present; 0 if none does. */
+ * of c at present; 0 if none does. */
 real contact_patch_bounding_box_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
 
 /* Returns the energy [J] that friction in the contact c has dissipated since the start of the run. */
 real contact_friction_dissipated_energy(const struct contact *c);
 
-/* Searches for the pairs of particles of p that may come into contact, and selects the contacts that act in an
- * equilibrium solution: those that overlap, and those between different bodies whose gap is less than `max_gap`
- * [spacings]. Selected contacts act as linear springs, also with a positive gap, until the next selection, so that
- * forces are smooth. An equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces
- * that correct the energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and
- * lattice. Returns the number of contacts whose selection changed. */
+/* Searches for the pairs of particles of p that may come into contact, and selects those contacts of c that act in an
+ * equilibrium solution: contacts that overlap, and contacts between different bodies whose gap is less than `max_gap`
+ * [spacings]. Marks the particles as loaded in `loads` and their bonds in b as active. Selected contacts act as linear
+ * springs, also with a positive gap, until the next selection, so that forces are smooth. An equilibrium satisfies the
+ * contact law if exactly the overlapping contacts are selected. Forces that correct the energy error of earlier time
+ * steps (struct contact_balance) are set to 0. family: horizon and lattice. Returns the number of contacts whose
+ * selection changed. */
 int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
                                                 struct loads *loads, const struct family *family, real max_gap);
 
@@ -237,13 +239,13 @@ int64_t contact_search_select_and_count_changes(struct contact *c, const struct 
  * round-off stays as it was. Returns the number of contacts whose selection changed. */
 int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap);
 
-/* Chooses which contacts act when forces are computed next. selected_only: true for the contacts that
+/* Chooses which contacts of c act when forces are computed next. selected_only: true for the contacts that
  * contact_select_active_and_count_changes has selected for an equilibrium, which act as linear springs with either sign
  * of the gap; false for all contacts that overlap. */
 void contact_restrict_forces_to_selection(struct contact *c, bool selected_only);
 
-/* Ends the selection of contacts for an equilibrium: from now on all contacts that overlap act again. Requests a search
- * for pairs before the next time step. */
+/* Ends the selection of contacts of c for an equilibrium: from now on all contacts that overlap act again. Requests a
+ * search for pairs before the next time step. */
 void contact_discard_equilibrium_selection(struct contact *c);
 
 /* Returns true if particles of p or rigid bodies have moved so far since the last search that pairs missing in the list
@@ -251,13 +253,13 @@ void contact_discard_equilibrium_selection(struct contact *c);
  * search. */
 bool contact_search_is_needed(struct contact *c, const struct particles *p);
 
-/* Returns the largest distance [m] that each particle may move before a new search for contact pairs is due. As long as
- * no particle has moved farther, no pair that is missing in the list can come into contact. */
+/* Returns the largest distance [m] that each particle may move before a new search for pairs of the contact c is due.
+ * As long as no particle has moved farther, no pair that is missing in the list can come into contact. */
 real contact_pair_list_safe_displacement(const struct contact *c);
 
-/* Calls visit(context, term) for each contact selected by contact_select_active_and_count_changes, for the assembly of
- * a stiffness matrix or similar. term: the contact between particles of p as a linear spring, valid during the call
- * only. Does nothing if no selection has been made. */
+/* Calls visit(context, term) for each contact of c selected by contact_select_active_and_count_changes, for the
+ * assembly of a stiffness matrix or similar. term: the contact between particles of p as a linear spring, valid during
+ * the call only. Does nothing if no selection has been made. */
 void contact_visit_selected_as_springs(const struct contact *c, const struct particles *p,
                                        void (*visit)(void *context, const struct contact_term *term), void *context);
 

@@ -38,9 +38,10 @@ struct conversion_sync {
 /* Converts material points of p to peridynamic particles at the end of a step: points that lost a bond (FLAG_LOST_BOND)
  * or are near another body (FLAG_NEAR). If rule->criteria has the stress criterion, those with FLAG_STRESSED convert,
  * too. If rule->block is true, the particles of the same body within the cutoff of any of these points convert with
- * them. Clears these flags, rebuilds the bonds b if a particle converts, and updates the partial stresses (`partial`,
- * NULL: none) near converted particles and broken bonds. sync: functions to call before and after bonds are made, NULL
- * if no particle is in a mesh; t: time [s]. Counts are added to c. Returns the number of particles converted. */
+ * them. Clears these flags, rebuilds the bonds b from `source` if a particle converts, and updates the partial stresses
+ * (`partial`, NULL: none) near converted particles and broken bonds. sync: functions to call before and after bonds are
+ * made, NULL if no particle is in a mesh; t: time [s]. Counts are added to c. Returns the number of particles
+ * converted. */
 int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t);
@@ -52,8 +53,8 @@ void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_
 
 /* Computes the region whose particles are peridynamic from step 0 on into *region: the region that the scene gives, and
  * a ball round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller frees
- * region->solid; a region without solids is empty. source: inputs of the bonds, with the pre-cracks. scene_region:
- * region of the scene, NULL: none; tip_radius: radius of the balls and cylinders [m]. */
+ * region->solid; a region without solids is empty. p: particles; source: inputs of the bonds, with the pre-cracks;
+ * scene_region: region of the scene, NULL: none; tip_radius: radius of the balls and cylinders [m]. */
 void initial_pd_region_make(struct region *region, const struct region *scene_region, const struct particles *p,
                             const struct bond_source *source, real tip_radius);
 
@@ -68,9 +69,9 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 
 /* Computes the strain p->end_strain of each material point on the background grid with state-based bonds to peridynamic
- * particles: what the deformation of its cell contributes to the mean strain of its family. It follows from the stress
- * of the point by Hooke's law. Does nothing in bond-based models. partial: lists these points; material: array of the
- * materials. */
+ * particles: what the deformation of the cell of the point contributes to the mean strain of its family. This strain
+ * follows from the stress of the point by Hooke's law. Does nothing in bond-based models. partial: lists these points;
+ * material: array of the materials. */
 void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                               const struct material *material);
 

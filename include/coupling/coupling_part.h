@@ -37,8 +37,8 @@ status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion
 
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
  * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
- * material points beside peridynamic particles whose motion is damped, for FLIP with partial stress only. source:
- * inputs of the bonds. */
+ * material points beside peridynamic particles whose motion is damped, for FLIP with partial stress only. p: particles;
+ * source: inputs of the bonds. */
 void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p,
                                               const struct bonds *b, const struct bond_source *source);
 
@@ -64,7 +64,8 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
 /* Marks (FLAG_NEAR) material points beside slits (pre-cracks as free surfaces of the mesh) and narrow voids whose faces
  * approach each other, so that they convert before the faces touch. n: the slits, with points beside slits and voids;
  * frame: the mesh, whose motion particles receive first; spacing: of the particles [m]; time_ahead: time until the next
- * call [s]. Returns true if n has such slits or voids, whether or not points were marked. */
+ * call [s]; p, loads: particles and loads. Returns true if n has such slits or voids, whether or not points were
+ * marked. */
 bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
                                   const struct loads *loads, real spacing, real time_ahead);
 
@@ -78,10 +79,10 @@ void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids
  * a mirror plane of scene s does not pass through nodes of g, because doubled nodes are not possible then. */
 bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s);
 
-/* Adds warnings to `warning_list` for voids that are too narrow, so that the run treats them as closed: voids whose two
- * sides share nodes of the background grid, such gaps between a body and a plane of symmetry, and gaps of one or two
- * particles in bodies made from particle lists or images, whose surfaces are not known. reference_possible: true if the
- * body can be in the reference frame, which is then named as a remedy. */
+/* Adds warnings to `warning_list` for voids of bodies of run e that are too narrow, so that the run treats them as
+ * closed: voids whose two sides share nodes of the background grid, such gaps between a body and a plane of symmetry,
+ * and gaps of one or two particles in bodies made from particle lists or images, whose surfaces are not known.
+ * reference_possible: true if the body can be in the reference frame, which is then named as a remedy. */
 void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possible, struct warnings *warning_list);
 
 /* Adds warnings to `warning_list` for bodies of run e that will pass through each other or stick together, and for

@@ -44,9 +44,9 @@ void interface_zone_find_points_and_neighbours(struct interface_zone *r, const s
 void interface_zone_free(struct interface_zone *r);
 
 /* Damps the motion in the interface zone r before the forces of a step are computed: changes the momentum of the points
- * of the zone and their neighbours by impulses J of fourth-order viscosity. viscosity: strength k of the viscosity [1],
- * at most 1/16; with 1/16, motion that alternates from point to point stops in one step. Returns the first half of the
- * energy removed [J]: the sum of -J . v/2, with the velocities v before the change.
+ * of the zone and their neighbours in p by impulses J of fourth-order viscosity. viscosity: strength k of the viscosity
+ * [1], at most 1/16; with 1/16, motion that alternates from point to point stops in one step. Returns the first half
+ * [J] of the energy removed: the sum of -J . v/2, with the velocities v before the change.
  * interface_zone_second_half_of_damped_energy returns the second half. */
 real interface_zone_damp_and_return_half_energy(struct interface_zone *r, struct particles *p, real viscosity);
 

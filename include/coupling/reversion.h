@@ -25,11 +25,11 @@ struct reversion_rule {
 int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *rule, struct particles *p,
                                                  const struct bonds *b, real t, int32_t **selected);
 
-/* Turns the peridynamic particles in particle_list[particle_count] (indices) into material points. Their stress follows
- * from the bonds that cross their cells (state-based models: from the virial of the family), their volume from the
- * determinant of the deformation gradient of the family. The velocity gradient becomes 0; positions and velocities are
- * unchanged. Beside a surface the stress is that of a full family under the same strain. Rebuilds the bonds b and, if
- * `partial` is not NULL, the partial stresses around the particles. Counts the reversion in c. source: inputs of the
+/* Turns the peridynamic particles of p in particle_list[particle_count] (indices) into material points. Their stress
+ * follows from the bonds that cross their cells (state-based models: from the virial of the family), their volume from
+ * the determinant of the deformation gradient of the family. The velocity gradient becomes 0; positions and velocities
+ * are unchanged. Beside a surface the stress is that of a full family under the same strain. Rebuilds the bonds b and,
+ * if `partial` is not NULL, the partial stresses around the particles. Counts the reversion in c. source: inputs of the
  * bonds. */
 void reversion_convert_listed_particles_to_mpm(struct conversion *c, struct particles *p, struct bonds *b,
                                                const struct bond_source *source, struct partial_stress *partial,

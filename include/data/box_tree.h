@@ -19,7 +19,7 @@ struct box_tree {
     } * node;
 };
 
-/* Creates a tree over copies of the boxes boxes[box_count] in `dim` dimensions. box_search_start and
+/* Creates the tree t over copies of the boxes boxes[box_count] in `dim` dimensions. box_search_start and
  * box_search_find_next_box_within then find the boxes near a point. Release with box_tree_free. */
 void box_tree_make(struct box_tree *t, const struct bounds *boxes, int box_count, int dim);
 

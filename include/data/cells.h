@@ -5,8 +5,8 @@
 
 #include "particles.h"
 
-/* Search cells: equal squares or cubes that cover all particles, with a list of the particles in each of them. All
- * arrays are owned. */
+/* Search cells: equal squares (dim = 2) or cubes (dim = 3) that cover all particles, with a list of the particles in
+ * each cell. All arrays are owned. */
 struct cells {
     int dim;
     int64_t count[DIM_MAX], n; /* cells per direction; in all */

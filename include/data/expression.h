@@ -50,9 +50,9 @@ struct expression_step {
     real value; /* value of a NUMBER [SI] */
 };
 
-/* A compiled expression of x, y, z and t: n steps, evaluated on a stack; n = 0 means that there is none. text: source
- * of the expression with its units, in which variables of the scene are replaced by their values; compiling `text`
- * gives an equal expression. */
+/* A compiled expression of x, y, z and t: the steps step[n], evaluated on a stack; n = 0: there is no expression. text:
+ * source of the expression with its units, in which variables of the scene are replaced by their values; compiling
+ * `text` gives an equal expression. */
 struct expression {
     int n;
     struct expression_step *step;

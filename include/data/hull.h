@@ -67,7 +67,7 @@ real hull_winding_number(const struct hull *s, const real *X);
 real hull_signed_distance(const struct hull *s, const real *X, real *normal);
 
 /* Returns true if the signed distance of the point X (s->dim components [m]) from the surface, negative inside, is at
- * most `max_distance` [m]. It is faster than hull_signed_distance, because faces farther away than that are not
+ * most `max_distance` [m]. This function is faster than hull_signed_distance, because faces farther away are not
  * examined. */
 bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance);
 
@@ -89,7 +89,7 @@ struct hull_samples {
     real unclear, enclosed_again;
 };
 
-/* Computes winding numbers at about 4000 points in the bounding box of the surface and returns what they show: the
+/* Computes winding numbers at about 4000 points in the bounding box of the surface s and returns what they show: the
  * share of points at which inside and outside cannot be distinguished, and the volume that is enclosed more than once.
  * Both are 0 for a closed surface whose normals point outwards (at a cavity, into the cavity) and whose shells
  * (connected parts) neither overlap nor are inside each other. */
@@ -99,8 +99,8 @@ struct hull_samples hull_sample_winding_numbers(const struct hull *s);
  * are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */
 void hull_build_face_search_tree(struct hull *s);
 
-/* Computes the area vector of face number `face` of s: outward normal times area [m^2]; in 2D, where a face is a
- * segment, outward normal times length [m]. */
+/* Computes area_vector, the area vector of face number `face` of s: outward normal times area [m^2]; in 2D, where a
+ * face is a segment, outward normal times length [m]. */
 void hull_compute_face_area_vector(const struct hull *s, int64_t face, real area_vector[DIM_MAX]);
 
 #endif

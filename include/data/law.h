@@ -39,7 +39,7 @@ extern const struct flow_properties flow_properties[FLOW_LAWS];
  * stress exactly. LAW_LOAD_STEP: to round-off, for increments of any size. */
 enum law_mode { LAW_EXPLICIT, LAW_LOAD_STEP };
 
-/* Largest number of points of a hardening curve. */
+/* Largest number of points of a hardening curve (struct flow_curve). */
 enum { FLOW_POINTS = 16 };
 
 /* A concave hardening curve through `points` points of plastic strain, strain[k] [1], and yield stress, stress[k] [Pa];
@@ -52,7 +52,8 @@ struct flow_curve {
 };
 
 /* The law by which the material points of one material yield: flow law, kinematic hardening and heating by plastic
- * work. Only the constants of the law that `flow` names are used. a: equivalent plastic strain. */
+ * work. Of the constants of flow laws (`hardening` to `johnson_cook`) only those of the law `flow` are used. a:
+ * equivalent plastic strain. */
 struct law {
     bool given; /* false: elastic, or a material of bonds alone; the other members have no meaning */
     enum flow flow;

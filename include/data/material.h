@@ -65,8 +65,8 @@ struct material {
  * strength is given; false if they are brittle. */
 static inline bool material_has_softening_bonds(const struct material *m) { return m->tensile_strength > 0; }
 
-/* Returns true if the bonds of the material begin to soften where its stress reaches a strength surface
- * (strength_surface.h), not at a stretch. */
+/* Returns true if the bonds of material m begin to soften where the stress reaches a strength surface
+ * (strength_surface.h), not at a given stretch. */
 static inline bool material_has_strength_surface(const struct material *m) { return m->surface.g0 > 0; }
 
 /* Returns true if the material m yields: it has a positive, finite yield stress or a flow law (yield stress as a
@@ -78,7 +78,7 @@ static inline bool material_yields(const struct material *m)
 
 /* Returns true if all material points of a grid cell shall use the mean of their dilatations: if material m yields or
  * is nearly incompressible (Poisson's ratio above 0.4), since linear cells would be too stiff otherwise
- * (kernels/mpm/dilatation.h). False in the spaces plane stress and line, in which the volume is not constrained. */
+ * (kernels/mpm/dilatation.h). False if `space` is plane stress or line, in which the volume is not constrained. */
 static inline bool material_uses_mean_dilatation(const struct material *m, enum space space)
 {
     return (space == SPACE_PLANE_STRAIN || space == SPACE_SOLID) && (material_yields(m) || m->poisson > 0.4);
@@ -96,7 +96,7 @@ static inline real material_initial_yield_stress(const struct material *m)
     return m->law.given ? m->law.yield : m->yield_stress;
 }
 
-/* Returns true if the material has bulk viscosity, a pressure against rapid compression (step/viscosity.h). */
+/* Returns true if the material m has bulk viscosity, a pressure against rapid compression (step/viscosity.h). */
 static inline bool material_has_viscosity(const struct material *m)
 {
     return m->viscosity.linear > 0 || m->viscosity.quadratic > 0;
@@ -106,15 +106,15 @@ static inline bool material_has_viscosity(const struct material *m)
  * plane stress, 1/4 in plane strain and in 3D, NAN in 1D, where there is none. */
 real bond_based_poisson_ratio(enum space space);
 
-/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for a family of discrete particles: 2 k/family_sum in
- * 1D, 8 k/family_sum in 2D, 18 k/family_sum in 3D, with k = m->bulk. Bonds then have the energy of the continuum under
- * uniform dilatation (Silling & Askari 2005). family_sum: sum of r V_j beta over a full family [m^4], where beta is the
- * fraction of the volume of neighbour j within the horizon. */
+/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics in the space `space` for a family of discrete
+ * particles: 2 k/family_sum in 1D, 8 k/family_sum in 2D, 18 k/family_sum in 3D, with k = m->bulk. Bonds then have the
+ * energy of the continuum under uniform dilatation (Silling & Askari 2005). family_sum: sum of r V_j beta over a full
+ * family [m^4], where beta is the fraction of the volume of neighbour j within the horizon. */
 real material_micro_modulus_of_discrete_family(const struct material *m, enum space space, real family_sum);
 
-/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for a continuous family: 2 k/(A d^2) in 1D, 12 k/(pi h
- * d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m]; section: cross-section A
- * in 1D [m^2], thickness h in 2D [m], ignored in 3D. */
+/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics in the space `space` for a continuous family: 2 k/(A
+ * d^2) in 1D, 12 k/(pi h d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m];
+ * section: cross-section A in 1D [m^2], thickness h in 2D [m], ignored in 3D. */
 real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section);
 
 /* Returns the critical stretch [1] of the bonds of material m: if all bonds that cross a plane have this stretch, their

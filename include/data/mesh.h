@@ -170,9 +170,9 @@ static inline int64_t mesh_cell_with_corner_at_node(const struct mesh *mesh, int
     return cell >= 0 ? cell : -1;
 }
 
-/* Returns the next one of the cells into which slits (pre-cracks as free surfaces) divide a cell of the regular grid.
- * cell: the cell of the grid for the first call, then the previous result. Returns -1 after the last one, and for a
- * cell that is not divided. */
+/* Returns the next one of the cells of the mesh into which slits (pre-cracks as free surfaces) divide a cell of the
+ * regular grid. cell: the cell of the grid for the first call, then the previous result. Returns -1 after the last one,
+ * and for a cell that is not divided. */
 static inline int64_t mesh_cell_next_slit_part(const struct mesh *mesh, int64_t cell)
 {
     return mesh->slits.next ? mesh->slits.next[cell] : -1;

@@ -126,7 +126,7 @@ struct crack_list {
     int *of;
 };
 
-/* Computes the parts of the cracks crack[crack_count] on the body's side of all planes of symmetry
+/* Computes into *list the parts of the cracks crack[crack_count] on the body's side of all planes of symmetry
  * mirror[mirror_count], and their mirror images within `image_reach` [m] of these planes, so that a bond across a plane
  * and its image are cut alike. tolerance: distance from a plane up to which a point is on it [m]. Release with
  * crack_list_free. */
@@ -143,9 +143,9 @@ real segment_distance_from_point(const real *segment_start, const real *segment_
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
 /* A plane wave in the initial state of a body. At t = 0 the particle velocity is velocity exp(-(xi/r)^2) along
- * `polarisation`, with xi = (X - at) . direction and r a quarter of the width. It travels along `direction` into
- * material at rest and leaves displaced material behind. Polarisation along the direction: longitudinal wave; across
- * it: transverse wave. */
+ * `polarisation`, with xi = (X - at) . direction and r a quarter of the width. The wave travels along `direction` into
+ * material at rest and leaves displaced material behind. It is longitudinal if the polarisation is along `direction`,
+ * transverse if across. */
 struct wave_pulse {
     real at[DIM_MAX];           /* centre [m] */
     real direction[DIM_MAX];    /* unit vector */

@@ -16,7 +16,8 @@
 enum scatter_of { SCATTER_STRENGTH, SCATTER_STRETCH, SCATTER_TOUGHNESS, SCATTER_ENERGY };
 enum scatter_form { SCATTER_WEIBULL, SCATTER_LOGNORMAL };
 
-/* Parameters of the random field of strength of one material. */
+/* Parameters of the random field of strength of one material. given: false if the scene gives none; form: distribution;
+ * seed: seed of the random numbers. */
 struct strength_scatter {
     bool given;
     enum scatter_of of; /* quantity with this distribution; G_c is proportional to the square of the others */

@@ -47,9 +47,9 @@ struct placement {
 };
 #define IMAGES_MOST 4096
 
-/* A set of points: union, difference and intersection of solids in the order of the list, starting with nothing, or
- * with everything if the first solid is to be intersected. An empty list means everywhere. A run is a sequence of
- * solids of the list that are all added or all subtracted (region_build_search_trees). */
+/* A set of points: union, difference and intersection of the solids solid[n] in the order of the list, starting with
+ * nothing, or with everything if the first solid is to be intersected. An empty list means everywhere. A run is a
+ * sequence of solids of the list that are all added or all subtracted (region_build_search_trees). */
 struct region {
     int n;
     struct solid *solid;

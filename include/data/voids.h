@@ -33,9 +33,9 @@ bool region_has_voxel_image(const struct region *r);
  * solid, a voxel image, or a region without solids. */
 bool region_may_have_voids(const struct region *r);
 
-/* Computes v->near, which marks the particles that a void (a slot, a slit or a gap of the shape) separates from others,
- * by testing all pairs of particles at most `max_distance` apart [m]. The other members of v must be set before. cells:
- * search over reference positions; images: sources of the mirror images. Release with voids_free. */
+/* Computes v->near, which marks the particles of p that a void (a slot, a slit or a gap of the shape) separates from
+ * others, by testing all pairs of particles at most `max_distance` apart [m]. The other members of v must be set
+ * before. cells: search over reference positions; images: sources of the mirror images. Release with voids_free. */
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
                                     const struct image *images, real max_distance);
 
@@ -47,7 +47,8 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
                            bool *facing);
 
 /* Returns true if a void (a slot, a slit or a gap of the shape) separates the particles `particle` and `other_particle`
- * of one body. v: NULL if no body has voids; the result is then false. Fast for particles without a void nearby. */
+ * of p, which are of one body. v: NULL if no body has voids; the result is then false. Fast for particles without a
+ * void nearby. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle);
 

@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* An image: a grid of pixels (2D) or voxels (3D) with a grey value each. The array `grey` is owned. */
+/* An image: a grid of pixels (dim = 2) or voxels (dim = 3) with a grey value each. The array `grey` is owned. */
 struct voxels {
     int dim;
     int64_t n[DIM_MAX]; /* voxels along x, y, z; 1 in absent directions */

@@ -11,7 +11,7 @@
 #include "base/base.h"
 #include "scene/scene.h"
 
-/* Options of an export of a scene to another program (`cleave export`). */
+/* Options of an export of a scene to another program (`cleave export`). All pointers are borrowed. */
 struct export_request {
     const char *scene, *folder;            /* path of the scene; output folder or, for Exodus, file; borrowed */
     const struct scene_override *override; /* [overrides] overrides of the scene; borrowed */

@@ -80,7 +80,7 @@ struct growing_crack {
  * the crack; kept by reference and must outlive g. */
 void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule);
 
-/* Frees the list of fading bonds of g and sets all its members to 0. */
+/* Frees the list of fading bonds of the growing crack g and sets all members of g to 0. */
 void growing_crack_free(struct growing_crack *g);
 
 /* Advances the growing crack g from the time t by the time step dt (both [s]). Moves the tip by its speed times dt,

@@ -30,7 +30,7 @@ struct sight {
     const struct bonds *bonds; /* bonds; neighbours behind a broken one are hidden; NULL: none are */
 };
 
-/* How gradients of fields at particles are computed: method, range, and which neighbours count. */
+/* How gradients of fields at particles are computed: method, range, and which neighbours count (sight). */
 struct gradient_rule {
     enum gradient_method method;
     real reach; /* rho_m; range of neighbours is 2 rho_m [m] */
@@ -52,11 +52,10 @@ struct gradient_stencil {
     int order;
 };
 
-/* Computes the weights by which values at neighbours give the gradient of a field at the particle with index
- * `particle`, and stores them in *s. *s must be 0 or filled by an earlier call, whose arrays are reused. rule: method
- * of the gradient, range and visibility of neighbours; c: neighbour search over the reference positions. If too few
- * neighbours of the particle are visible, s->order is 0 and there are no weights. Release with gradient_stencil_free.
- */
+/* Computes the weights by which values at neighbours give the gradient of a field at the particle with index `particle`
+ * of p, and stores them in *s. *s must be 0 or filled by an earlier call, whose arrays are reused. rule: method of the
+ * gradient, range and visibility of neighbours; c: neighbour search over the reference positions. If too few neighbours
+ * of the particle are visible, s->order is 0 and there are no weights. Release with gradient_stencil_free. */
 void gradient_stencil_compute_weights(struct gradient_stencil *s, const struct gradient_rule *rule,
                                       const struct particles *p, const struct cells *c, int64_t particle);
 
@@ -77,8 +76,8 @@ struct contour {
     real inner, outer;
 };
 
-/* A crack tip and options of the integration round it. "The second sum" is the part of the interaction integral that
- * contains the inertia terms, after the part with the stresses. */
+/* A crack tip in an elastic medium and options of the interaction integral round the tip. "The second sum" is the part
+ * of the interaction integral that contains the inertia terms, after the part with the stresses. */
 struct sif_tip {
     struct crack_medium medium;
     real place[2], along[2]; /* reference position [m]; unit vector of the direction of growth */

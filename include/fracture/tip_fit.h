@@ -19,7 +19,8 @@
 #include "data/region.h"
 #include "sif_fields.h"
 
-/* A crack tip and the particles round it to whose displacements stress-intensity factors are fitted. */
+/* A crack tip in an elastic medium, and the particles round the tip to whose displacements stress-intensity factors are
+ * fitted. */
 struct tip_view {
     struct crack_medium medium;
     /* unit vectors of the plane perpendicular to the front, in which all following vectors are */

@@ -124,7 +124,8 @@ struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct
                                         const struct tip_surroundings *s);
 
 /* Returns the area [m^2] of the cuts through a bar (1D): positions that bonds of b crossed, all of which load has
- * broken. For a cut in a plane of symmetry, the member `own` has half of the area. section: of the bar [m^2]. */
+ * broken. For a cut in a plane of symmetry, the member `own` has half of the area. p: particles; section: cross-section
+ * of the bar [m^2]. */
 struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real section);
 
 /* Frees the arrays of the crack tips t. */

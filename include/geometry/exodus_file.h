@@ -8,7 +8,8 @@
 
 #include "base/base.h"
 
-/* An open file of Exodus II. */
+/* An open Exodus II file: content, dimensions and arrays of a classic netCDF file or the HDF5 handle of a netCDF-4
+ * file, and numbers of nodes, blocks and sets. */
 struct exodus_file {
     const char *path;    /* for messages; borrowed */
     const uint8_t *text; /* [length] content; borrowed */
@@ -39,8 +40,8 @@ void exodus_close(struct exodus_file *f);
 /* Returns true if the file name `path` has an extension of Exodus II files: .exo, .e, .ex2, .exii, .g or .gen. */
 bool path_has_exodus_extension(const char *path);
 
-/* Sets the message of a failure (status_set) to `path: text` with the path of the file f and a text composed as by
- * printf. Returns REFUSED. */
+/* Sets the message of a failure (status_set) to `path: text` with the path of the file f and a text composed from
+ * `format` as by printf. Returns REFUSED. */
 status exodus_report_fault(const struct exodus_file *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Returns the length of a dimension (as of netCDF) of the file f, or 0 if the file has no such dimension. The dimension

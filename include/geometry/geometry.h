@@ -10,7 +10,8 @@
 #include "data/hull.h"
 #include "data/region.h"
 
-/* A named part of a mesh. Elements that fill the body form a closed surface; faces, lines or nodes form an open one. */
+/* A part of a mesh with the name `name` and the surface `hull`: a closed surface for elements that fill the body, an
+ * open surface for faces, lines or nodes. */
 struct geometry_set {
     char name[NAME_MAX_LENGTH];
     struct hull hull;

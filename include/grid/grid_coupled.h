@@ -25,8 +25,8 @@ struct grid_coupled {
 void grid_coupled_select_particles_moved_by_grid(struct grid_coupled *c, enum coupling coupling, struct particles *p,
                                                  const struct grid *g);
 
-/* Empties the list of peridynamic particles that the grid moves, and clears FLAG_GRID_COUPLED of these particles. For
- * steps in which no material points are left on the grid. */
+/* Empties the list c of peridynamic particles of p that the grid moves, and clears FLAG_GRID_COUPLED of these
+ * particles. For steps in which no material points are left on the grid. */
 void grid_coupled_clear_particles_moved_by_grid(struct grid_coupled *c, struct particles *p);
 
 /* Frees the arrays of c, the list of peridynamic particles that the grid moves. */

@@ -20,7 +20,8 @@ struct grid_field {
     int32_t *list; /* [n] points of the body in ascending order; NULL: all points */
 };
 
-/* Material points on background grids that are in the current frame: all grids of a run, and what is common to them. */
+/* Material points on background grids that are in the current frame: all grids of a run (field[fields]), and data that
+ * all grids share. */
 struct grid_method {
     int fields; /* number of grids: 1, or one for each body */
     struct grid_field *field;
@@ -44,8 +45,8 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
 
 /* Makes the groups mpm->turning of material points of p that rotate together (data/turning.h), so that the FLIP
  * transfer conserves angular momentum. Does nothing if no body is free to rotate, in 1D, and for transfers other than
- * FLIP. loads: boundary conditions, which may prevent rotation; coupling: how material points and peridynamic particles
- * are coupled. */
+ * FLIP. loads: boundary conditions, which may prevent rotation; s: scene; coupling: how material points and peridynamic
+ * particles are coupled. */
 void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
                                const struct scene *s, enum coupling coupling);
 

@@ -201,8 +201,9 @@ static ALWAYS_INLINE void mesh_run_cell_indices(const struct mesh_run *run, int6
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
 
-/* Writes to cell[8] the indices of the eight cells of group number `group` of partial cells (cells with missing points,
- * partial stresses, several materials or doubled nodes); -1 for entries beyond the last partial cell. */
+/* Writes to cell[8] the indices of the eight cells of group number `group` of partial cells of the mesh (cells with
+ * missing points, partial stresses, several materials or doubled nodes); -1 for entries beyond the last partial
+ * cell. */
 static ALWAYS_INLINE void mesh_group_cell_indices(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)

@@ -76,11 +76,11 @@ static ALWAYS_INLINE void mesh_stress_store(const struct particles *p, const int
             if (of_lanes >> l & 1) p->mesh_stress[k][point[l]] = stress[k][l];
 }
 
-/* Maps the trial stresses of the points number `point_number` (0 .. 2^dim - 1) of eight mesh cells back to their yield
- * surfaces by their flow laws, and updates their plastic state; for points of several materials once for each law.
- * cell: eight cell indices; yielding_lanes: bit l is set if the point in lane l has a flow law; dt: duration of an
- * explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry, the returned stress on exit
- * [Pa]; m: elastic constants of all materials. */
+/* Maps the trial stresses of the points number `point_number` (0 .. 2^dim - 1; particles of p) of eight mesh cells back
+ * to their yield surfaces by their flow laws, and updates their plastic state; for points of several materials once for
+ * each law. cell: eight cell indices; yielding_lanes: bit l is set if the point in lane l has a flow law; dt: duration
+ * of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry, the returned stress on
+ * exit [Pa]; m: elastic constants of all materials. */
 static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, const int32_t *cell, int point_number,
                                                unsigned yielding_lanes, real dt, lanes *stress, int dim)

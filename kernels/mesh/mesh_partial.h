@@ -10,8 +10,8 @@
 
 #include "mesh_law.h"
 
-/* Loads the displacements u[c][i] of corner c along axis i of the eight cells of group number `group` of partial cells
- * [m]: cells with missing points, partial stresses, several materials or doubled nodes. */
+/* Loads the displacements u[c][i] [m] of corner c along axis i of the eight cells of group number `group` of partial
+ * cells of the mesh: cells with missing points, partial stresses, several materials or doubled nodes. */
 static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
                                                         const int dim)
 {

@@ -28,8 +28,8 @@ static ALWAYS_INLINE bool transfer_uses_mean_dilatation(const struct transfer_da
     return dim > 1 && __builtin_expect(t->mean_dilatation, 0) && !t->momentum_only;
 }
 
-/* Returns true if the points i and j of a grid cell share one mean dilatation, because they are of the same body and
- * material. */
+/* Returns true if the points i and j of p, in a grid cell, share one mean dilatation, because they are of the same body
+ * and material. */
 static ALWAYS_INLINE bool points_share_mean_dilatation(const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] == p->material[j] && p->body[i] == p->body[j];
@@ -44,9 +44,10 @@ static ALWAYS_INLINE bool points_all_share_mean_dilatation(const struct particle
     return same;
 }
 
-/* Replaces value[k] of the n <= MEAN_POINTS points list[k] of a grid cell by mean - value[k], with the mean, weighted
- * by volume, over the points of the same body and material. t: elastic constants of the materials. value[k] becomes 0
- * for materials without mean dilatation. Not inlined, so that the code for other materials contains none of it. */
+/* Replaces value[k] of the n <= MEAN_POINTS points list[k] of p, in a grid cell, by mean - value[k], with the mean,
+ * weighted by volume, over the points of the same body and material. t: elastic constants of the materials. value[k]
+ * becomes 0 for materials without mean dilatation. Not inlined, so that the code for other materials contains none of
+ * it. */
 static NEVER_INLINE void points_subtract_from_mean(const struct particles *p, const struct transfer_data *t,
                                                    const int32_t *list, int n, real *value)
 {

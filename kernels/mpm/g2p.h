@@ -181,8 +181,8 @@ struct points_motion {
     row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
 };
 
-/* Interpolates velocity and velocity gradient of the n points `list` (n <= AT_ONCE) of cell c from the nodes of g into
- * *m. */
+/* Interpolates velocity and velocity gradient of the n points `list` of p (n <= AT_ONCE) in cell c from the nodes of g
+ * into *m. t: inputs of the transfer, with the shape function `shape` and the scheme `transfer`. */
 static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid *g, const struct cell *c,
                                      const struct particles *p, const struct transfer_data *t, const int32_t *list,
                                      int n, const int dim, const enum shape shape, const enum transfer transfer)

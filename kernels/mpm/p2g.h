@@ -34,8 +34,8 @@ static ALWAYS_INLINE int symmetric_component_index(int axis, int other_axis, con
 
 /* Adds to the force sums `sum` of a cell the force of the antisymmetric part `skew` of the stress of point `at` of
  * stencil s (weights of a few points): f_a = -V sum_b skew_ab grad_b. Does nothing unless the point has bonds of a
- * state-based model (partial_stress.c). t: inputs of the transfer; row: weights and slopes of a row of nodes at this
- * point; shape: shape function. */
+ * state-based model (partial_stress.c). p: particles; t: inputs of the transfer; row: weights and slopes of a row of
+ * nodes at this point; shape: shape function. */
 static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct particles *p,
                                                     const struct transfer_data *t, const struct cell_stencil *s,
                                                     const struct touch *row, int at, const int dim,
@@ -66,10 +66,11 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
-/* Adds mass, momentum and force of point `at` of stencil s (weights of a few points) to the sums `sum` of its cell.
- * Factors of the directions along a row, equal for all rows, are computed once. turn: velocity gradients of the points
- * of the stencil, by which they extrapolate their velocity to nodes, from rotating_velocity_gradients [1/s]; not read
- * for APIC, nor where points do not rotate. pressure: mean stress that is added to the stress of the point [Pa], from
+/* Adds mass, momentum and force of point `at` of stencil s (weights of a few points of p) to the sums `sum` of its cell
+ * of grid g. t: inputs of the transfer, with the shape function `shape` and the scheme `transfer`. Factors of the
+ * directions along a row, equal for all rows, are computed once. turn: velocity gradients of the points of the stencil,
+ * by which they extrapolate their velocity to nodes, from rotating_velocity_gradients [1/s]; not read for APIC, nor
+ * where points do not rotate. pressure: mean stress that is added to the stress of the point [Pa], from
  * points_mean_stress_changes; NULL: none. */
 static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
                                         const struct transfer_data *t, const struct cell_stencil *s,
@@ -238,7 +239,7 @@ MAP_VARIANTS(BOTH)
 /* ---- single field of a few points -------------------------------------------------------------------------------- */
 
 /* Adds `value`, a value of point i of p, to the nodal array `field`, distributed to the nodes of g with the weights N
- * of the first map (p2g). half_width: half the reference edge of a particle, l_p [m]. */
+ * of the first map (p2g). half_width: half the reference edge of a particle, l_p [m]; shape: shape function. */
 static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const struct particles *p, real half_width,
                                                  int32_t i, real value, real *field, const int dim,
                                                  const enum shape shape)

@@ -148,8 +148,8 @@ static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p,
 }
 
 /* Stores in p the state e of the n points point[n] of material m after the return mapping. flowed: bit l is set if
- * point[l] has yielded; all other points keep their stress. stress[components]: receives the stresses of the points
- * that have yielded [Pa]. */
+ * point[l] has yielded; all other points keep their stress. stress[components] [Pa]: receives the stresses of the
+ * points that have yielded. */
 static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct elastic *m, const struct law_points *e,
                                             unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
 {

@@ -28,7 +28,7 @@
 
 /* Interpolates the change dv_I of the nodal velocities (g->force) to the points of stencil s (weights of a few points
  * of cell c): the change of their velocity gain[dim] = sum N dv_I [m/s], and the moments arm[e][d] = sum N (x_I -
- * x_p)_e (dv_I)_d [m^2/s]. */
+ * x_p)_e (dv_I)_d [m^2/s]. shape: shape function. */
 static ALWAYS_INLINE void turn_gather_arms(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
                                            row_of_points *gain, row_of_points arm[DIM_MAX][DIM_MAX], const int dim,
                                            const enum shape shape)
@@ -73,7 +73,7 @@ static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const st
 
 /* Interpolates the change dv_I of the nodal velocities (g->force) to the n points `list` (n <= AT_ONCE) of cell c and
  * adds it to their velocities in p. Stores in t->turn the angular momentum [kg m^2/s] that this interpolation loses at
- * each point: m sum N (x_I - x_p) x dv_I. */
+ * each point: m sum N (x_I - x_p) x dv_I. shape: shape function. */
 static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct cell *c, struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                              const enum shape shape)
@@ -120,8 +120,8 @@ MAP_VARIANTS_TURNING(GATHER)
 typedef row_of_nodes turn_rows[DIM_MAX + 1][ROWS_MAX];
 
 /* Adds the momentum m N (v + L (x_I - x_p)), with `massive` also the mass m N, of point `at` of stencil s (weights of a
- * few points) to the sums `sum` of its cell. slope: velocity gradients L of the points of the stencil, from
- * rotating_velocity_gradients [1/s]. */
+ * few points of p) to the sums `sum` of its cell of grid g. shape: shape function; slope: velocity gradients L of the
+ * points of the stencil, from rotating_velocity_gradients [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g, const struct particles *p,
                                              const row_of_points *slope, const struct cell_stencil *s, int at,
                                              const bool massive, const int dim, const enum shape shape)

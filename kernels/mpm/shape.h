@@ -269,8 +269,9 @@ static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
-/* Computes weights and slopes of the points of stencil s (a few points of a cell) along axis d; not for linear shapes
- * in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width: half the reference edge of a particle [m]. */
+/* Computes weights and slopes of the points of stencil s (a few points of p in a cell) along axis d for the shape
+ * function `shape`; not for linear shapes in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width: half the
+ * reference edge of a particle [m]. */
 static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p, real inverse,
                                                        real half_width, int d, const int dim, const enum shape shape)
 {
@@ -300,8 +301,8 @@ static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
     return ahead;
 }
 
-/* Computes the stencil s: weights and slopes of the shape functions of the n points `list` (n <= AT_ONCE) of cell c of
- * grid g. half_width: half the reference edge of a particle, l_p [m]. */
+/* Computes the stencil s: weights and slopes of the shape functions of the n points `list` of p (n <= AT_ONCE) in cell
+ * c of grid g. half_width: half the reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
                                             const struct particles *p, const int32_t *list, int n, real half_width,
                                             const int dim, const enum shape shape)

@@ -10,9 +10,9 @@
 #include "kernels/simd/lanes.h"
 
 /* Applies return mapping with linear isotropic hardening to the eight bonds with indices `first_bond` to `first_bond` +
- * 7, and updates the plastic state of those set in the mask `intact`. stretch: total stretch s [1]. With the plastic
- * stretch s_p, the accumulated plastic stretch alpha, the yield stretch s_y, and the hardening modulus divided by the
- * elastic one, H,
+ * 7 in the arrays of b, and updates the plastic state of those set in the mask `intact`. stretch: total stretch s [1].
+ * With the plastic stretch s_p, the accumulated plastic stretch alpha, the yield stretch s_y, and the hardening modulus
+ * divided by the elastic one, H,
  *
  *     phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha += g
  *
@@ -77,9 +77,9 @@ static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, con
                                     : stretch;
 }
 
-/* Returns the elastic part [1] of the stretch of the eight bonds with indices `first_bond` to `first_bond` + 7: in
- * models that yield, `stretch` less the stored plastic stretch; in models that soften, `stretch` times the share of
- * their stiffness that the bonds keep. stretch: total stretch [1]. */
+/* Returns the elastic part [1] of the stretch of the eight bonds with indices `first_bond` to `first_bond` + 7 in the
+ * arrays of b, by the law of `model`: in models that yield, `stretch` less the stored plastic stretch; in models that
+ * soften, `stretch` times the share of their stiffness that the bonds keep. stretch: total stretch [1]. */
 static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t first_bond,
                                                  lanes stretch)
 {
@@ -135,8 +135,8 @@ static inline real bond_elastic_stretch_of(const struct bonds *b, const struct p
     return bond_entry_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
 }
 
-/* Returns the force [N] of `bond`, a bond of particle i of p in a bond-based model, as the force kernel computes it;
- * tension is positive. Returns 0 if the bond is broken. */
+/* Returns the force [N] of `bond`, a bond in b of particle i of p in a bond-based model, as the force kernel computes
+ * it; tension is positive. Returns 0 if the bond is broken. */
 static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_of(b, p, bond, i);
@@ -162,8 +162,8 @@ static inline real bond_energy_of(const struct bonds *b, const struct particles 
     return b->stiffness * bond->w * energy / bond->inverse_length;
 }
 
-/* Returns the plastic work [J] of `bond` so far; 0 if the bond is broken. The work has a closed form, since hardening
- * is linear and the plastic path only grows. Only in models whose bonds yield. */
+/* Returns the plastic work [J] of `bond`, a bond in b, so far; 0 if the bond is broken. The work has a closed form,
+ * since hardening is linear and the plastic path only grows. Only in models whose bonds yield. */
 static inline real bond_plastic_work_of(const struct bonds *b, const struct bond *bond)
 {
     const int64_t q = bond->entry;

@@ -20,7 +20,7 @@ struct family_left {
     int64_t ended;                  /* number of breaking bonds */
 };
 
-/* Returns the sums over those bonds of row `row` (all bonds of one particle of p) that stay below their breaking
+/* Returns the sums over those bonds of row `row` of b (all bonds of one particle of p) that stay below their breaking
  * stretch. limit: breaking stretches. The members `ended` and `share` of the result: number of breaking bonds, and mean
  * share of their force that acts in this step. */
 static inline struct family_left family_sums_of_unbroken_bonds(const struct bonds *b, const struct particles *p,
@@ -55,9 +55,10 @@ static inline void blend_with_value_without_breaking(real *value, real without_b
     *value = weight * *value + (1 - weight) * without_breaking;
 }
 
-/* Replaces the stored rotation of particle i by S R + (1 - S) R', with its rotation R over all bonds, its rotation R'
- * without the breaking bonds, and the share S = left->share of their force that acts in this step. left: sums over its
- * remaining bonds; spring: spring stiffness of its family without the breaking bonds [N/m]; dim: dimensions. */
+/* Replaces the rotation of particle i stored in t by S R + (1 - S) R', with its rotation R over all bonds, its rotation
+ * R' without the breaking bonds, and the share S = left->share of the force of the breaking bonds that acts in this
+ * step. left: sums over the remaining bonds; spring: spring stiffness of its family without the breaking bonds [N/m];
+ * dim: dimensions. */
 static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
@@ -109,10 +110,10 @@ static inline void state_blend_breaking_rows(struct bonds *b, const struct parti
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Returns one number of the state that particle i had before its bonds broke in this step. component: 0 pressure, 1
- * spring stiffness, from 2 on the stored rotation. For a mirror image, returns the state of its source particle, with
- * the rotation reflected: the bond from this particle to the image of the other particle breaks in the same step and
- * must use equal numbers. */
+/* Returns one number of the state in b that particle i of p had before its bonds broke in this step. component: 0
+ * pressure, 1 spring stiffness, from 2 on the stored rotation. For a mirror image, returns the state of its source
+ * particle, with the rotation reflected: the bond from this particle to the image of the other particle breaks in the
+ * same step and must use equal numbers. */
 static inline real state_component_before_breaking(const struct bonds *b, const struct particles *p, int component,
                                                    int64_t i)
 {

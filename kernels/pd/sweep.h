@@ -53,10 +53,11 @@ static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bon
         pd_move_eight(p, b->particle + g * LANES, count_of_eight_indices_below(g * LANES, b->rows), m->loaded, m, dim);
 }
 
-/* Prefetches what the loop over active row blocks (bonds of eight particles each) needs next. k: index of the present
- * row block in the list. Fetched are the forces and breaking limits of the row block AHEAD entries further on, the
- * positions of its farthest neighbours, and mass and velocities of the row block that is moved next. Hardware
- * prefetching follows consecutive lines within a page, but not a dozen arrays. */
+/* Prefetches the data of b and p that the loop over active row blocks (bonds of eight particles each) needs next. s:
+ * part of the list of this thread; k: index of the present row block in the list. Fetched are the forces and breaking
+ * limits of the row block AHEAD entries further on, the positions of its farthest neighbours, and mass and velocities
+ * of the row block that is moved next. Hardware prefetching follows consecutive lines within a page, but not a dozen
+ * arrays. */
 static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bonds *b, const struct particles *p,
                                          int64_t k, const int dim)
 {
@@ -84,9 +85,9 @@ static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct
     for (; s->next <= k && s->row_block[s->next] < until; s->next++) sweep_move_row_block(s, b, p, s->next, m, dim);
 }
 
-/* Advances in time the particles of this thread's row blocks that have not been moved yet: the first ones, whose
- * positions the previous thread may have read, and the last ones. To be called when all threads have finished their
- * forces. m: step sizes. */
+/* Advances in time those particles of p of this thread's row blocks (bonds of eight particles in b, part s of the list)
+ * that have not been moved yet: the first row blocks, whose positions the previous thread may have read, and the last
+ * ones. To be called when all threads have finished their forces. m: step sizes. */
 static ALWAYS_INLINE void sweep_move_remaining_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                     const struct pd_motion *m, const int dim)
 {

@@ -42,7 +42,8 @@ int particle_find_neighbours_within_cutoff(const struct site_map *map, const str
                                            const struct particles *p, int32_t particle, int32_t *neighbour,
                                            int capacity);
 
-/* Inputs from which rows (each with all bonds of one particle) are made. All pointers are borrowed. */
+/* Inputs from which rows (each with all bonds of one particle of p) are made. source: inputs of the bonds; pairs:
+ * micro-moduli by pair of materials. All pointers are borrowed. */
 struct row_maker {
     struct bonds *old; /* previous rows; NULL: none */
     const struct bond_source *source;
@@ -99,7 +100,8 @@ void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, in
 void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns the number of the previous row block (bonds of eight particles) in maker->old that equals row block
- * `row_block`, so that its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
+ * `row_block` of b, so that its columns can be kept; -1 if the particles or their neighbours have changed
+ * (bonds_keep.c). */
 int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
 /* Copies row block `previous_row_block` (the bonds of eight particles) of the bonds `previous_bonds` to row block
@@ -171,8 +173,8 @@ void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struc
 /* Releases the arrays of `bonds`, the bonds of eight lattice particles by index distance. */
 void regular_bonds_free(struct regular_bonds *bonds);
 
-/* Lists the neighbours of the eight particles from `first_particle` on in `found_bonds`, by index distance (index of
- * the neighbour less index of the particle), from the map `map` of lattice sites. Returns true, or false if the map
+/* Lists the neighbours of the eight particles of p from `first_particle` on in `found_bonds`, by index distance (index
+ * of the neighbour less index of the particle), from the map `map` of lattice sites. Returns true, or false if the map
  * does not contain all sites needed, so that the neighbours must be searched for. */
 bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
                                             int64_t first_particle, struct regular_bonds *found_bonds);
@@ -273,9 +275,9 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buf
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                             const struct row_maker *maker);
 
-/* Stores the columns in `buffer` as columns of row block `row_block` (the bonds of eight particles), or, if their bonds
- * equal those of a known stencil (a bond pattern of the lattice), makes the row block follow that stencil and stores no
- * columns. Called after the columns were filled. */
+/* Stores the columns in `buffer` as columns of row block `row_block` of b (the bonds of eight particles of p), or, if
+ * their bonds equal those of a known stencil (a bond pattern of the lattice), makes the row block follow that stencil
+ * and stores no columns. Called after the columns were filled. */
 void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                              const struct particles *p);
 
@@ -284,9 +286,9 @@ void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_b
 void lattice_shell_lengths_make(struct bonds *b, real spacing);
 
 /* Finds the lattice shell of eight bonds with the inverse lengths inverse_length[8] [1/m], i.e. the whole number k > 0
- * for which the bonds have the length spacing sqrt(k). Stores in round_off_units[LANES] by how many units in the last
- * place each inverse length differs from that of the shell, due to the round-off of positions. Returns k, or 0 if the
- * bonds have no common shell. */
+ * for which the bonds have the length spacing sqrt(k). b: table of these lengths. Stores in round_off_units[LANES] by
+ * how many units in the last place each inverse length differs from that of the shell, due to the round-off of
+ * positions. Returns k, or 0 if the bonds have no common shell. */
 int bonds_find_lattice_shell(const struct bonds *b, const real *inverse_length, int16_t *round_off_units);
 
 /* Returns a table of stencils (lists of columns shared by many row blocks): `existing` with one more user, or a new

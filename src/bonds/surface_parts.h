@@ -139,8 +139,9 @@ struct bond_classes {
 void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct near_faces *near);
 
 /* Returns the particle or mirror image that is offset number `offset_number` (a relative position on the lattice) away
- * from the first particle of class `class`, whose particles have equal surroundings up to reflections; -1 if there is
- * none. The offset refers to the axes of the class, some of which may be reversed at this particle. */
+ * from the first particle of class number `class` in `classes`, whose particles (near faces, `near`) have equal
+ * surroundings up to reflections; -1 if there is none. The offset refers to the axes of the class, some of which may be
+ * reversed at this particle. */
 static inline int32_t bond_class_neighbour_at_offset(const struct bond_classes *classes, const struct near_faces *near,
                                                      int32_t class, int offset_number)
 {

@@ -94,9 +94,8 @@ static inline const uint8_t *contact_selection_marks(const struct contact *c)
 }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_select_active_and_count_changes), one per particle listed near this body. Returns NULL if overlapping
- * contacts act.
- */
+ * (contact_select_active_and_count_changes), one per particle in the list c->near of this body. Returns NULL if
+ * overlapping contacts act. */
 static inline const uint8_t *contact_rigid_selection_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
@@ -109,8 +108,8 @@ static inline bool contact_is_active(const uint8_t *marks, int64_t contact_numbe
     return marks ? marks[contact_number] != 0 : overlaps;
 }
 
-/* Returns the gap [spacings] between the particle of row `row` of the contact list (particles that may come into
- * contact) and the nearby faces of other bodies or fragments, negative if they overlap. Only for laws of the form
+/* Returns the gap [spacings] between the particle of row `row` of the contact list of c (particles of p that may come
+ * into contact) and the nearby faces of other bodies or fragments, negative if they overlap. Only for laws of the form
  * `surface`, in which faces are smooth. */
 real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
@@ -119,16 +118,16 @@ real contact_face_gap_of_particle(const struct contact *c, const struct particle
  * may come into contact) to which the pair belongs. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t pair);
 
-/* Returns the gap [m] between a particle and rigid body number `body_number`: their distance minus the distance at
- * which contact begins; negative if they overlap. entry: entry of the particle in the list near this body; normal:
- * receives the outward unit vector normal to the surface. */
+/* Returns the gap [m] between a particle of p and rigid body number `body_number` of c: their distance minus the
+ * distance at which contact begins; negative if they overlap. entry: entry of the particle in the list near this body;
+ * normal: receives the outward unit vector normal to the surface. */
 real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t entry,
                                    real *normal);
 
-/* Describes the contact of the particle of row `row` of the contact list (particles that may come into contact) with
- * the faces beside it as a linear spring: stiffness, and derivatives of the gap by the positions of the particles, in
- * *term. Its arrays must have a capacity of one element more than the row has pairs. Only for laws of the form
- * `surface` (forces of smooth faces). */
+/* Describes the contact of the particle of row `row` of the contact list of c (particles of p that may come into
+ * contact) with the faces beside it as a linear spring: stiffness, and derivatives of the gap by the positions of the
+ * particles, in *term. Its arrays must have a capacity of one element more than the row has pairs. Only for laws of the
+ * form `surface` (forces of smooth faces). */
 void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
                                       struct contact_term *term);
 
@@ -136,12 +135,13 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
  * particles at rest, which time steps leave out but equilibrium solutions require. */
 void contact_activate_all_listed_particles(struct contact *c);
 
-/* Saves the selection of contacts that act in equilibria (contact_select_active_and_count_changes) to the archive a if
- * a->saving, else restores it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the selection of contacts of c that act in equilibria (contact_select_active_and_count_changes) to the archive
+ * a if a->saving, else restores it. Returns FAILED if the archive cannot be read or written or a stored size
+ * differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a);
 
-/* Returns the margin [m] by which the list of pairs extends beyond the contact distance. The list stays complete while
- * particles move by less than half the margin. */
+/* Returns the margin [m] by which the list of pairs of c extends beyond the contact distance. The list stays complete
+ * while particles move by less than half the margin. */
 static inline real contact_list_margin(const struct contact *c)
 {
     return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
@@ -152,14 +152,14 @@ static inline real contact_list_margin(const struct contact *c)
 int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i);
 
 /* Returns the width [m] of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other`
- * of the contact list (particles that may come into contact) in the reference configuration; 0 if there is none or if
- * they belong to different bodies. */
+ * of the contact list of c (particles of p that may come into contact) in the reference configuration; 0 if there is
+ * none or if the particles belong to different bodies. */
 real contact_notch_width_between_entries(const struct contact *c, const struct particles *p, int64_t entry,
                                          int64_t other);
 
-/* Computes three arrays for all entries of the contact list (particles that may come into contact): c->root, the entry
- * of the particle that a mirror image mirrors (for other entries the entry itself); c->size, the spacing [m]; c->rise,
- * the height of the surface of the body above the particle, minus 1/2 [spacings]. */
+/* Computes three arrays for all entries of the contact list (particles of p that may come into contact): c->root, the
+ * entry of the particle that a mirror image mirrors (for other entries the entry itself); c->size, the spacing [m];
+ * c->rise, the height of the surface of the body above the particle, minus 1/2 [spacings]. */
 void contact_list_compute_entry_data(struct contact *c, const struct particles *p);
 
 /* Adds the contact forces of all pairs of particle number `row` of the contact list of c (particles that may come into
@@ -168,13 +168,13 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
 void contact_pair_add_forces_on_particle(const struct contact *c, struct particles *p, int64_t row,
                                          struct contact_found *found);
 
-/* Returns half the elastic energy [J] of all pairs of particle number `row` of the contact list (particles that may
- * come into contact), by the contact law of form `pair` (forces between two particles each); each pair belongs to two
- * particles. */
+/* Returns half the elastic energy [J] of all pairs of particle number `row` of the contact list of c (particles of p
+ * that may come into contact), by the contact law of form `pair` (forces between two particles each); each pair belongs
+ * to two particles. */
 real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the distance [m] at which contact of the entries `entry` and `other` of the contact list (particles that may
- * come into contact) begins: the contact distance, reduced if the two particles are closer in the reference
+/* Returns the distance [m] at which contact of the entries `entry` and `other` of the contact list of c (particles of p
+ * that may come into contact) begins: the contact distance, reduced if the two particles are closer in the reference
  * configuration or at present. previous_distance: contact distance on the previous list of pairs [m], NAN if the pair
  * was not on it. */
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
@@ -198,12 +198,12 @@ void contact_face_compute_gap_of_particle(struct contact *c, const struct partic
  * contact_face_compute_gap_of_particle must have been called for all particles of the list. */
 void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
-/* Returns the elastic contact energy [J] of particle number `row` of the contact list (particles that may come into
- * contact), by the contact law of form `surface` (forces of smooth faces). */
+/* Returns the elastic contact energy [J] of particle number `row` of the contact list of c (particles of p that may
+ * come into contact), by the contact law of form `surface` (forces of smooth faces). */
 real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Computes the height above the face at which contact of particle number `row` of the contact list (particles that may
- * come into contact) begins, after a search, by the contact law of form `surface` (forces of smooth faces).
+/* Computes the height above the face at which contact of particle number `row` of the contact list of c (particles of p
+ * that may come into contact) begins, after a search, by the contact law of form `surface` (forces of smooth faces).
  * previous_entry: entry of the particle on the previous list `previous`, -1 if the particle was not listed. If the
  * particle was in contact on that list, the height is chosen so that its contact energy does not change. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
@@ -246,9 +246,9 @@ void contact_friction_spring_advance(struct contact_spring *s, int dim, const re
  * over the particles; contact_face_add_friction_on_particle adds the forces. */
 void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
 
-/* Adds friction forces on particle number `row` of the contact list (particles that may come into contact) to p->f: the
- * force of its own spring, and the reactions to springs of particles that slide on a face to which it belongs. Second
- * of two passes, after contact_face_advance_friction_spring for all particles. */
+/* Adds friction forces on particle number `row` of the contact list of c (particles that may come into contact) to
+ * p->f: the force of its own spring, and the reactions to springs of other particles that slide on a face to which the
+ * particle belongs. Second of two passes, after contact_face_advance_friction_spring for all particles. */
 void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic energy [J] stored in all friction springs of the contact c. */
@@ -285,14 +285,14 @@ void contact_rigid_free_particle_lists(struct contact *c);
  * pairs of the contact c. */
 bool contact_rigid_has_moved_by_distance(const struct contact *c, real min_distance);
 
-/* Adds the contact forces of all rigid bodies on particles of p to p->f, and stores the opposite forces and moments in
- * the rigid bodies. dt: time since the last call [s], by which friction springs are stretched; found: receives largest
- * overlap and number of contacts. */
+/* Adds the contact forces of all rigid bodies of c on particles of p to p->f, and stores the opposite forces and
+ * moments in the rigid bodies. dt: time since the last call [s], by which friction springs are stretched; found:
+ * receives largest overlap and number of contacts. */
 void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *found);
 
-/* Saves the lists of particles near rigid bodies to the archive a if a->saving, else restores them. Returns FAILED,
- * with a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not
- * fit. */
+/* Saves c->near, the lists of particles near rigid bodies, to the archive a if a->saving, else restores them. Returns
+ * FAILED, with a message, if the archive cannot be read or written, or if a restored list has indices or counts that do
+ * not fit. */
 status contact_rigid_save_or_load(struct contact *c, struct archive *a);
 
 /* Saves the array *array to the archive a if a->saving, else allocates *array with memory_new and restores it from the
@@ -300,7 +300,7 @@ status contact_rigid_save_or_load(struct contact *c, struct archive *a);
  * cannot be read or written or the stored size differs. */
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size);
 
-/* Returns the elastic energy [J] of the contacts of particles p with all rigid bodies at the present positions. */
+/* Returns the elastic energy [J] of the contacts of particles p with all rigid bodies of c at the present positions. */
 real contact_rigid_energy(const struct contact *c, const struct particles *p);
 
 #endif

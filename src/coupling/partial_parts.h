@@ -43,7 +43,7 @@ struct response {
 struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
                                                 const struct bond_source *source, int32_t i, const struct bond *bond);
 
-/* Adds the contribution of a bond to the tensor T = `tensor` of a cell [J], by which bonds reduce the stiffness of the
+/* Adds the contribution of a bond to the tensor T = `tensor` [J] of a cell, by which bonds reduce the stiffness of the
  * cell: T_abcd += l e_b dF_a/deps_cd, symmetric in ab and in cd. l: length of the bond inside the cell; e: unit vector
  * along the bond; F: its force. point_position, other_position: positions of the material point and of the other
  * particle of the bond, dim components each [m]; centre, half_edge: centre of the cell and half of an edge [m];
@@ -59,9 +59,10 @@ bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
 /* Reduces the tensor `tensor` [J] of the material point `point` of p, by which bond-based bonds to peridynamic
- * particles reduce the stiffness of its cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C:
- * volume and elastic tensor of the point. A cell with a negative eigenvalue would be unstable with any time step. This
- * has an effect only if particles are not on a lattice or bonds are stiffer than the material. */
+ * particles reduce the stiffness of its cell, as far as needed for V C - `tensor` without negative eigenvalues. source:
+ * inputs of the bonds; V, C: volume and elastic tensor of the point. A cell with a negative eigenvalue would be
+ * unstable with any time step. This has an effect only if particles are not on a lattice or bonds are stiffer than the
+ * material. */
 void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
@@ -97,10 +98,10 @@ bool partial_table_covers_all_particles(const struct partial_table *t);
  * `particle` of p, because the particle has the volume of a lattice cell. source: inputs of the bonds. */
 bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *source, int64_t particle);
 
-/* Recomputes the strain responses that the table t stores for each bond of a material point: the derivative of the
- * force of the bond by a uniform strain, times the length of the bond (struct response). point_list[point_count]:
- * indices of the points whose bonds have changed, NULL for all material points; the responses of other points are kept.
- * source: inputs of the bonds b. Call before partial_table_sum_stiffness_tensor. */
+/* Recomputes the strain responses that the table t stores for each bond in b of a material point of p: the derivative
+ * of the force of the bond by a uniform strain, times the length of the bond (struct response).
+ * point_list[point_count]: indices of the points whose bonds have changed, NULL for all material points; the responses
+ * of other points are kept. source: inputs of the bonds b. Call before partial_table_sum_stiffness_tensor. */
 void partial_table_update_strain_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
                                            const struct bond_source *source, const int32_t *point_list,
                                            int64_t point_count);

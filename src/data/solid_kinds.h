@@ -5,9 +5,9 @@
 
 #include "data/solid.h"
 
-/* Functions of one kind of solid, which treat a single solid as described, without its copies. Each does for the single
- * solid what the function named beside it does for the solid with all copies. solid_types is indexed by enum
- * solid_kind. */
+/* Functions of one kind of solid, which treat a single solid as described, without its copies. Each member does for the
+ * single solid what the function named beside the member does for the solid with all copies. solid_types is indexed by
+ * enum solid_kind. */
 struct solid_type {
     real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_signed_distance */
     real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level_set_value; NULL: the distance */

@@ -55,9 +55,10 @@ void engine_warn_of_isolated_particles(const struct scene *s, const struct cells
  * corners box_low[dim] and box_high[dim] [m]. */
 bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin);
 
-/* Adds warnings to *warnings about pre-cracks that are outside of all bodies, cut no bond or cannot grow, and about
- * probes of cracks where no bond can break. cells: neighbour search over reference positions; longest_bond: length of
- * the longest bonds [m]; wave_speed: speed of the fastest wave in any material [m/s]. */
+/* Adds warnings to *warnings about pre-cracks of scene s that are outside of all bodies, cut no bond or cannot grow,
+ * and about probes of cracks where no bond can break. p, b, loads: particles, bonds and loads; cells: neighbour search
+ * over reference positions; longest_bond: length of the longest bonds [m]; wave_speed: speed of the fastest wave in any
+ * material [m/s]. */
 void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct cells *cells,
                            const struct bonds *b, const struct loads *loads, real longest_bond, real wave_speed,
                            struct warnings *warnings);
@@ -80,8 +81,8 @@ uint8_t *engine_find_prescribed_components(const struct loads *loads, const stru
 void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *loads,
                                    const struct run_clock *clock, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports whose prescribed speed is so high that bonds break between the particles
- * that they drive and the neighbours of these particles. */
+/* Adds warnings to *warnings about supports of scene s whose prescribed speed is so high that bonds break between the
+ * particles that the support drives and their neighbours. p, loads: particles and loads. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *warnings);
 
@@ -106,8 +107,9 @@ void engine_warn_of_supports_within_cells(const struct scene *s, const struct lo
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
                                       const struct surface_weights *weights, struct warnings *warnings);
 
-/* Computes the bounding box of the particles of body number `body_number` and of all bodies that are joined to it, and
- * stores its corners in box_low[dim] and box_high[dim] [m]. Returns true, or false if there are no such particles. */
+/* Computes the bounding box of those particles of p that are in body number `body_number` of scene s or in a body
+ * joined to this body, and stores the corners of the box in box_low[dim] and box_high[dim] [m]. Returns true, or false
+ * if there are no such particles. */
 bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
                                          real *box_low, real *box_high);
 
@@ -130,8 +132,8 @@ void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct p
 /* Adds a warning to *warnings about each pair of bodies of scene s that overlap at the start. p: particles. */
 void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds warnings to *warnings about planes of symmetry with a gap between them and the bodies, and about parts,
- * initial states or a pd.region that hold no particle. horizon: length of the longest bonds [m]. */
+/* Adds warnings to *warnings about planes of symmetry of scene s with a gap between plane and bodies, and about parts,
+ * initial states or a pd.region that contain no particle of p. horizon: length of the longest bonds [m]. */
 void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
                                               struct warnings *warnings);
 

@@ -5,8 +5,8 @@
 #include "engine/engine.h"
 #include "export/export.h"
 
-/* The particles of a scene or run, sorted by the number of their material in the scene file, then by id, for meshes of
- * other programs. In such a mesh they are nodes, and each load is a set of nodes. */
+/* The n particles of a scene or run e, sorted by the number of their material in the scene file, then by id, for meshes
+ * of other programs. In such a mesh they are nodes, and each load is a set of nodes. */
 struct export_mesh {
     struct scene scene;
     struct run *e;
@@ -27,8 +27,9 @@ struct set_name {
     char text[NAME_MAX_LENGTH];
 };
 
-/* Returns the name of the node set of load number load_number, from 0: the name of its boundary condition, or
- * nodelist_N with N = load_number + 1 if the boundary condition has no name or an earlier load has the same name. */
+/* Returns the name of the node set of load number `load_number` (from 0) in the mesh m: the name of its boundary
+ * condition, or nodelist_N with N = load_number + 1 if the boundary condition has no name or an earlier load has the
+ * same name. */
 struct set_name export_node_set_name_of_load(const struct export_mesh *m, int load_number);
 
 /* Returns a new array with the numbers of the particles on which load number load_number acts: positions in the list m,

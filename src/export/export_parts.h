@@ -38,7 +38,7 @@ bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */
 
-/* List of particles that LAMMPS would connect by bonds that the scene does not have. near: neighbours of list entry k
+/* List of n particles that LAMMPS would connect by bonds that the scene does not have. near: neighbours of list entry k
  * are near[first[k]] .. near[first[k + 1] - 1], as indices into the list; cut: 1 if the bond to this neighbour must be
  * cut. */
 struct touched {
@@ -76,7 +76,8 @@ struct lammps_column {
 };
 enum { LOADS_MOST = 28, COLUMNS_MOST = DIM_MAX * (LOADS_MOST + 1) }; /* LAMMPS has 32 groups */
 
-/* State of an export of a scene to LAMMPS: the scene, its run, and what the files of LAMMPS will contain. */
+/* State of an export of a scene to LAMMPS: the scene s, its run e, and what the files of LAMMPS will contain.
+ * bond_style: as in struct export_request; columns: length of `column`. */
 struct exported {
     const struct scene *s;
     struct run *e;
@@ -97,8 +98,8 @@ struct exported {
  * another weight. Release *touched with touched_particles_free. */
 status lammps_find_bonds_to_cut(struct touched *touched, struct exported *exported);
 
-/* Types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs of
- * particles whose bond must be cut. */
+/* The n types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs
+ * of particles whose bond must be cut. */
 struct lammps_types {
     int n;
     int32_t *of;             /* [particles] type, from 1 */
@@ -132,8 +133,8 @@ void lammps_initial_velocity(const struct exported *exported, int64_t particle, 
  * `fix property/atom`. */
 void lammps_write_column_names(FILE *file, const struct exported *exported);
 
-/* Writes one LAMMPS command `compute property/atom` for each per-particle column of the export to the file `file`.
- * Variables of the script read the columns through these commands. */
+/* Writes one LAMMPS command `compute property/atom` for each per-particle column of the export `exported` to the file
+ * `file`. Variables of the script read the columns through these commands. */
 void lammps_write_compute_commands(FILE *file, const struct exported *exported);
 
 /* Returns the value of the per-particle column number `column` of plate.data for the particle with the index `particle`
@@ -141,25 +142,26 @@ void lammps_write_compute_commands(FILE *file, const struct exported *exported);
  * if the load does not act on it. The force is per volume [N/m^3] for pair styles, else in [N]. */
 real lammps_column_value(const struct exported *exported, int column, int64_t particle);
 
-/* Writes the LAMMPS commands of all loads and supports to the file `file`. types: types of the particles. */
+/* Writes the LAMMPS commands of all loads and supports of the export `exported` to the file `file`. types: types of the
+ * particles. */
 void lammps_loads_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the contents of plate.data, the particles with their types, to the file `file` (export_data.c). types: types
- * of the particles. */
+/* Writes the contents of plate.data, the particles of the export `exported` with their types, to the file `file`
+ * (export_data.c). types: types of the particles. */
 void lammps_data_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
 
 /* Writes the contents of the input script in.lammps for the export `exported` to the file `file` (export_script.c).
  * types: types of the particles. */
 void lammps_script_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
 
-/* Writes the estimated duration of the run in LAMMPS and in Cleave, and which results of Cleave LAMMPS does not
- * compute, to the file `file` (export_cost.c). */
+/* Writes to the file `file` the estimated duration of the run of `exported` in LAMMPS and in Cleave, and which results
+ * of Cleave LAMMPS does not compute (export_cost.c). */
 void lammps_write_run_time_estimate(FILE *file, const struct exported *exported);
 
 /* Returns the number of time steps after which positions in LAMMPS and Cleave are compared: CHECK_STEPS, or all steps
- * of a shorter run. */
+ * of the run of `exported` if it is shorter. */
 int64_t lammps_reference_step_count(const struct exported *exported);
 
 /* Makes lammps_reference_step_count time steps of the run of `exported` in Cleave and writes the contents of check.csv

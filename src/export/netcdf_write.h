@@ -37,7 +37,8 @@ struct netcdf_attribute {
     real value;
 };
 
-/* A netCDF file that is being written: its definitions, and the state of writing. */
+/* A netCDF file that is being written to `to`: its dimensions, arrays and attributes (numbers, then lists), and the
+ * state of writing. records: number of records; header: buffer of the header. */
 struct netcdf_writer {
     FILE *to;
     int dimensions, arrays, attributes;

@@ -7,7 +7,7 @@
 /* Capacity of a field of a line [byte]; largest number of parameters of a keyword. */
 enum { FIELD = 96, PARAMETERS_MAX = 16 };
 
-/* A keyword line: its name and parameters, such as *ELSET, ELSET=grip, GENERATE. */
+/* A keyword line of an Abaqus file: its name and its parameters of[n], such as *ELSET, ELSET=grip, GENERATE. */
 struct abaqus_keyword {
     char name[FIELD]; /* in capitals, without blanks and star */
     int n;            /* length of `of` */

@@ -5,7 +5,8 @@
 #include "geometry/geometry.h"
 #include "source.h"
 
-/* Shape of an element, without its middle nodes. */
+/* Shape of an element, without its middle nodes: point, line, triangle, quadrilateral, and the four kinds of solid
+ * elements. */
 enum element_kind {
     ELEMENT_POINT,
     ELEMENT_LINE,

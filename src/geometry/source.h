@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* Content of a file in memory, and the reading position in it. */
+/* Content of the file `path` in memory, and the reading position in it. */
 struct source {
     const char *path;
     char *text; /* content, followed by a zero byte */
@@ -18,7 +18,7 @@ struct source {
 status source_read_whole_file(struct source *s, const char *path);
 
 /* Sets the message of a failure (status_set) to `path:line: text`, with the line of the reading position of s (`path:
- * text` for binary files) and a text composed as by printf. Returns REFUSED. */
+ * text` for binary files) and a text composed from `format` as by printf. Returns REFUSED. */
 status source_report_fault(const struct source *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Moves the reading position of s over white space to the beginning of the next word. Returns true, or false at the end
