@@ -68,7 +68,8 @@ status status_set(status s, const char *format, ...) __attribute__((format(print
  * same kind. */
 void status_add_line(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Returns the message of the last failure in this thread. */
+/* Returns the message of the last failure in this thread, "" if there was none. The text changes with the next
+ * failure. */
 const char *status_message(void);
 
 /* Capacity [bytes], with the final zero byte, of the text `file:line:column: key: ` at the beginning of a message about
@@ -98,8 +99,8 @@ _Noreturn void invariant_report_violation_and_abort(const char *condition, const
  * found the fault. cleanup: removes half-written files; NULL: no function. */
 void invariant_set_cleanup_callback(void (*cleanup)(void));
 
-/* Replaces every control character of a text from outside (names of files, columns, scenes) by `?`, so that a terminal
- * does not act on it. */
+/* Replaces every control character of `text`, a text from outside (names of files, columns, scenes), by `?` in place,
+ * so that a terminal does not act on it. */
 void text_replace_control_characters(char *text);
 
 /* Replaces every control character among the `length` bytes of `text` by `?`, zero bytes included;

@@ -14,9 +14,9 @@ enum cleanup_kind { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
  * or already has a handler is not handled. */
 void interrupt_cleanup_register(enum cleanup_kind kind, const char *file_to_remove, int child_process_id);
 
-/* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread if `block` is true, else unblocks them. Block them while a
- * temporary file or child process exists that has not yet been passed to interrupt_cleanup_register. A child process
- * inherits the block. */
+/* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread if `block` is true, else unblocks them. The signals are to be
+ * blocked while a temporary file or child process exists that has not yet been passed to interrupt_cleanup_register. A
+ * child process inherits the block. */
 void interrupt_signals_block(bool block);
 
 /* Prepares a child process, between fork and exec: puts it into a process group of its own, so that processes that it

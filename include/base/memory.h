@@ -50,7 +50,7 @@ void memory_free(void *pointer);
  * arrays whenever particles convert. */
 void memory_set_reuse_of_freed_arrays(bool reuse);
 
-/* Returns the largest resident size of the process so far, from the operating system [byte]. */
+/* Returns the largest resident size [byte] of the process so far, as the operating system reports it. */
 int64_t memory_peak_resident_size(void);
 
 /* The limit that leaves this process the least memory, from ulimit and control groups: bytes left (INT64_MAX: no limit)

@@ -23,7 +23,7 @@ struct memory_archive {
 void memory_archive_make(struct memory_archive *m, enum archive_scope scope);
 
 /* Switches the archive in memory m from saving to restoring and returns to its first entry. The state functions, called
- * in the same order with &m->archive, then restore what they saved. It may be called repeatedly. */
+ * in the same order with &m->archive, then restore what they saved. The function may be called repeatedly. */
 void memory_archive_rewind_for_loading(struct memory_archive *m);
 
 /* Frees all entries of the archive in memory m. Does nothing if m has no entries. */

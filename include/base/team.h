@@ -47,7 +47,7 @@ void core_share_bind_calling_thread(const struct core_shares *s, int share_numbe
 /* Releases the shares of cores s. */
 void core_shares_free(struct core_shares *s);
 
-/* Returns the wall clock [s]. */
+/* Returns the time of the wall clock [s], from an arbitrary origin, to measure durations. */
 double wall_clock_seconds(void);
 
 /* Returns the processor time [s] that the calling thread has used; time taken by other programs does not count. */

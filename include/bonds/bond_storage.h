@@ -96,17 +96,18 @@ struct state_image {
     int axis;
 };
 
-/* One reaction force that a particle receives from a bond to its image in a clamped plane. bond: index of the bond in
- * the arrays of struct clamped, from 0; sign: factor +1 or -1 on each component of the reaction. */
+/* One reaction force that a particle receives from a bond to its image in a clamped plane (a plane at which all motion
+ * is prevented). bond: index of the bond in the arrays of struct clamped, from 0; sign: factor +1 or -1 on each
+ * component of the reaction. */
 struct clamp_end {
     int32_t bond;
     int8_t sign[DIM_MAX];
 };
 
-/* Bonds from particles to their mirror images in clamped planes (images of images included). The displacement of such
- * an image is that of its source with reversed signs, while its reference position is reflected. The force on the image
- * therefore does not follow from symmetry, and its reaction is added to the source particle
- * (kernels/pd/clamp_force.c). */
+/* Bonds from particles to their mirror images in clamped planes (planes at which all motion is prevented), images of
+ * images included. The displacement of such an image is that of its source with reversed signs, while its reference
+ * position is reflected. The force on the image therefore does not follow from symmetry, and its reaction is added to
+ * the source particle (kernels/pd/clamp_force.c). */
 struct clamped {
     int64_t n;                /* number of bonds; arrays have LANES more entries, of weight 0 */
     int64_t *entry;           /* [n] entry of the bond in the bond arrays */

@@ -25,7 +25,7 @@ static inline void spring_bound_add_spring(struct spring_bound *bound, real stif
     bound->total += stiffness;
 }
 
-/* Returns an upper bound of the largest eigenvalue of the stiffness matrix of the springs added to `bound` [N/m], by
+/* Returns an upper bound [N/m] of the largest eigenvalue of the stiffness matrix of the springs added to `bound`, by
  * block-Gershgorin: the maximum row sum of the magnitudes in bound->block, which is the sum of K n n over springs of
  * stiffness K and direction n, plus bound->total, the sum of all K. */
 static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bound, int dim)
@@ -50,8 +50,8 @@ bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count
 int bonds_neighbour_count_bound(const struct bond_source *source);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
- * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; source: inputs
- * of the bonds. */
+ * V_j is the volume of neighbour j and beta the fraction of this volume within the horizon. volume[p->n_all]: receives
+ * the results [m^3]; source: inputs of the bonds. */
 void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *source);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`.
@@ -217,8 +217,9 @@ struct bond {
     real inverse_length, w;
 };
 
-/* Returns bond number `bond_number` of the particle in lane `lane` (0 to 7) of row block `row_block`, the bonds of
- * eight particles. If the lane has no such bond, the inverse_length returned is 0. Does not change b. */
+/* Returns bond number `bond_number` (from 0) of the particle in lane `lane` (0 to 7) of row block `row_block` (the
+ * bonds of eight particles) of b. If this particle has no such bond, the member inverse_length of the result is 0. Does
+ * not change b. */
 static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {
     const int64_t q = (b->column[row_block] + bond_number) * LANES + lane;
@@ -249,7 +250,8 @@ static inline struct bond_iterator bond_iterator_of_row(const struct bonds *b, i
     return (struct bond_iterator){{0}, b, row / LANES, 0, b->column_count[row / LANES], (int)(row % LANES)};
 }
 
-/* Advances the iterator to the next bond, which is then in it->bond. Returns false if there are no more bonds. */
+/* Advances the iterator `it` to the next bond, which is then in it->bond. Returns true, or false if there are no more
+ * bonds. */
 static inline bool bond_next(struct bond_iterator *it)
 {
     while (it->k < it->columns) {

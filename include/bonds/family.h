@@ -111,8 +111,8 @@ bond_softening_range_at_rate(const struct particles *p, const struct bond_limit 
         limit->curve, real_min(most, slow.onset * strength_rate_interpolate_table(r, r->onset, rate)), critical);
 }
 
-/* Plastic constants of bonds by pair of materials. stretch: yield stretch s_y [materials^2][1], NULL if no bond yields;
- * hardening: hardening modulus divided by elastic modulus, H_b/k_e [materials^2][1]. */
+/* Plastic constants of bonds by pair of materials, arrays of materials^2 entries. stretch: yield stretch s_y [1], NULL
+ * if no bond yields; hardening: hardening modulus divided by elastic modulus, H_b/k_e [1]. */
 struct bond_yield {
     const real *stretch, *hardening;
     int materials;
@@ -175,13 +175,14 @@ real family_micro_modulus(const struct family *f, const struct material *m);
 /* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete families has under uniform strain: C_abcd
  * = c V/2 sum w r e_a e_b e_c e_d over the bonds of a particle. f: family and rules of the weights; m: material; c:
  * micro-modulus; V: volume of a particle; r, e: length and direction of a bond; w: its weight, with partial volume and
- * weight by direction (family_bond_weight). The result is cubic, and its shear modulus equals c12. */
+ * weight by direction (family_bond_weight). The elasticity is cubic, with a shear modulus equal to c12. */
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
-/* Returns G/s_c^2 [N/m] of state-based peridynamics, with the work G per area that separates the two halves of a
- * lattice along a plane and the stretch s_c at which bonds break (separation.c). f: family of the lattice; modulus:
- * moduli of the material; particles_rotate: true for the model with particle rotations, false for the ordinary one;
- * intact_bonds_only: true if the weighted volume Q is summed over the unbroken bonds of a family, false over all. */
+/* Returns the ratio G/s_c^2 [N/m] of state-based peridynamics, by which the critical stretch s_c of bonds follows from
+ * the energy release rate G: the work per area that separates the two halves of a lattice along a plane (separation.c).
+ * f: family of the lattice; modulus: moduli of the material; particles_rotate: true for the model with particle
+ * rotations, false for the ordinary one; intact_bonds_only: true if the weighted volume Q is summed over the unbroken
+ * bonds of a family, false over all. */
 real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
                                                  bool particles_rotate, bool intact_bonds_only);
 

@@ -3,15 +3,15 @@
 
 #include "bonds/bonds.h"
 
-/* Row of lattice sites along the first axis, within the cutoff around a particle. site: index of its middle site less
- * the index of the particle's site; half: number of sites on each side of the middle one. */
+/* Row of lattice sites along the first axis, within the cutoff around a particle. site: index of the middle site of the
+ * row less the index of the particle's site; half: number of sites on each side of the middle site. */
 struct stencil_row {
     int64_t site;
     int half;
 };
 
-/* Map from the sites of a lattice to the particles and mirror images at them, by which neighbours are found without a
- * search (bonds_site_map.c). All arrays are owned. */
+/* Map from the sites of a lattice to the particles and mirror images at these sites, by which neighbours are found
+ * without a search (bonds_site_map.c). All arrays are owned. */
 struct site_map {
     int32_t *at;                /* [sites] particle + 1, 0: none; NULL: particles are not on a lattice */
     real low[DIM_MAX], spacing; /* position of the lowest site of the body; lattice spacing [m] */
@@ -33,7 +33,7 @@ int64_t site_map_lattice_site_of_particle(const struct site_map *map, const stru
  * site_map_free. */
 bool site_map_make_if_on_lattice(struct site_map *map, const struct bond_source *source, const struct particles *p);
 
-/* Releases the arrays of `map`. */
+/* Releases the arrays of `map`, a map from lattice sites to particles. */
 void site_map_free(struct site_map *map);
 
 /* Returns a map from lattice sites to particles for bonds that are rebuilt: `existing` with one more user or, if

@@ -5,7 +5,7 @@
 #include "bonds/family.h"
 #include "data/softening_states.h"
 
-/* Returns the work per area that separates two halves of an infinite lattice [J/m^2], by quadrature over the distance
+/* Returns the work per area [J/m^2] that separates two halves of an infinite lattice, by quadrature over the distance
  * between the halves (separation.c). Bonds soften as the curve `curve` describes from the stretch
  * softening_stretches.onset on and break at softening_stretches.end; the weighted volumes of families stay those
  * without softening. f: family of the lattice; modulus: moduli of the material; particles_rotate: true for the model

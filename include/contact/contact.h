@@ -27,8 +27,8 @@
 #include "scene/requests.h"
 
 /* Table by which contact of the form `surface` finds the face beside a particle: depth of the face below the particle
- * as a function of the density of the face's particles at this particle (contact_face.c). PROFILE_NODES: number of its
- * entries. */
+ * as a function of the density of the face's particles at this particle (contact_face.c). PROFILE_NODES: number of
+ * entries of the table. */
 enum { PROFILE_NODES = 86 };
 struct contact_profile {
     /* nodes of the table: density [1], depth [spacings], derivative of the depth by the density [spacings] */
@@ -103,8 +103,8 @@ struct contact_near {
 };
 
 /* A contact between n particles that acts as a linear spring of energy 1/2 stiffness gap^2. The gap is in m, but in
- * spacings for contact laws of the form `surface` (smooth faces). It changes at the rate sum_k along[k] . v[k], where
- * v[k] is the velocity of particle k. */
+ * spacings for contact laws of the form `surface` (smooth faces). The gap changes at the rate sum_k along[k] . v[k],
+ * where v[k] is the velocity of particle k. */
 struct contact_term {
     int n;
     int32_t *particle;      /* [n] images included */
@@ -194,14 +194,14 @@ void contact_request_search_if_at_surface(struct contact *c, const struct bonds 
                                           const int32_t *particle_list, int64_t particle_count);
 
 /* Marks the particles of p on which forces of the contact c may act as loaded in `loads`, and the bonds of these
- * particles in b as active, i.e. to be computed. Needed after a restart; in all other cases
- * contact_update_pair_list_if_outdated does it. */
+ * particles in b as active, i.e. to be computed. Needed after a restart only; contact_update_pair_list_if_outdated
+ * includes these marks. */
 void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
                                               struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
  * updates the largest overlap c->overlap. To be called after the forces of bonds and before those of loads. dt: time
- * for which particles have moved with p->v since the last call [s], by which friction springs are stretched. */
+ * [s] for which particles have moved with p->v since the last call, by which friction springs are stretched. */
 void contact_compute_forces(struct contact *c, struct particles *p, real dt);
 
 /* Allocates c->push, in which contact_compute_forces stores the contact force on each particle of p while c->recorded
@@ -268,8 +268,8 @@ void contact_visit_selected_as_springs(const struct contact *c, const struct par
 real contact_rigid_force_norm(const struct contact *c, const struct particles *p);
 
 /* Saves the list of pairs of c with contact distances, friction springs and energies to the archive `a` if a->saving,
- * else restores it. p: the particles. Returns FAILED, with a message, if the archive cannot be read or written, or if a
- * restored list has indices or counts that do not fit the particles. */
+ * else restores all of these. p: the particles. Returns FAILED, with a message, if the archive cannot be read or
+ * written, or if a restored list has indices or counts that do not fit the particles. */
 status contact_save_or_load(struct contact *c, const struct particles *p, struct archive *a);
 
 #endif

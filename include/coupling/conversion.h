@@ -51,7 +51,7 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
 void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_source *source,
                                          const struct region *region);
 
-/* Computes the region whose particles are peridynamic from step 0 on into *region: the region that the scene gives, and
+/* Computes into *region the region whose particles are peridynamic from step 0 on: the region that the scene gives, and
  * a ball round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller frees
  * region->solid; a region without solids is empty. p: particles; source: inputs of the bonds, with the pre-cracks;
  * scene_region: region of the scene, NULL: none; tip_radius: radius of the balls and cylinders [m]. */

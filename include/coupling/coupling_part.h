@@ -43,21 +43,21 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
                                               const struct bonds *b, const struct bond_source *source);
 
 /* Updates p->end_strain [1] of all material points that have state-based bonds to peridynamic particles, which
- * `partial` lists. It is the strain that the cell of the point adds to the mean strain of the point's family. It is
- * computed from the strain of the cell for points of the mesh of `frame`, and from the stress of the point, by the
- * elastic law of its material in material[], for points on the background grid. Does nothing in bond-based models. */
+ * `partial` lists. end_strain is the strain that the cell of a point adds to the mean strain of the family of the
+ * point. For points of the mesh of `frame` it follows from the strain of the cell; for points on the background grid
+ * from the stress of the point, by the elastic law of its material in material[]. Does nothing in bond-based models. */
 void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
                                  struct particles *p, const struct material *material);
 
 /* Decides whether each pre-crack of run e becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
- * length, and makes peridynamic the particles that are so from the start: those near the ends of slits, those with
- * bonds cut by a pre-crack, those beside narrow voids, and those in the region that the scene gives. Returns REFUSED,
- * with a message, if the scene requires slits where they are impossible. */
+ * length, and makes particles peridynamic that are so from the start: particles near the ends of slits, with bonds cut
+ * by a pre-crack, beside narrow voids, or in the region that the scene gives. Returns REFUSED, with a message, if the
+ * scene requires slits where they are impossible. */
 status precracks_apply_as_slits_or_cut_bonds(struct run *e);
 
-/* Writes in words how pre-crack number `crack_number` (from 0) is represented to text[capacity]: as a slit of the mesh,
- * with the size of the zones of bonds at its ends, or by cut bonds, with the reason. A longer text is truncated. n:
- * decisions on all pre-cracks; spacing: of the particles [m]. */
+/* Writes to text[capacity], in words, how pre-crack number `crack_number` (from 0) is represented: as a slit of the
+ * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. A longer text is truncated.
+ * n: decisions on all pre-cracks; spacing: of the particles [m]. */
 void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_number, real spacing, char *text,
                                          size_t capacity);
 

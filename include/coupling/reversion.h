@@ -4,7 +4,7 @@
 
 #include "conversion.h"
 
-/* Conditions under which peridynamic particles become material points again. */
+/* Conditions under which peridynamic particles become material points again. source: inputs of the bonds. */
 struct reversion_rule {
     const struct bond_source *source;
     const struct elastic *elastic; /* [materials] with the stress at which points convert */
@@ -16,9 +16,9 @@ struct reversion_rule {
 /* Selects the peridynamic particles of p that may become material points at time t [s], by their present stress (call
  * bonds_compute_particle_stress before). b: the bonds. Also updates p->low_since, the time since which the stress of
  * each particle is low. *selected receives the indices of the selected particles in ascending order, an array that the
- * caller frees. Returns their number. A particle is selected if three conditions hold. The particle is outside the
- * region rule->kept, and its stress and that of all peridynamic particles of its family have been low for
- * rule->hold_time. No bond of the particle or of a particle within two horizons was ever cut, by load or by a
+ * caller frees. Returns the number of selected particles. A particle is selected if three conditions hold. The particle
+ * is outside the region rule->kept, and its stress and that of all peridynamic particles of its family have been low
+ * for rule->hold_time. No bond of the particle or of a particle within two horizons was ever cut, by load or by a
  * pre-crack. The particle is inside a ball with the radius of one horizon that will contain material points only. By
  * the third condition the remaining peridynamic regions consist of full families, as after conversion, and regions that
  * revert are at least two horizons wide. */

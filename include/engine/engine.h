@@ -7,9 +7,9 @@
 #include "run/critical_step.h"
 #include "run/run.h"
 
-/* Creates the state of a run of the scene s before its first step: particles, cells, loads, bonds, grid, time step.
- * output: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns REFUSED
- * if the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
+/* Creates in *e the state of a run of the scene s before the first step: particles, cells, loads, bonds, grid, time
+ * step. output: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns
+ * REFUSED if the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
  * engine_free_run whatever is returned. */
 status engine_set_up_run(struct run *e, const struct scene *s, struct output *output);
 

@@ -87,8 +87,8 @@ void growing_crack_free(struct growing_crack *g);
  * adds the bonds that the tip crosses to g->fading, and reduces the weights of all bonds in this list, which become 0
  * as the crack grows on. b, p: bonds and particles; source: inputs of the bonds, with the neighbour search. control:
  * present stress-intensity factors, which turn the tip to the direction of the largest hoop stress and may set its
- * speed; NULL if they are not known. Returns the number of directed bonds (bond i-j counts twice) whose weight became
- * 0. */
+ * speed; NULL if the factors are not known. Returns the number of directed bonds (bond i-j counts twice) whose weight
+ * became 0. */
 int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,
                                                   const struct bond_source *source,
                                                   const struct growth_control *control, real t, real dt);

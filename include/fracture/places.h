@@ -15,7 +15,7 @@ struct place {
 
 /* Divides positions into groups and computes a representative position of one group. Two positions are in one group if
  * they can be connected by a chain of positions with steps of at most `max_step` [m]. position: array of
- * `position_count` entries, of which at most the first 16384 are examined; those with `beside` set only serve to
+ * `position_count` entries, of which at most the first 16384 are examined; entries with `beside` set only serve to
  * connect others. ignored_direction: unit vector with dim components, perpendicular to which steps are measured; zero:
  * steps are measured in all directions. The group used is that of the position with the largest x (of equal x the
  * largest y, then z). cluster_centre: receives the mean of the positions of this group, dim components [m]; if no

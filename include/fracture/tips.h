@@ -76,9 +76,9 @@ void tips_make_at_precrack_ends(struct crack_tips *t, const struct particles *p,
                                 const struct crack *precrack, int precrack_count, real spacing,
                                 real speed_averaging_time);
 
-/* Assigns particles whose damage exceeds TIP_DAMAGE since the last call to cracks, and updates position, growth and
- * speed of all tips in t. Where the damage is away from all cracks, a new tip starts. p: particles with their present
- * damage; c: neighbour search over the reference positions; time: present time [s]. */
+/* Assigns to cracks those particles whose damage has exceeded TIP_DAMAGE since the last call, and updates position,
+ * growth and speed of all tips in t. Where the damage is away from all cracks, a new tip starts. p: particles with
+ * their present damage; c: neighbour search over the reference positions; time: present time [s]. */
 void tips_update_from_damage(struct crack_tips *t, const struct particles *p, const struct cells *c, real time);
 
 /* Returns the angle [degree], 0 to 180, between the direction of the pre-crack and the straight line from the start of

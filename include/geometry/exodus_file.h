@@ -23,14 +23,14 @@ struct exodus_file {
     int64_t nodes, blocks, node_sets, side_sets, element_sets;
 };
 
-/* Opens an Exodus II file that has been read into memory. path: its name, for messages; content[length]: its contents,
- * which must outlive f. Returns REFUSED, with a message, if the contents are not those of an Exodus II file; then
- * nothing has to be closed. Close f with exodus_close. */
+/* Opens in f an Exodus II file that has been read into memory. path: name of the file, for messages; content[length]:
+ * contents of the file, which must outlive f. Returns REFUSED, with a message, if the contents are not those of an
+ * Exodus II file; then nothing has to be closed. Close f with exodus_close. */
 status exodus_open_from_memory(struct exodus_file *f, const char *path, const char *content, int64_t length);
 
-/* Reads the Exodus II file `path` into memory and opens it. The file is registered as an input of the command that is
- * running, so that it is not overwritten. Returns REFUSED, with a message, if the file cannot be read or is no Exodus
- * II file; then nothing has to be closed. Close f with exodus_close. */
+/* Reads the Exodus II file `path` into memory and opens it in f. The file is registered as an input of the command that
+ * is running, so that it is not overwritten. Returns REFUSED, with a message, if the file cannot be read or is no
+ * Exodus II file; then nothing has to be closed. Close f with exodus_close. */
 status exodus_open_from_path(struct exodus_file *f, const char *path);
 
 /* Closes the Exodus II file f and releases the memory that f owns; content passed to exodus_open_from_memory stays with
