@@ -32,8 +32,9 @@ void active_set_make_with_all_blocks_active(struct active_set *r, int64_t block_
 /* Releases all arrays of the active set r. */
 void active_set_free(struct active_set *r);
 
-/* Rebuilds r->list, the ascending list of the blocks (eight particles or nodes) that computations visit, i.e. those
- * with an activity level above 0, and sets r->active to their number. Call it after r->level has changed. */
+/* Rebuilds r->list, the ascending list of the blocks (eight particles or nodes) that computations visit, i.e. blocks
+ * with an activity level above 0, and sets r->active to the number of these blocks. To be called after r->level has
+ * changed. */
 void active_set_rebuild_active_block_list(struct active_set *r);
 
 /* Saves the activity levels of the blocks (groups of eight particles or nodes) of r to the archive `a` under the name

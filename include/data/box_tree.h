@@ -9,8 +9,8 @@ struct bounds {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
-/* A binary search tree over n boxes. node[0] contains all of them; the boxes of a node are divided between node[left]
- * and node[left + 1]. A node with left = 0 is a leaf, with the single box number `item`. */
+/* A binary search tree over n boxes. node[0] contains all boxes; the boxes of a node are divided between node[left] and
+ * node[left + 1]. A node with left = 0 is a leaf, with the single box number `item`. */
 struct box_tree {
     int n;
     struct box_node {
@@ -41,12 +41,12 @@ struct box_search {
 };
 
 /* Starts a search for the boxes of the tree `tree` near `point` (dim components [m]); box_search_find_next_box_within
- * then returns them one by one. `tree` and `point` are kept by reference. */
+ * then returns these boxes one by one. `tree` and `point` are kept by reference. */
 void box_search_start(struct box_search *search, const struct box_tree *tree, const real *point, int dim);
 
-/* Returns the number of another box that is at most `max_distance` [m] away from the point of `search`, or -1 if there
- * are no more. The distance of a box is the largest of the distances along the coordinate axes, negative inside the
- * box. The caller may reduce `max_distance` between calls. */
+/* Returns the number (from 0) of another box that is at most `max_distance` [m] away from the point of `search`, or -1
+ * if there are no more boxes. The distance of a box is the largest of the distances along the coordinate axes, negative
+ * inside the box. The caller may reduce `max_distance` between calls. */
 int box_search_find_next_box_within(struct box_search *search, real max_distance);
 
 #endif

@@ -19,16 +19,16 @@ struct derived_field {
 enum { DERIVED_FIELDS = 5 };
 extern const struct derived_field derived_fields[DERIVED_FIELDS];
 
-/* Returns the entry of derived_fields with the given name, or NULL if there is none. */
+/* Returns the entry of the table derived_fields with the name `name`, or NULL if there is none. */
 const struct derived_field *derived_field_find_by_name(const char *name);
 
 /* Computes the eigenvalues value[3] of the symmetric tensor tensor[6] (xx, yy, zz, xy, yz, xz) in descending order, and
  * the unit eigenvectors: direction[3 k .. 3 k + 2] belongs to value[k]. The largest component of the first two vectors
- * is positive, the third completes a right-handed system. direction: NULL: only eigenvalues are computed. */
+ * is positive, the third completes a right-handed system. If `direction` is NULL, only eigenvalues are computed. */
 void tensor_compute_principal_values(const real tensor[6], real value[3], real direction[9]);
 
-/* Returns the equivalent stress of von Mises, sqrt(3/2 s : s) with the deviator s, of a stress tensor with components
- * xx, yy, zz, xy, yz, xz; unit as `tensor`. */
+/* Returns the equivalent stress of von Mises, sqrt(3/2 s : s) with the deviator s, of the stress tensor tensor[6] (xx,
+ * yy, zz, xy, yz, xz), in the unit of `tensor`. */
 real tensor_mises_stress(const real tensor[6]);
 
 /* Returns the determinant of the symmetric tensor with the components tensor[6]: xx, yy, zz, xy, yz, xz. */

@@ -68,7 +68,7 @@ void expression_make(struct expression *e, const struct expression_step *steps, 
  * expression_free. */
 void expression_make_constant(struct expression *e, real value, const char *text);
 
-/* Releases the steps and the text of e. */
+/* Releases the steps and the text of the expression e. */
 void expression_free(struct expression *e);
 
 /* Returns the value (SI units) of the expression e at the position X (dim components [m]) and the time t [s]. X may be

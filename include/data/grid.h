@@ -13,9 +13,9 @@ struct dashpot {
     real impulse[DIM_MAX]; /* impulse on the body in this step [N s] */
 };
 
-/* Effect of all dashpots in a step. energy: energy that they dissipate [J]; kick: a quarter of the sum of impulse times
- * change of velocity, which the correction of the kinetic energy of samples leaves out [J]; impulse: of the dashpots on
- * the body [N s]. */
+/* Effect of all dashpots in a step. energy: energy that the dashpots dissipate [J]; kick: a quarter of the sum of
+ * impulse times change of velocity, which the correction of the kinetic energy of samples leaves out [J]; impulse:
+ * impulse of the dashpots on the body [N s]. */
 struct absorbed {
     real energy, kick, impulse[DIM_MAX];
 };
@@ -100,8 +100,8 @@ void grid_free(struct grid *g);
  * step. */
 void grid_add_prescribed_velocity(struct grid *g, const struct wall *prescribed_velocity);
 
-/* Appends a copy of `mirror_node`, a node beyond a plane of symmetry that moves as the image of another one, to the
- * list of g. */
+/* Appends a copy of `mirror_node`, a node beyond a plane of symmetry that moves as the image of another node, to the
+ * list g->mirror_node. */
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
 
 /* Appends a copy of `dashpot`, the dashpots of one node on an absorbing face, to the list g->dashpot of this step. */
@@ -156,7 +156,7 @@ static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, 
     return k - (place < (real)k);
 }
 
-/* Returns the coordinate [m] along axis `axis` of one of the 2^dim particles of cell number `cell` of g, which are at a
+/* Returns the coordinate [m] along axis `axis` of one of the 2^dim particles that cell number `cell` of g contains at a
  * quarter and three quarters of each edge. corner: number of the corner of the cell that is nearest to the particle;
  * bit d of it is set if the corner is on the upper side along axis d. */
 static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t cell, int corner, int axis)
@@ -180,8 +180,8 @@ static inline int64_t grid_cell_index_in_other_grid(const struct grid *from_grid
 }
 
 /* Sets the box of g (first, count, n, stride) to the nodes of all cells that contain positions between the corners
- * `lower` and `upper` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns false if the box
- * would have more than `max_nodes` nodes. */
+ * `lower` and `upper` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns true, or false,
+ * with an undefined box, if the box would have more than `max_nodes` nodes. */
 bool grid_set_box_if_not_too_large(struct grid *g, const real *lower, const real *upper, int64_t max_nodes);
 
 #endif

@@ -9,8 +9,8 @@
 
 #include "base/base.h"
 
-/* Node of the search tree over the faces of a surface, with the faces first .. first + count - 1. They are divided
- * between the child nodes number `left` and left + 1; left = 0 for a leaf, which has no child nodes. */
+/* Node of the search tree over the faces of a surface, with the faces first .. first + count - 1. These faces are
+ * divided between the child nodes number `left` and left + 1; left = 0 for a leaf, which has no child nodes. */
 struct hull_node {
     real low[DIM_MAX], high[DIM_MAX]; /* box round its faces [m] */
     real centre[DIM_MAX];             /* centroid of its faces, weighted by area [m] */
@@ -66,12 +66,12 @@ real hull_winding_number(const struct hull *s, const real *X);
  * surface has no inside). normal: NULL, or receives the unit vector that points away from the surface, outwards. */
 real hull_signed_distance(const struct hull *s, const real *X, real *normal);
 
-/* Returns true if the signed distance of the point X (s->dim components [m]) from the surface, negative inside, is at
+/* Returns true if the signed distance of the point X (s->dim components [m]) from the surface s, negative inside, is at
  * most `max_distance` [m]. This function is faster than hull_signed_distance, because faces farther away are not
  * examined. */
 bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance);
 
-/* Returns true if the closed surface is convex near the point X (s->dim components [m]): no face at most `reach` [m]
+/* Returns true if the closed surface s is convex near the point X (s->dim components [m]): no face at most `reach` [m]
  * away is in front of another such face. A straight line from X, if X is inside, to another inside point at most
  * `reach` away is then completely inside. Returns false for an open surface or one with holes, and where more than 100
  * faces are that near. */
@@ -95,8 +95,8 @@ struct hull_samples {
  * (connected parts) neither overlap nor are inside each other. */
 struct hull_samples hull_sample_winding_numbers(const struct hull *s);
 
-/* Builds s->node, the search tree over the faces of the surface, and sorts s->face so that the faces of each tree node
- * are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */
+/* Builds s->node, the search tree over the faces of the surface s, and sorts s->face so that the faces of each tree
+ * node are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */
 void hull_build_face_search_tree(struct hull *s);
 
 /* Computes area_vector, the area vector of face number `face` of s: outward normal times area [m^2]; in 2D, where a

@@ -16,8 +16,8 @@
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
 
 /* Returns the length [m] by which the region r must be enlarged to contain the point X (dim components [m]): negative
- * inside the region, 0 on its surface, positive outside. It is the least tolerance at which region_contains returns
- * true. */
+ * inside the region, 0 on its surface, positive outside. The result is the least tolerance at which region_contains
+ * returns true. */
 real region_level_set_value(const struct region *r, const real *X, int dim);
 
 /* Computes the corners `lower` and `upper` [m] of a box that contains the region r. The box may be too large, because
@@ -73,7 +73,7 @@ struct time_function {
     real *t, *value; /* [s], [1] */
 };
 
-/* Returns the value of the time function f at time t [s], a dimensionless factor. */
+/* Returns the value of the time function f, a dimensionless factor, at the time t [s]. */
 real time_function_value(const struct time_function *f, real t);
 
 /* Returns the integral [s] of the time function f, a dimensionless factor, over the time from 0 to t >= 0 [s]. */
@@ -94,7 +94,8 @@ struct crack {
 
 /* Returns true if the crack c cuts the bond between the reference positions `position` and `other_position` (dim
  * components each [m]). Exchanging the two positions never changes the result. A particle closer to the crack's plane
- * than 1e-9 crack lengths counts as on its positive side; a bond that passes exactly through the crack's end is cut. */
+ * than 1e-9 crack lengths counts as on the positive side of the plane; a bond that passes exactly through the crack's
+ * end is cut. */
 bool crack_cuts_bond(const struct crack *c, const real *position, const real *other_position, int dim);
 
 /* Tests quickly whether a particle at X (dim components [m]) is so far from the crack c that it can be skipped. Returns
@@ -142,7 +143,7 @@ real segment_distance_from_point(const real *segment_start, const real *segment_
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* A plane wave in the initial state of a body. At t = 0 the particle velocity is velocity exp(-(xi/r)^2) along
+/* A plane wave in the initial state of a body. At t = 0 the particle velocity is `velocity` exp(-(xi/r)^2) along
  * `polarisation`, with xi = (X - at) . direction and r a quarter of the width. The wave travels along `direction` into
  * material at rest and leaves displaced material behind. It is longitudinal if the polarisation is along `direction`,
  * transverse if across. */

@@ -33,9 +33,9 @@ struct softening_curve {
 
 /* Softening of the bonds between two materials. onset: stretch s_0 [1] at which softening begins, INFINITY for brittle
  * bonds; strength_scatters: true if the random strength factor of a bond multiplies s_0 alone, false if the factor
- * multiplies the critical stretch, too; surface: true if a strength surface starts the softening, the factor (with
- * strength_scatters) then multiplies the strength of the particle instead of s_0; rate: how s_0 increases with the
- * strain rate, NULL if it does not. */
+ * multiplies the critical stretch, too; surface: true if a strength surface starts the softening; with
+ * strength_scatters the factor then multiplies the strength of the particle instead of s_0; rate: how s_0 increases
+ * with the strain rate, NULL if it does not. */
 struct softening_pair {
     real onset;
     bool strength_scatters, surface;
@@ -47,9 +47,9 @@ struct softening_range {
     real onset, end;
 };
 
-/* Peak stresses of a material whose bonds soften, divided by s_0 E' [1]: under uniaxial tension, equal biaxial tension,
- * and pure shear. s_0: stretch at which bonds begin to soften; E': E, in plane strain E/(1 - nu^2). NAN where the space
- * has no such stress; shear is computed in the plane only. */
+/* Peak stresses of a material whose bonds soften, divided by s_0 E' (dimensionless): under uniaxial tension, equal
+ * biaxial tension, and pure shear. s_0: stretch at which bonds begin to soften; E': E, in plane strain E/(1 - nu^2).
+ * NAN where the space has no such stress; shear is computed in the plane only. */
 struct softening_strength {
     real tension, biaxial, shear;
 };
@@ -58,17 +58,17 @@ struct softening_strength {
  * begins. x grows in proportion to the stretch, from 0 where softening begins to 1 where the bond breaks. */
 struct softening_curve softening_curve_of_law(enum softening law);
 
-/* Returns the stretch s_f [1] at which a softening bond breaks, such that it dissipates the same energy as a brittle
- * bond of critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at most
- * `critical` [1]. */
+/* Returns the stretch s_f [1] at which a softening bond breaks, such that the bond dissipates the same energy as a
+ * brittle bond of critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at
+ * most `critical` [1]. */
 static inline real softening_end_stretch(const struct softening_curve *c, real onset, real critical)
 {
     return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
 }
 
-/* Returns the stretches [1] at which a bond begins to soften and breaks, such that it dissipates the same energy as a
- * brittle bond of critical stretch `critical` [1]. c: softening curve; onset: stretch at which it begins to soften [1];
- * if `onset` is not below `critical`, the bond is brittle and both stretches are `critical`. */
+/* Returns the stretches [1] at which a bond begins to soften and breaks, such that the bond dissipates the same energy
+ * as a brittle bond of critical stretch `critical` [1]. c: softening curve; onset: stretch at which the bond begins to
+ * soften [1]; if `onset` is not below `critical`, the bond is brittle and both stretches are `critical`. */
 static inline struct softening_range softening_range_from_onset(const struct softening_curve *c, real onset,
                                                                 real critical)
 {

@@ -119,8 +119,8 @@ real solid_signed_distance(const struct solid *s, const real *X, int dim, real *
 real solid_level_set_value(const struct solid *s, const real *X, int dim);
 
 /* Returns true if the level of the solid s at the point X (dim components [m]) is at most `max_distance` [m]. The level
- * is negative inside the solid, 0 on its surface and positive outside (solid_level_set_value). It is faster than
- * computing the level. */
+ * is negative inside the solid, 0 on its surface and positive outside (solid_level_set_value). This function is faster
+ * than computing the level. */
 bool solid_level_set_is_at_most(const struct solid *s, const real *X, int dim, real max_distance);
 
 /* Computes into *box a box, slightly enlarged, that contains the solid s with all its copies, as box_tree_make needs
@@ -141,8 +141,8 @@ real solid_radius_if_round(const struct solid *s, int dim);
 real solid_least_thickness(const struct solid *s, int dim);
 
 /* Applies the motion `motion` to all present copies of the solid s: moves, rotates or reflects them, or multiplies them
- * on a grid or a ring. Appends `motion` to s->motion. Returns false, without any change, if there would be more than
- * IMAGES_MOST copies. */
+ * on a grid or a ring. Appends `motion` to s->motion. dim: dimension of the body. Returns true, or false without any
+ * change if there would be more than IMAGES_MOST copies. */
 bool solid_apply_motion_if_not_too_many_copies(struct solid *s, const struct solid_motion *motion, int dim);
 
 /* Returns an upper bound [m] of the distance, along any axis, between the bounding box of a solid and a point at which

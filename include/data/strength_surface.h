@@ -42,8 +42,8 @@ static inline real strength_surface_stress_ratio(const struct strength_surface *
 
 /* Returns the ratio U = (sqrt(J2) + g1 I1)/g0 of a stress to the stress on the strength surface s that has the same
  * direction: 1 on the surface, below 1 inside. stress: components xx yy xy in 2D, xx yy zz xy yz zx in 3D [Pa]; across:
- * in 2D, the stress normal to the plane divided by the sum of the two normal stresses in the plane [1]: Poisson's ratio
- * in plane strain, 0 in plane stress. */
+ * in 2D, the ratio [1] of the stress normal to the plane to the sum of the two normal stresses in the plane: Poisson's
+ * ratio in plane strain, 0 in plane stress. */
 static inline real strength_surface_stress_ratio_of_tensor(const struct strength_surface *s, const real *stress,
                                                            real across, const int dim)
 {

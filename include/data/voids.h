@@ -34,7 +34,7 @@ bool region_has_voxel_image(const struct region *r);
 bool region_may_have_voids(const struct region *r);
 
 /* Computes v->near, which marks the particles of p that a void (a slot, a slit or a gap of the shape) separates from
- * others, by testing all pairs of particles at most `max_distance` apart [m]. The other members of v must be set
+ * others, by testing all pairs of particles at most `max_distance` [m] apart. The other members of v must be set
  * before. cells: search over reference positions; images: sources of the mirror images. Release with voids_free. */
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
                                     const struct image *images, real max_distance);
@@ -53,7 +53,7 @@ bool void_separates_particles(const struct voids *v, const struct particles *p, 
                               int64_t other_particle);
 
 /* Returns a lower bound [m] of the distance of the particle with index `particle` of p from the surface of the shape of
- * its body, inside which it is. v: shapes of the bodies. */
+ * its body; the particle must be inside this shape. v: shapes of the bodies. */
 real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle);
 
 /* Returns true if a void (a slot, a slit or a gap of the shape) separates particle i from at least one particle of its
