@@ -260,8 +260,8 @@ typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p,
 
 /* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
  * (x_I - x_p)) of the points of p to the nodes x_I of g, with the spin w of the point's group in transfer->turn [1/s],
- * to second order in w dt (mpm/turn.h). If points are mapped ahead of their positions (g->ahead), adds their mass, too.
- * 2D and 3D. */
+ * to second order in w dt (mpm/turn.h). If weights are computed ahead of the actual positions (g->ahead), adds their
+ * mass, too. 2D and 3D. */
 typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Moves the points of p with the nodal velocities of g, x_p += dt sum N v, and updates their stress, volume, stretch,

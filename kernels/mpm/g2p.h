@@ -106,8 +106,9 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
 }
 
 /* Returns in each lane -1 if its point moves with the nodal velocities that the second map has computed (remap.h), else
- * 1. Points with bonds do so. All points do if t->momentum_only or t->second_map is set, or if weights are those of
- * positions ahead (g->ahead), where nodes may have no other velocity. point: numbers of the points. */
+ * 1. Points with bonds do so. All points do if t->momentum_only or t->second_map is set, or if weights are computed at
+ * positions ahead of the actual ones (g->ahead), where nodes may have no other velocity. point: numbers of the
+ * points. */
 static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid *g, const struct transfer_data *t,
                                                                const int32_t *point, const int dim)
 {
@@ -280,7 +281,7 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
 }
 
 /* Updates position, stress, volume, stretch and rotation of n points of p (n <= AT_ONCE) of cell c of grid g by their
- * motion m. t: inputs of the transfer; shape: shape function. On return m->velocity holds displacements [m]. due:
+ * motion m. t: inputs of the transfer; shape: shape function. On return m->velocity contains displacements [m]. due:
  * receives the points of materials that yield, for the return mapping. Returns the number of points that have left the
  * cell. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,

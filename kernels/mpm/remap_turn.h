@@ -116,7 +116,7 @@ MAP_VARIANTS_TURNING(GATHER)
 /* ---- points to nodes --------------------------------------------------------------------------------------------- */
 
 /* Sums over the points of a cell for every node that they reach, [quantity][row of nodes]: dim components of momentum
- * [kg m/s], then mass [kg], which is summed only if points are mapped ahead of their positions (g->ahead). */
+ * [kg m/s], then mass [kg], which is summed only if weights are computed ahead of the actual positions (g->ahead). */
 typedef row_of_nodes turn_rows[DIM_MAX + 1][ROWS_MAX];
 
 /* Adds the momentum m N (v + L (x_I - x_p)), with `massive` also the mass m N, of point `at` of stencil s (weights of a
@@ -150,7 +150,7 @@ static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g
 }
 
 /* Adds the momentum of the points list[n] of one cell to the nodes of the grid g, with their velocity extrapolated to
- * each node (turn_scatter_point); also their mass if points are mapped ahead of their positions (g->ahead). p:
+ * each node (turn_scatter_point); also their mass if weights are computed ahead of the actual positions (g->ahead). p:
  * particles; t: inputs of the transfer; shape: shape function. */
 static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,

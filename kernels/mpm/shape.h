@@ -292,8 +292,8 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
     if (SKIPS(dim, shape) && d > 0) stencil_find_touched_rows(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
 }
 
-/* Returns true if the weights of points on grid g are those at positions ahead of the actual ones (g->ahead is not 0),
- * as in flight. */
+/* Returns true if the weights of points on grid g are computed at positions ahead of the actual ones, by half a step of
+ * common flight (g->ahead is not 0). */
 static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
 {
     bool ahead = false;

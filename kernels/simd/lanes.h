@@ -21,13 +21,13 @@ typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))))
 typedef uint64_t lanes_bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
 typedef int16_t lanes_units __attribute__((vector_size(LANES * sizeof(int16_t)), may_alias));
 
-/* Returns the eight numbers from address `from` on, which need not be aligned. */
+/* Returns the eight numbers from[0] .. from[7]; `from` need not be aligned. */
 static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (const lanes_anywhere *)from; }
 
-/* Stores the eight entries of a from address `to` on, which need not be aligned. */
+/* Stores the eight entries of a in to[0] .. to[7]; `to` need not be aligned. */
 static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
 
-/* Returns the eight floats from address `from` on, which need not be aligned. */
+/* Returns the eight floats from[0] .. from[7] as doubles; `from` need not be aligned. */
 static ALWAYS_INLINE lanes lanes_load_floats(const float *from)
 {
 #ifdef __AVX512F__
@@ -37,7 +37,7 @@ static ALWAYS_INLINE lanes lanes_load_floats(const float *from)
 #endif
 }
 
-/* Stores the eight entries of a, rounded to floats, from address `to` on, which need not be aligned. */
+/* Stores the eight entries of a, rounded to floats, in to[0] .. to[7]; `to` need not be aligned. */
 static ALWAYS_INLINE void lanes_store_floats(float *to, lanes a)
 {
     *(lanes_floats *)to = __builtin_convertvector(a, lanes_floats);
@@ -87,7 +87,7 @@ static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
 /* Returns the mask of the lanes in which the sign bit of a is set. */
 static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask) - ((lanes_bits)a >> 63); }
 
-/* Returns the mask of lanes where a < b. */
+/* Returns the mask of the lanes in which a < b. */
 static ALWAYS_INLINE lanes_mask lanes_less(lanes a, lanes b)
 {
 #ifdef __AVX512F__
