@@ -27,7 +27,8 @@ void crash_message_set_file_in_use(const char *path)
     memcpy(reading, shown.text, sizeof reading);
 }
 
-/* Writes a text to standard error. It may be called in a signal handler. */
+/* Writes the text `text` to standard error without buffering, until it is complete or a write fails. Safe in a signal
+ * handler. */
 static void say(const char *text)
 {
     for (size_t done = 0, length = strlen(text); done < length;) {
@@ -37,14 +38,16 @@ static void say(const char *text)
     }
 }
 
-/* Writes a text to standard error and ends the process with the status FAILED. */
+/* Writes the text `text` to standard error and ends the process at once with the exit status FAILED. Safe in a signal
+ * handler. */
 static _Noreturn void say_and_leave(const char *text)
 {
     say(text);
     _exit(FAILED);
 }
 
-/* Reports the file that HDF5 reads as damaged, and ends the process with the status FAILED. */
+/* Reports on standard error that the file being read by HDF5 (`reading`) is damaged, and ends the process with the exit
+ * status FAILED. */
 static _Noreturn void say_damaged_and_leave(void)
 {
     say("cannot read ");
@@ -52,7 +55,8 @@ static _Noreturn void say_damaged_and_leave(void)
     say_and_leave(": the HDF5 library crashed while reading it; it is damaged, or not what it seems\n");
 }
 
-/* Returns true if less than 256 MiB of memory are left, so that an allocation of a library may have failed. */
+/* Returns true if 256 MiB of memory cannot be reserved any more, so that an allocation of a library has probably
+ * failed. */
 static bool memory_is_tight(void)
 {
     enum { PLENTY = 256 << 20 };
@@ -62,7 +66,7 @@ static bool memory_is_tight(void)
     return false;
 }
 
-/* Returns true if the stack limit of the process is below 1 MiB. */
+/* Returns true if the stack limit of the process is below 1 MiB, so that the crash probably is a stack overflow. */
 static bool stack_is_tight(void)
 {
     enum { ENOUGH = 1 << 20 };
@@ -70,7 +74,9 @@ static bool stack_is_tight(void)
     return getrlimit(RLIMIT_STACK, &l) == 0 && l.rlim_cur < ENOUGH;
 }
 
-/* Handles the signal `number` of a crash: reports the likely cause and ends the process, or lets the signal end it. */
+/* Handles the signal of a crash with the number `number` (SIGSEGV or SIGBUS): reports the likely cause (stack too
+ * small, memory exhausted, damaged file) and ends the process. If there is no likely cause, returns with the default
+ * handler installed, so that the fault recurs and ends the process by the signal. */
 static void on_crash(int number)
 {
     if (stack_is_tight()) say_and_leave(out_of_stack);
@@ -79,8 +85,8 @@ static void on_crash(int number)
     signal(number, SIG_DFL); /* the fault recurs, and ends the process as usual */
 }
 
-/* Exit handler: reports exhausted memory if a library has called exit(-1), as HDF5 does. The program itself ends by
- * _exit, which calls no handlers. result: exit status. */
+/* Exit handler, registered with on_exit: reports that memory is exhausted if a library has called exit(-1), as HDF5
+ * does then. The program itself ends by _exit, which calls no handlers. result: exit status of the process. */
 #ifdef __GLIBC__
 static void on_library_exit(int result, void *unused)
 {

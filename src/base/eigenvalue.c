@@ -17,8 +17,9 @@ struct lanczos {
     real *v, *before, *w;
 };
 
-/* Adds v . w to sum[0] and w . w to sum[1], over the entries first .. end - 1 of the Lanczos vectors, for
- * reproducible_sums. context: a struct lanczos. */
+/* Adds the scalar products v . w to sum[0] and w . w to sum[1], over the entries first .. end - 1 of two Lanczos
+ * vectors. context: the vectors (struct lanczos: v is the present one, w the one under construction). reproducible_sums
+ * calls it for each block of entries. */
 static void overlap_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct lanczos *l = context;
@@ -28,7 +29,8 @@ static void overlap_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* Sets v, the first Lanczos vector, to a fixed pseudo-random unit vector, and the previous one to 0. */
+/* Starts the Lanczos iteration: sets l->v, the present vector, to a fixed pseudo-random unit vector, and l->before, the
+ * previous vector, to 0. Overwrites l->w. */
 static void eigenvalue_start(struct lanczos *l)
 {
     uint64_t seed = 1;
@@ -42,9 +44,10 @@ static void eigenvalue_start(struct lanczos *l)
     for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
 }
 
-/* Computes the next Lanczos vector w = A v - (v . A v) v - last u of the symmetric matrix A, where v is the current
- * vector and u = l->before the previous one. apply(context, v, w): computes w = A v; last: length of w in the previous
- * iteration. Stores v . A v in *diagonal. Returns the length of w. */
+/* Computes the next Lanczos vector of the symmetric matrix A, not normalised: w = A v - (v . A v) v - last u, where v =
+ * l->v is the present vector and u = l->before the previous one. Stores w in l->w and v . A v, a diagonal element of
+ * the tridiagonal matrix, in *diagonal. apply(context, v, w): computes w = A v; last: length of the vector w of the
+ * previous iteration. Returns the length of w. */
 static real next(struct lanczos *l, matrix_product_fn *apply, void *context, real last, real *diagonal)
 {
     real sum[2];
@@ -57,8 +60,8 @@ static real next(struct lanczos *l, matrix_product_fn *apply, void *context, rea
     return sqrt(sum[1]);
 }
 
-/* Prepares the next iteration of the Lanczos method: makes v the previous vector and w/size the current one. size:
- * length of w. */
+/* Prepares the next Lanczos iteration: the present vector l->v becomes the previous one, and l->w, divided by its
+ * length `size`, becomes the present one. */
 static void eigenvalue_turn(struct lanczos *l, real size)
 {
     real *spare = l->before;
@@ -67,8 +70,9 @@ static void eigenvalue_turn(struct lanczos *l, real size)
     for (int64_t k = 0; k < l->n; k++) l->v[k] /= size;
 }
 
-/* Returns true if x is larger than all eigenvalues of a symmetric tridiagonal n x n matrix, determined from its Sturm
- * sequence. a[n]: diagonal; b[n - 1]: secondary diagonal, where b[k] couples rows k and k + 1. */
+/* Returns true if x is larger than all eigenvalues of a symmetric tridiagonal matrix with n rows, i.e. if all pivots of
+ * x 1 - matrix (its Sturm sequence) are positive. a[n]: diagonal; b[n - 1]: secondary diagonal, where b[k] couples rows
+ * k and k + 1. */
 static bool above_all(const real *a, const real *b, int n, real x)
 {
     real pivot = x - a[0];

@@ -37,8 +37,9 @@ static bool identity_is_known(const struct identity *one)
     return known;
 }
 
-/* Adds a file, by its status s, to the list of inputs, unless it is there. If memory is exhausted, the file is not
- * registered; the next allocation ends the program. */
+/* Adds a file to the list of input files of this process, which must not be overwritten, unless it is in the list. s:
+ * status of the file from stat. If memory is exhausted, the file is not added; the next allocation elsewhere ends the
+ * program. */
 static void input_add(const struct stat *s)
 {
     const struct identity one = identity_of(s);
@@ -67,16 +68,17 @@ bool input_file_was_read(const char *path)
     return identity_is_known(&one);
 }
 
-/* Returns true if `path` is the name of an open descriptor of this process. A pipe behind it is open already, so that
- * opening it does not wait. */
+/* Returns true if `path` is the name of an open file descriptor of this process, such as /dev/stdin or /dev/fd/3. A
+ * pipe with such a name is open already, so that opening it does not wait for a writer. */
 static bool is_descriptor(const char *path)
 {
     return strcmp(path, "/dev/stdin") == 0 || strncmp(path, "/dev/fd/", 8) == 0 ||
            strncmp(path, "/proc/self/fd/", 14) == 0;
 }
 
-/* Returns the reason why a file cannot be read as an input, as text for a message; NULL if it can. fd: the open file,
- * -1 if it could not be opened; path: its name. *s: receives its status. */
+/* Returns the reason why a file cannot be read as an input, as a text for a message (not to be freed); NULL if it can
+ * be read. fd: descriptor of the open file, or -1 if open has just failed (errno is then read); path: name of the file.
+ * *s: receives the status of the file. */
 static const char *input_fault(int fd, const char *path, struct stat *s)
 {
     const int cause = errno;

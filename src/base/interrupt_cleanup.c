@@ -40,7 +40,8 @@ static void on_end(int number)
 
 static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
 
-/* Installs the handler on_end for the signals that would end the process, at the first call. */
+/* At the first call, notes the calling thread as the one that creates files and child processes (`maker`), and installs
+ * the handler on_end for every signal that would end the process by default. Later calls do nothing. */
 static void leavings_watch(void)
 {
     static bool watched;

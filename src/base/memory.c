@@ -52,9 +52,9 @@ static _Noreturn void out_of_memory(const char *label, int64_t count, size_t siz
     _exit(FAILED);
 }
 
-/* Writes zeros to an array of `length` bytes piece by piece, in the static partition of the loops that will use it, so
- * that each page is in the memory of the processor whose thread uses it. fresh: true for new pages, which are zero
- * already; then only one byte per page is written. */
+/* Writes zeros to an array of `length` bytes. Threads write pieces of PIECE bytes in the static partition of the loops
+ * that will use the array, so that each page is in the memory of the processor whose thread uses it. fresh: true for
+ * new pages, which are zero already; then only one byte per page is written. */
 static void zero(char *bytes, size_t length, bool fresh)
 {
     int64_t pieces = (int64_t)((length + PIECE - 1) / PIECE);
@@ -98,9 +98,9 @@ static size_t room_of(size_t length)
     return (length + step - 1) / step * step;
 }
 
-/* Removes a block from the store of released blocks and returns it: the smallest one with at least `least` and at most
- * 4 `least` bytes. large: true to consider only blocks with large pages, false only those without. Returns a block with
- * `whole` NULL if there is none. */
+/* Takes a block out of the store of released blocks (memory kept for new arrays): the smallest one of at least `least`
+ * and at most 4 `least` bytes. large: true to consider only blocks with large pages, false only those without. Returns
+ * the block, now owned by the caller, or a block with `whole` NULL if none fits. */
 static struct block take_kept(size_t least, bool large)
 {
     struct block block = {0};
@@ -116,9 +116,9 @@ static struct block take_kept(size_t least, bool large)
     return block;
 }
 
-/* Adds a released block to the store of released blocks, in place of the oldest one, and returns further old blocks to
- * the system while the store is larger than KEPT_ALL bytes. If the store is not in use, or the block is larger than
- * KEPT_MOST, the block is returned to the system instead. */
+/* Adds a released block to the store of released blocks (memory kept for new arrays), in place of the oldest one. The
+ * oldest ones are returned to the system, until the store holds at most KEPT_ALL bytes. If the store is not in use, or
+ * the block is larger than KEPT_MOST bytes, the block itself is returned to the system. */
 static void memory_keep(struct block block)
 {
     if (!reusing || block.mapped > KEPT_MOST) {
@@ -136,7 +136,8 @@ static void memory_keep(struct block block)
     } while (waiting_bytes > KEPT_ALL);
 }
 
-/* Returns all blocks in the store of released blocks to the system. */
+/* Returns all blocks in the store of released blocks (memory kept for new arrays) to the system. The store is empty
+ * afterwards. */
 static void keep_none(void)
 {
     waiting_longest = 0;
@@ -174,9 +175,9 @@ static char *memory_block_make(struct block *block, size_t length, size_t alignm
 
 enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN, MOSTLY_ZERO };
 
-/* Returns an array of `count` elements of `size` bytes at a cache line, after its header (struct block). content: which
- * bytes must be zero, and whether most of them are never written. If memory is exhausted, ends the program with a
- * message that names the array by `label`. */
+/* Allocates an array of `count` elements of `size` bytes, aligned to a cache line, with a header (struct block) before
+ * it, and returns the array. content: states whether its bytes must be zero, and whether most of them will never be
+ * written. If memory is exhausted, ends the program with a message that names the array by `label`. */
 static void *array_make(const char *label, int64_t count, size_t size, enum content content)
 {
     size_t length;
@@ -220,8 +221,9 @@ void *memory_new_lazy_zeroed(const char *label, int64_t count, size_t size)
     return array_make(label, count, size, MOSTLY_ZERO);
 }
 
-/* Extends an array in its own pages from old_length to `length` bytes, without moving it; the new bytes are zero.
- * Returns false, and changes nothing, if the array has no pages of its own or these are too short. */
+/* Extends an array from old_length to `length` bytes within the pages that it owns, without moving it, and sets the new
+ * bytes to 0. Returns true on success. Returns false, and changes nothing, if the array has no pages of its own, these
+ * are too short, or `length` is smaller than old_length. */
 static bool array_extend(void *pointer, size_t old_length, size_t length)
 {
     struct block block;
@@ -258,9 +260,10 @@ void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, si
     return count <= room ? pointer : memory_resize(label, pointer, room, count > more ? count : more, size);
 }
 
-/* Extends the pages of an array *pointer, if it has pages of its own, to `length` bytes. The pages may move, but
- * nothing is copied, and unwritten pages remain unwritten. Updates *block and *pointer. Returns false if the system
- * cannot do it. */
+/* Extends the pages of the array *pointer to at least `length` bytes. The system may move the pages to another address,
+ * but nothing is copied, and unwritten pages remain unwritten. Updates *pointer and *block, the header of the array.
+ * Returns false, and changes nothing, if the array has no pages of its own (it is on the heap) or the system cannot
+ * extend them. */
 static bool pages_extend(struct block *block, char **pointer, size_t length)
 {
 #ifdef MREMAP_MAYMOVE
@@ -325,8 +328,8 @@ void memory_set_reuse_of_freed_arrays(bool reuse)
 #endif
 }
 
-/* Returns the largest memory that this program has used so far [byte]; 0 if unknown. It reads VmHWM, which counts this
- * program alone; ru_maxrss would include the program that started it. */
+/* Returns the largest memory that this process has used so far [byte]; 0 if unknown. Reads VmHWM in /proc/self/status,
+ * which counts this program alone; ru_maxrss would include the program that started it. */
 static int64_t peak_of_program(void)
 {
     FILE *f = fopen("/proc/self/status", "r");

@@ -12,7 +12,8 @@ static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 
 /* ---- control groups ---------------------------------------------------------------------------------------------- */
 
-/* Returns the number in the file `path`; INT64_MAX if there is no file or it contains `max`. */
+/* Returns the first number in the file `path`, as the files of control groups contain it; INT64_MAX if the file does
+ * not exist or contains no number (`max`: no limit). */
 static int64_t number_in(const char *path)
 {
     FILE *f = fopen(path, "r");
@@ -22,8 +23,9 @@ static int64_t number_in(const char *path)
     return found ? number : INT64_MAX;
 }
 
-/* Returns the smallest number in the files base/group/file [byte], where `group` is a control group or one of the
- * groups above it. A container sees its own group as the highest. Modifies `group`. */
+/* Returns the smallest memory limit of a control group and of all groups above it [byte]; INT64_MAX if there is none.
+ * The limits are the numbers in the files base/group/file. A container sees its own group as the highest. `group` is
+ * cut to the empty text. */
 static int64_t group_and_above(const char *base, char *group, const char *file)
 {
     int64_t limit = INT64_MAX;
@@ -61,7 +63,8 @@ static int64_t groups_limit(void)
 /* ---- limits of the process --------------------------------------------------------------------------------------- */
 
 /* Returns the memory that a limit of the process leaves [byte]: the limit minus the memory in use, at least 1;
- * INT64_MAX if there is no limit. resource: the limit, RLIMIT_*; taken: memory in use [pages]. */
+ * INT64_MAX if there is no limit. resource: number of the limit for getrlimit (RLIMIT_*); taken: memory in use
+ * [pages]. */
 static int64_t left_of(int resource, long long taken)
 {
     struct rlimit l;

@@ -16,8 +16,8 @@ struct collected {
     bool lost;
 };
 
-/* Makes sure that the memory of the collected output has capacity for `more` further bytes and a NUL. Returns false if
- * memory is exhausted. */
+/* Extends the memory of the collected output c, if necessary, so that `more` further bytes and a NUL fit. Returns
+ * false, and changes nothing, if memory is exhausted. */
 static bool collected_room(struct collected *c, size_t more)
 {
     const size_t least = *c->length + more + 1, room = least < 2 * c->room ? 2 * c->room : least;
@@ -28,8 +28,8 @@ static bool collected_room(struct collected *c, size_t more)
     return true;
 }
 
-/* Appends n bytes to the collected output `context`, a struct collected, as the writer of fopencookie. Returns n, or 0
- * if memory is exhausted. */
+/* Appends n bytes to the collected output of a stream. It is the write function of the stream for fopencookie. context:
+ * the output (struct collected). Returns n; or 0 if memory is exhausted, now or at an earlier call. */
 static ssize_t collected_write(void *context, const char *bytes, size_t n)
 {
     struct collected *c = context;

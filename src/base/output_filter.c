@@ -13,9 +13,9 @@ enum { CHUNK = 4096 };
 
 static const char erase_line[] = "\033[K";
 
-/* Copies `length` bytes of output and replaces control characters in the copy, except those that the program itself
- * sends to a terminal: line end, tab, the sequence that erases a line, and, if `first`, a carriage return as the first
- * byte. */
+/* Copies `length` bytes of output from `from` to `to` and replaces control characters in the copy by `?`, except those
+ * that the program itself sends to a terminal: line end, tab, the sequence that erases a line, and, if `first`, a
+ * carriage return as the first byte. */
 static void chunk_harmless(char *to, const char *from, size_t length, bool first)
 {
     memcpy(to, from, length);
@@ -27,8 +27,8 @@ static void chunk_harmless(char *to, const char *from, size_t length, bool first
             memcpy(to + k, erase_line, sizeof erase_line - 1);
 }
 
-/* Writes bytes to the file descriptor fd, with control characters replaced. Returns the number of bytes written, less
- * than `length` on an error. */
+/* Writes `length` bytes to the file descriptor fd, with control characters replaced by `?`. Returns the number of bytes
+ * written, which is less than `length` if a write fails. */
 static size_t harmless_write(int fd, const char *bytes, size_t length)
 {
     char text[CHUNK];

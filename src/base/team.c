@@ -32,9 +32,9 @@ static struct memory_limit memory;
 /* The name of the processor, "" before the topology of the machine has been read. */
 static char processor[128];
 
-/* Stores the memory of the machine in `memory` [byte], or the smallest limit for this process if that is lower.
- * topology: topology of the machine from hwloc, which states its memory; NULL: the memory is read from the operating
- * system. */
+/* Stores in `memory` the memory of the machine [byte], or the smallest limit of this process if that is lower, with a
+ * text that says which. topology: topology of the machine from hwloc, which states its memory; NULL: only the operating
+ * system is asked. */
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
@@ -44,7 +44,8 @@ static void note_memory(hwloc_topology_t topology)
     memory = limit.bytes < all ? limit : (struct memory_limit){all, "memory of the machine"};
 }
 
-/* Stores the name of the processor from the topology of the machine in `processor`. */
+/* Stores the name of the processor from hwloc's topology of the machine in `processor`; "unknown processor" if hwloc
+ * does not have it. */
 static void note_processor(hwloc_topology_t topology)
 {
     hwloc_obj_t package = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PACKAGE, NULL);
@@ -53,7 +54,8 @@ static void note_processor(hwloc_topology_t topology)
     snprintf(processor, sizeof processor, "%s", name != NULL ? name : "unknown processor");
 }
 
-/* Returns core k, from 0, among the physical cores that this process may use; NULL beyond the last. */
+/* Returns physical core number k, from 0, of those that this process may use (place->mask); NULL if there are no more
+ * than k. */
 static hwloc_obj_t core_at(const struct place *place, int k)
 {
     hwloc_obj_t core = NULL;
@@ -62,9 +64,9 @@ static hwloc_obj_t core_at(const struct place *place, int k)
     return NULL;
 }
 
-/* Moves the calling thread to the first core that this process may use, then allows it all of them again. Reading the
- * topology visits every core and leaves the thread on the last one, where it would share the core of another thread for
- * about 20 ms, until the scheduler moves it. */
+/* Moves the calling thread to the first core that this process may use (place->mask), then allows it all of them again.
+ * Reading the topology visits every core and leaves the thread on the last one, where it would share the core with
+ * another thread for about 20 ms, until the scheduler moves it. */
 static void rebind_main(const struct place *place)
 {
     const hwloc_obj_t core = core_at(place, 0);
@@ -76,8 +78,8 @@ static void rebind_main(const struct place *place)
     hwloc_bitmap_free(home);
 }
 
-/* Reads into *place the topology of the machine and the hardware threads that this process may use, and stores memory
- * and name of the processor. Returns false if hwloc fails. */
+/* Reads the topology of the machine and the hardware threads that this process may use into *place, and notes the
+ * memory of the machine and the name of the processor. Returns false, with nothing to release, if hwloc fails. */
 static bool place_make(struct place *place)
 {
     setenv("HWLOC_HIDE_ERRORS", "2", 0); /* a machine that hides its topology is no fault of the run */
@@ -107,8 +109,8 @@ static void place_free(struct place *place)
     hwloc_topology_destroy(place->topology);
 }
 
-/* Returns the number of physical cores that this process may use; of hardware threads if hwloc sees no cores, as in
- * some virtual machines. */
+/* Returns the number of physical cores that this process may use (place->mask). If hwloc sees no cores, as in some
+ * virtual machines, returns the number of hardware threads instead. */
 static int core_count(const struct place *place)
 {
     int cores = 0;
@@ -156,9 +158,9 @@ const char *machine_memory_limit_name(void)
 
 /* ---- the team ---------------------------------------------------------------------------------------------------- */
 
-/* Binds each thread of the team except the calling one to a core of its own, or to all allowed cores if there are fewer
- * than `threads`. The calling thread remains free: its mask shows the next call, for another team size, what the
- * process may use, and programs that it starts inherit it. */
+/* Binds each of the `threads` threads of the team, except the calling one, to a core of its own, or to all allowed
+ * cores if there are fewer cores than threads. The calling thread remains free: its mask shows later calls, for other
+ * team sizes, what the process may use, and programs that it starts inherit it. */
 static void bind_helpers(const struct place *place, int threads)
 {
     bool apart = core_at(place, threads - 1) != NULL;
@@ -183,8 +185,9 @@ static int bound_threads(void)
     return held > 0 && held < most ? held : most;
 }
 
-/* Makes every thread of the team treat denormal numbers as 0. Ahead of a wave, values mapped from node to node fall
- * below 1e-308 within some steps, and operations on denormal numbers take a hundred times as long. */
+/* Makes each of the `threads` threads of the team treat denormal numbers as 0. Ahead of a wave, values mapped from node
+ * to node fall below 1e-308 within some steps, and operations on denormal numbers take a hundred times as long. Does
+ * nothing on processors without SSE. */
 static void flush_tiny_numbers(int threads)
 {
 #ifdef __SSE__
@@ -205,8 +208,8 @@ static void *wait_for(void *mutex)
 
 enum { LIBRARY_ROOM = 16 << 20 }; /* memory that the OpenMP library may take besides stacks [byte] */
 
-/* Returns true if `threads` threads can exist at once, by starting and ending them. If they cannot, the OpenMP library
- * would end the process with several lines of its own. */
+/* Returns true if `threads` threads can exist at once with LIBRARY_ROOM bytes of memory to spare; tests this by
+ * starting and ending them. If they cannot, the OpenMP library would end the process with several lines of its own. */
 static bool threads_start(int threads)
 {
     void *room =
@@ -309,8 +312,9 @@ void core_shares_free(struct core_shares *s)
  * short sums. FEW_TERMS: largest number of terms that the threads compute one by one before they are added. */
 enum { FEW_BLOCKS = 16, FEW_TERMS = 4 * SUM_BLOCK };
 
-/* Stores the `terms` sums over block number b of the entries 0 .. n - 1 in part[terms]. A block has SUM_BLOCK entries.
- * block(context, first, end, sum): adds the terms of the entries first .. end - 1 to sum[terms]. */
+/* Computes `terms` sums over block number b, from 0, of the entries 0 .. n - 1, and stores them in part[terms]. A block
+ * has SUM_BLOCK entries, the last one fewer. block(context, first, end, sum): adds the terms of the entries first ..
+ * end - 1 to sum[terms]. */
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)
 {
@@ -340,8 +344,8 @@ struct single {
     const void *context;
 };
 
-/* Stores the terms s->term(s->context, i), i = 0 .. n - 1, in each[n]. The threads share single terms instead of blocks
- * of them, because n is small and each term may take long. */
+/* Computes the terms s->term(s->context, i), i = 0 .. n - 1, of a sum and stores them in each[n]. Threads divide single
+ * terms among them instead of blocks of terms, because n is small and each term may take long. */
 static void terms_store(int64_t n, const struct single *s, real *each)
 {
     TEAM_LOOP(n > 1, for (int64_t i = 0; i < n; i++) each[i] = s->term(s->context, i););
@@ -353,7 +357,7 @@ static void single_block(const void *context, int64_t first, int64_t end, real *
     for (int64_t i = first; i < end; i++) sum[0] += s->term(s->context, i);
 }
 
-/* Returns element i of the array `context` of real numbers, as a term of a sum. */
+/* Returns element i, from 0, of an array of real numbers, as a term of reproducible_sum. context: the array. */
 static real stored_term(const void *context, int64_t i) { return ((const real *)context)[i]; }
 
 real reproducible_sum(int64_t term_count, real (*term)(const void *context, int64_t i), const void *context)
@@ -370,7 +374,7 @@ real reproducible_sum(int64_t term_count, real (*term)(const void *context, int6
 
 /* ---- clocks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the time of a clock of the system (CLOCK_*) [s]. */
+/* Returns the time of the system clock `which` (CLOCK_MONOTONIC and the like) [s]. */
 static double clock_read(clockid_t which)
 {
     struct timespec now;

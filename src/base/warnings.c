@@ -49,8 +49,9 @@ void warnings_add_and_print(struct warnings *w, const char *text)
     if (warnings_add_if_new(w, "%s", text)) warnings_print_to_stderr(w, w->n - 1);
 }
 
-/* Saves all warnings to the archive a as one text, each with its terminating zero, or adds the saved ones to w. Returns
- * FAILED if the text does not have the saved length. */
+/* Saves all warnings of w to the archive a as one text, each with its terminating zero, if a->saving; else adds the
+ * saved warnings to w. Returns FAILED, with a message, if the text does not have the saved length, or the archive
+ * cannot be read or written. */
 status warnings_save_or_load(struct warnings *w, struct archive *a)
 {
     int64_t length = 0;

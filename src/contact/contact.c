@@ -11,10 +11,11 @@
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
-/* Initialises the contact of a run; no pairs are searched yet. between: what may come into contact; law: form, contact
- * distance and friction. The stiffness k of a contact follows from the materials of `source` times `stiffness_factor`
- * [1]. body_shapes: shape of each body, which gives the surface above its particles; rigid[rigid_body_count]: rigid
- * bodies. `body_shapes` and `rigid` are kept by reference and must outlive c. Release with contact_free. */
+/* Initialises the contact c of a run; pairs in contact are searched later. between: what may come into contact; law:
+ * form, contact distance and friction, other members are ignored. The stiffness of a contact follows from the materials
+ * in `source` (data from which bonds are made) times stiffness_factor [1]. body_shapes[bodies]: shape of each body,
+ * which gives the height of the surface above its particles; rigid[rigid_body_count]: rigid bodies. `body_shapes` and
+ * `rigid` are kept by reference and must outlive c. Release c with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
                   int rigid_body_count)
@@ -70,10 +71,10 @@ void contact_free(struct contact *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Returns the largest squared frequency [1/s^2] of a freely moving rigid body in contact with particles on two opposite
- * sides. It is assumed that each face has one particle per spacing, with a contact stiffness of 2 k each. Returns 0 if
- * no rigid body moves freely. m: material of the particles; stiffness: k over the squared volume of a particle [N/m^7];
- * volume: volume of a particle [m^3]. */
+/* Returns the largest squared frequency [1/s^2] of a freely moving rigid body of contact c between particles of the
+ * bodies p on two opposite sides; 0 if no rigid body moves freely. It is assumed that each of the two faces has one
+ * particle per spacing, with a contact stiffness of 2 k each. m: material of the particles; stiffness: k divided by the
+ * squared volume of a particle [N/m^7]; volume: volume of a particle [m^3]. */
 static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
                         real volume)
 {
@@ -87,8 +88,8 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Returns the critical time step of bodies in contact [s]. Returns INFINITY if contact is not possible.
- * bonds_time_step: critical time step of the bonds of these bodies alone [s]; materials: the materials.
+/* Returns the critical time step [s] of particles p that are held by bonds and pushed by contact c; INFINITY if contact
+ * is not possible. bonds_time_step: critical time step of the bonds alone [s]; materials: array of the materials.
  * The step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact are added.
  * Bonds: such a particle has half of the bonds of an inner one, so that the square of 2/bonds_time_step counts half.
  * Contact: two particles in contact with stiffness k have the squared frequency 2 k/mass. The normal stiffness of all
@@ -117,8 +118,8 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Adds the contacts that one thread has found, *own, to those of all threads, *all: number, largest overlap and its
- * particle. */
+/* Adds the contacts that one thread has found, *own, to the contacts of all threads, *all: their number, and the
+ * largest overlap with its particle if that of *own is larger. */
 static void found_join(struct contact_found *all, const struct contact_found *own)
 {
     const int64_t touching = all->touching + own->touching;
@@ -126,10 +127,10 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Evaluates the contact of all particles near faces, the rows of the contact list, in parallel. In a law of the form
- * `pair` the forces are added to p->f. In the form `surface` only the gaps are computed, from which faces_force
- * computes the forces afterwards. all: receives the number of contacts, the largest overlap and its particle. dt: time
- * step [s]. */
+/* Evaluates contact in parallel for all rows of the contact list (particles near faces, which may come into contact).
+ * With a law of the form `pair`, adds the contact forces to p->f. With the form `surface`, only computes the gaps, from
+ * which faces_force computes forces afterwards. dt: time step [s]. all: receives the number of contacts, the largest
+ * overlap and its particle. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
@@ -150,9 +151,10 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
     }
 }
 
-/* Adds the contact forces of a law of the form `surface`, friction included, to p->f, for all particles near faces (the
- * rows of the contact list). Friction is added in a second pass, since it requires the friction springs of all rows,
- * which the first pass advances by the time step dt [s]. rows_sweep must have computed the gaps before. */
+/* Adds the contact forces of a law of the form `surface`, friction included, to p->f, for all rows of the contact list
+ * (particles that may come into contact). Call it after rows_sweep, which computes the gaps. Friction is added in a
+ * second pass, since it requires the friction springs of all rows, which the first pass advances by the time step dt
+ * [s]. */
 static void faces_force(struct contact *c, struct particles *p, real dt)
 {
 #pragma omp parallel
@@ -175,8 +177,9 @@ void contact_allocate_force_record(struct contact *c, const struct particles *p)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
 }
 
-/* Records the contact forces on all particles in c->push [N], for output. It is called twice: with `after` false before
- * contact forces are added to p->f, and with `after` true afterwards. The record is the difference. */
+/* Records the contact forces on all particles of p in c->push[dim][n] [N], for output. Call it twice: with `after`
+ * false before contact forces are added to p->f, which copies p->f, and with `after` true afterwards, which stores the
+ * difference. */
 static void record(struct contact *c, const struct particles *p, bool after)
 {
     for (int d = 0; d < p->dim; d++)
@@ -209,7 +212,7 @@ struct contact_sum {
 };
 
 /* Returns the contact energy of row `row` of the contact list (particles that may come into contact) [J], as a term of
- * a sum over rows. context: contact and particles (struct contact_sum). */
+ * reproducible_sum over rows. context: contact and particles (struct contact_sum). */
 static real contact_energy_term(const void *context, int64_t row)
 {
     const struct contact_sum *s = context;
@@ -227,9 +230,9 @@ real contact_elastic_energy(const struct contact *c, const struct particles *p)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the array *array to the archive a if a->saving, else frees it, allocates it anew and restores it from a. name:
- * name of the entry in the archive; count: number of elements; size: bytes of an element. Returns FAILED if the archive
- * cannot be read or written or the stored size differs. */
+/* Saves the array *array to the archive a if a->saving; else frees it, allocates it anew and restores it from a. The
+ * caller owns the array. name: name of the entry in the archive; count: number of elements; size: size of an element
+ * [byte]. Returns FAILED if the archive cannot be read or written or the stored size differs. */
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
@@ -239,7 +242,8 @@ status contact_array_save_or_load(struct archive *a, const char *name, void **ar
     return count > 0 ? a->exchange(a, name, *array, (size_t)count * size) : OK;
 }
 
-/* Returns OK if all indices of the restored contact list c are in their ranges, else FAILED, with a message. */
+/* Checks that all indices of the restored contact list c are in range: numbers of particles (p), of list entries and of
+ * pairs. Returns OK, or FAILED with a message. */
 static status contact_check(const struct contact *c, const struct particles *p)
 {
     bool good = c->rows <= c->n && c->first[0] == 0 && c->first[c->rows] == c->pairs;
@@ -251,9 +255,9 @@ static status contact_check(const struct contact *c, const struct particles *p)
                                      "contain; it is damaged, start again with --overwrite");
 }
 
-/* Saves the state of contact to the archive a if a->saving, else restores it. The list of pairs, which determines
- * which pairs act and at which distance their contact begins, is restored without a search. Returns FAILED, with a
- * message, if the archive contains no valid list. */
+/* Saves the state of contact c to the archive a if a->saving, else restores it. The list of pairs, which determines
+ * which pairs act and at which distance their contact begins, is restored without a search. p: particles, at their
+ * restored positions. Returns FAILED, with a message, if the archive contains no valid list. */
 status contact_save_or_load(struct contact *c, const struct particles *p, struct archive *a)
 {
     int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,

@@ -23,9 +23,10 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 
 /* ---- depth of a face by the density above it --------------------------------------------------------------------- */
 
-/* Computes the density of a flat face at the height s [spacings] above one of its particles, and its derivative by s.
- * The density at a point is the number of particles of the face nearby, weighted by a kernel that decreases with their
- * distance. The face is one layer of a square or cubic lattice, in 1D a single particle. */
+/* Computes the density of a flat face at the height s above one of its particles [spacings], and the derivative of the
+ * density by s. The density at a point is the number of particles of the face nearby, weighted by a kernel that
+ * decreases with their distance. The face is one layer of a square or cubic lattice, in 1D a single particle. *density,
+ * *slope: receive the density [1] and the derivative [1/spacing]. */
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;
@@ -51,9 +52,9 @@ void contact_density_profile_make(struct contact_profile *table, int dim)
 }
 
 /* Returns the height of a point above the layer of particles of a face [spacings], from the density of the face at this
- * point. The density is the number of particles nearby, weighted by a kernel. profile: table of heights over densities,
- * interpolated by cubics; linear for densities above its range and constant below. *slope: receives the derivative of
- * the height by the density. */
+ * point (number of particles nearby, weighted by a kernel). profile: table of heights over densities, interpolated by
+ * cubics; linear for densities above its range and constant below. *slope: receives the derivative of the height by the
+ * density. */
 static real table_depth(const struct contact_profile *profile, real density, real *slope)
 {
     int low = 0, high = PROFILE_NODES - 1;
@@ -77,9 +78,9 @@ static real table_depth(const struct contact_profile *profile, real density, rea
 
 /* ---- field of the faces ----------------------------------------------------------------------------------------- */
 
-/* Returns the weight m_l of a particle of a face in the density of the face, which is the sum of m_l W(r/reach) over
- * particles l near another particle, with the kernel W and the distance r. k, l: entries of both particles in the
- * contact list. The weight is the spacing of l over the mean of both spacings, to the power dim - 1 [1]. *reach:
+/* Returns the weight m_l [1] of a particle l in the density of its face at a nearby particle k. This density is the sum
+ * of m_l W(r/reach) over particles l, with the kernel W and the distance r. The weight is the spacing of l divided by
+ * the mean of both spacings, to the power dim - 1. k, l: entries of both particles in the contact list c. *reach:
  * receives the distance at which W becomes 0 [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
@@ -94,10 +95,10 @@ struct face_field {
     real density, mean;
 };
 
-/* Computes the density of the faces around the particle of row `row` of the contact list (number of particles of its
- * pairs, weighted by a kernel of the distance), and the weighted mean of their rises. The rise of a particle is the
- * height of the body's surface above it minus 1/2 spacing. place[dim][particles]: present or reference positions
- * [m]. */
+/* Computes the density of the faces around the particle of row `row` of the contact list c (number of particles of its
+ * pairs, weighted by a kernel of the distance), and the weighted mean of the rises of these particles. The rise of a
+ * particle is the height of the body's surface above the particle minus 1/2 spacing. place[dim][particles]: present or
+ * reference positions of the particles p [m]. */
 static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
                                        int64_t row)
 {
@@ -125,8 +126,9 @@ struct face_gap {
 };
 
 /* Computes the height of a particle above a face, the gap between both surfaces [spacings], and the derivative of both
- * by the density of the face. field: density of the face at the particle, and mean rise of the face, the height of its
- * surface above its particles minus 1/2; zero: height at which contact begins [spacings]. */
+ * by the density of the face. c: contact, for the table of heights by density; field: density of the face at the
+ * particle, and mean rise of the face (height of its surface above its particles, minus 1/2); zero: height at which
+ * contact begins [spacings]. */
 static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
@@ -168,8 +170,8 @@ real contact_face_energy_of_particle(const struct contact *c, const struct parti
                                                                        : 0;
 }
 
-/* Returns the derivative [J] of the contact energy of the particle with entry k in the contact list by the weight with
- * which another particle, with entry l, counts in the density of the face at the first one. */
+/* Returns the derivative of the contact energy of particle k by the weight with which particle l counts in the density
+ * of the face at particle k [J]. k, l: entries of the particles in the contact list c. */
 static real face_pull(const struct contact *c, int64_t k, int64_t l)
 {
     const struct contact_face *face = &c->face[c->root[k]];
@@ -194,9 +196,10 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
     return w;
 }
 
-/* Adds the contact force on the particle of row `row` of the contact list to p->f. The energy of a particle near a face
- * depends on the density of the opposite face, a weighted sum over its particles. So the force has two parts: the
- * derivative of the particle's own energy, and those of the energies of all particles in whose densities it counts. */
+/* Adds the contact force on the particle of row `row` of the contact list c to p->f. The contact energy of a particle
+ * near a face depends on the density of the opposite face, a weighted sum over the particles of this face. So the force
+ * has two parts: the derivative of the particle's own energy, and those of the energies of all particles in whose
+ * densities the particle counts. */
 void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -240,8 +243,8 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
 
 /* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
-/* Returns the contact stiffness [J] of the particle of row `row` of the contact list, for gaps in spacings. It is the
- * smallest stiffness of its pairs with other particles. Without pairs it is that of a pair of two particles like this
+/* Returns the contact stiffness of the particle of row `row` of the contact list c [J], for gaps in spacings: the
+ * smallest stiffness of its pairs with other particles, or, without pairs, that of a pair of two particles like this
  * one. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
 {
@@ -253,8 +256,9 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
     return isfinite(least) ? least : contact_pair_stiffness(c, p, row, row) * square(c->size[row]);
 }
 
-/* Returns the width [spacings] of the widest notch (a pre-crack with a width) between the particle of row `row` of the
- * contact list and the particles near it in the reference configuration; 0 if there is none. */
+/* Returns the width of the widest notch (a pre-crack with a width) between the particle of row `row` of the contact
+ * list c and the particles near it in the reference configuration [spacings of the particle]; 0 if there is no
+ * notch. */
 static real face_notch(const struct contact *c, const struct particles *p, int64_t row)
 {
     real widest = 0;
@@ -268,8 +272,8 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
-/* Returns a lower bound of the gap between the particle of row `row` of the contact list and a face [spacings]. The gap
- * depends on the mean rise of the face, the height of its surface above its particles, which jumps when another
+/* Returns a lower bound of the gap between the particle of row `row` of the contact list c and a face [spacings]. The
+ * gap itself depends on the mean rise of the face (height of its surface above its particles), which jumps when another
  * particle comes into range. The bound uses the largest rise of the particle's pairs instead. field: density of the
  * face at the particle. */
 static real least_gap(const struct contact *c, const struct face_field *field, int64_t row)
@@ -280,8 +284,8 @@ static real least_gap(const struct contact *c, const struct face_field *field, i
     return face_gap(c, &highest, c->face[row].zero).gap;
 }
 
-/* Returns true if row `row` of the contact list c and row `was` of the previous list `before` have pairs with the same
- * particles in the same order. */
+/* Returns true if row `row` of the contact list c and row `was` of the list of the previous search, `before`, have
+ * pairs with the same particles in the same order. The densities of the face then are equal. */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
     const int64_t n = c->first[row + 1] - c->first[row];
@@ -291,11 +295,11 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* Computes, after a search, c->face[row].zero, the height above the opposite face at which contact of the particle of
- * row `row` begins. For a particle already in contact it is such that its contact energy does not change. For others it
- * is the height at which the surfaces of the bodies meet, or less if the particle is closer in the reference or the
+/* After a search, computes c->face[row].zero, the height above the opposite face at which contact of the particle of
+ * row `row` begins. For a particle already in contact, the height keeps its contact energy unchanged. For others it is
+ * the height at which the surfaces of the bodies meet, or less if the particle is closer in the reference or the
  * present configuration, so that contact begins without a force. previous: contact list before the search;
- * previous_entry: row of the particle in it, -1 if none. */
+ * previous_entry: row of the particle in that list, -1 if none; p: particles at their present positions. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row)
 {

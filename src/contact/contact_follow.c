@@ -4,16 +4,16 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-/* Returns false if the faces near the particle of row `row` of the contact list are so far away that contact is
- * impossible before the next search. Until then the particle and the faces move by at most half of CONTACT_SKIN
- * spacings each. */
+/* Returns true if the particle of row `row` of the contact list c may come into contact before the next search; false
+ * if the faces near it are too far away. Until the next search the particle and the faces move by at most half of
+ * CONTACT_SKIN spacings each. */
 static bool may_meet(const struct contact *c, int64_t row)
 {
     return c->law.form == CONTACT_PAIR || c->face[row].far <= CONTACT_FLATNESS * 0.5 * CONTACT_SKIN;
 }
 
-/* Returns true if contact is possible before the next search for the particle of row `row` of the contact list, or for
- * one of the particles with which it forms a pair. Returns false if it has no pairs. */
+/* Returns true if contact is possible before the next search for the particle of row `row` of the contact list c, or
+ * for one of the particles with which it forms a pair. Returns false if the particle has no pairs. */
 static bool row_is_near(const struct contact *c, int64_t row)
 {
     if (c->first[row + 1] == c->first[row]) return false;
@@ -22,7 +22,7 @@ static bool row_is_near(const struct contact *c, int64_t row)
     return near;
 }
 
-/* Returns true if the particle of list entry k has left its reference position. */
+/* Returns true if the particle of entry k of the contact list c is not at its reference position any more. */
 static bool entry_has_moved(const struct contact *c, const struct particles *p, int64_t k)
 {
     const int32_t i = c->particle[k];
@@ -31,8 +31,8 @@ static bool entry_has_moved(const struct contact *c, const struct particles *p, 
     return false;
 }
 
-/* Returns true if the particle of row `row` of the contact list, or the other particle of one of its pairs, has left
- * its reference position. If none has, contact exerts no force on the particle. */
+/* Returns true if the particle of row `row` of the contact list c, or the other particle of one of its pairs, is not at
+ * its reference position any more. If false, contact exerts no force on the particle. */
 static bool row_has_moved(const struct contact *c, const struct particles *p, int64_t row)
 {
     bool moved = entry_has_moved(c, p, row);
@@ -40,9 +40,9 @@ static bool row_has_moved(const struct contact *c, const struct particles *p, in
     return moved;
 }
 
-/* Returns true if the contact of a particle that forms a pair with that of row `row` is evaluated: its row in the
- * contact list is marked ROW_ACTIVE. Marks are read atomically, since other threads may change marks from ROW_NEAR to
- * ROW_SOURCE meanwhile, which does not change the result. */
+/* Returns true if one of the particles that form a pair with the particle of row `row` of the contact list c has a row
+ * marked ROW_ACTIVE, i.e. its contact is evaluated. Marks are read atomically, since other threads may change marks
+ * from ROW_NEAR to ROW_SOURCE meanwhile, which does not change the result. */
 static bool beside_active(const struct contact *c, int64_t row)
 {
     bool beside = false;
@@ -55,9 +55,10 @@ static bool beside_active(const struct contact *c, int64_t row)
     return beside;
 }
 
-/* Marks the rows of the contact list whose contact has to be evaluated from now on as ROW_ACTIVE: contact is possible,
- * and their particle or one of its pairs has begun to move. Marks the rows of their pairs, whose particles then
- * experience contact forces as well, as ROW_SOURCE. Returns true if a row was newly marked ROW_ACTIVE. */
+/* Updates the marks of the rows of the contact list c. Rows become ROW_ACTIVE (contact is evaluated from now on) if
+ * contact is possible and their particle or one of its pairs has begun to move. Rows of the pairs of such rows, whose
+ * particles then experience contact forces as well, become ROW_SOURCE. Returns true if a row was newly marked
+ * ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
     int64_t found = 0;
@@ -78,8 +79,9 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
-/* Marks the particles on which contact forces may act as loaded in l, and the row blocks of their bonds (bonds of eight
- * particles each) in b as active. They are then moved after the contact forces are known. */
+/* Marks the particles on which contact forces may act as loaded in the loads l, and the row blocks of their bonds (rows
+ * of eight particles stored together) in b as active. They are then moved after the contact forces are known. c:
+ * contact, whose rows have been marked; p: particles. */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

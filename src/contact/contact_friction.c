@@ -8,8 +8,9 @@
 #include "data/derived_fields.h"
 #include "contact_internal.h"
 
-/* Rotates the friction spring spring[dim] [m] into the plane perpendicular to the unit vector normal[dim], without
- * changing its length. The face may have turned since the last step. A spring along the normal stays unchanged. */
+/* Rotates a friction spring into the plane perpendicular to a unit vector, without changing its length, because the
+ * face may have turned since the last step. spring[dim]: elongation of the spring [m], overwritten; normal[dim]: unit
+ * vector. A spring along the normal stays unchanged. */
 static void lay_down(real *spring, const real *normal, int dim)
 {
     const real out = dot(spring, normal, dim), before = dot(spring, spring, dim), after = before - square(out);
@@ -66,9 +67,9 @@ struct contact_partner {
     real slip[DIM_MAX];                   /* slip [m/s] */
 };
 
-/* Computes the normal force on the particle of row `row` of the contact list, the density of the face near it, and the
- * mean position and velocity of the particles of this face, weighted as in the density. All are those at the positions
- * x - lag v, a time `lag` before now [s]. Other members of the result are 0. */
+/* Computes a part of the motion of the face near the particle of row `row` of the contact list c: the normal force on
+ * the particle, the density of the face (sum of weights), and its weighted mean position, relative to the particle, and
+ * mean velocity. Positions are those a time `lag` before now [s], x - lag v. Other members of the result are 0. */
 static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
@@ -106,10 +107,10 @@ static real quadratic_form(const real *tensor, const real *e)
     return sum;
 }
 
-/* Computes to->inverse, the pseudo-inverse of the inertia tensor I of the face near a particle. Principal axes are left
- * out if their inertia is too small, or if a moment about them would cause too large forces on the particles of the
- * face. inertia[6]: I, in the order xx, yy, zz, xy, yz, zx [m^2]; squares[6]: the same sum with squared weights, from
- * which these forces are estimated. */
+/* Computes to->inverse, the pseudo-inverse of the inertia tensor I of the face near a particle [1/m^2]. Principal axes
+ * are left out if their inertia is too small, or if a moment about them would cause too large forces on the particles
+ * of the face. to->arm must be set. inertia[6]: I, in the order xx, yy, zz, xy, yz, zx [m^2]; squares[6]: the same sum
+ * with squared weights, from which these forces are estimated. */
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
@@ -123,9 +124,10 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes the rotation of the face near the particle of row `row` of the contact list about its mean position. Stores
- * the pseudo-inverse of its inertia tensor in to->inverse and its angular velocity in omega[3] [1/s]. Uses the
- * positions x - lag v, a time `lag` before now [s]. to->density, arm and velocity must be set. */
+/* Computes the rotation of the face near the particle of row `row` of the contact list c about the mean position of the
+ * face. Stores the pseudo-inverse of the inertia tensor of the face in to->inverse and its angular velocity in omega[3]
+ * [1/s]. Positions are those a time `lag` before now [s], x - lag v. The members density, arm and velocity of *to must
+ * be set (partner_mean). */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
                          real lag, real *omega)
 {
@@ -146,9 +148,9 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Returns the motion of the face near the particle of row `row` of the contact list, seen as a rigid body. Also returns
- * the slip: the velocity of the particle relative to this motion at its position. Uses the positions x - lag v, a time
- * `lag` before now [s]. */
+/* Returns the motion of the face near the particle of row `row` of the contact list c, seen as a rigid body, and the
+ * slip: the velocity of the particle relative to this motion at the position of the particle [m/s]. Positions are those
+ * a time `lag` before now [s], x - lag v. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -159,9 +161,10 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
     return partner;
 }
 
-/* Advances the friction spring of row `row` of the contact list (particles that may come into contact) by a step dt
- * [s], and stores its effect on the face in c->reaction. The slip velocity in the step is the mean of those at its
- * start and end, because leap-frog applies the forces of both times to it. */
+/* Advances the friction spring of row `row` of the contact list c (particles that may come into contact) by a step dt
+ * [s], and stores its reaction on the face in c->reaction[row]. p: particles at their present positions. The slip
+ * velocity in the step is the mean of those at its start and end, because leap-frog applies the forces of both times to
+ * the slip. */
 void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
@@ -185,8 +188,8 @@ void contact_face_advance_friction_spring(struct contact *c, const struct partic
     }
 }
 
-/* Adds to f[dim] [N] the reaction to the friction force on the particle of row l of the contact list. The reaction acts
- * on the particle of row `row`, which is a part of the face that the particle of row l touches. */
+/* Adds to f[dim] [N] the reaction to the friction force on the particle of row l of the contact list c. The reaction
+ * acts on the particle of row `row`, which is part of the face that the particle of row l touches. p: particles. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
@@ -198,9 +201,9 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
     for (int d = 0; d < p->dim; d++) f[d] -= share * (c->spring[l].drag[d] + turning[d]);
 }
 
-/* Adds the friction forces on the particle of row `row` of the contact list to p->f: the force of its own spring, and
- * the reactions to the springs of other rows. Mirror images need no reactions, since scenes with mirrors have no
- * friction. */
+/* Adds the friction forces on the particle of row `row` of the contact list c to p->f: the force of the row's own
+ * spring, and the reactions to the springs of other rows. Mirror images need no reactions, since scenes with mirrors
+ * have no friction. */
 void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -213,15 +216,15 @@ void contact_face_add_friction_on_particle(const struct contact *c, struct parti
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the elastic energy of friction spring k [J], as a term of a sum. context: the array of springs (struct
- * contact_spring). */
+/* Returns the elastic energy of friction spring k, from 0 [J], as a term of reproducible_sum. context: array of springs
+ * (struct contact_spring). */
 static real stored_in(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].stored; }
-/* Returns the energy that friction spring k has dissipated by sliding [J], as a term of a sum. context: the array of
- * springs (struct contact_spring). */
+/* Returns the energy that friction spring k, from 0, has dissipated by sliding [J], as a term of reproducible_sum.
+ * context: array of springs (struct contact_spring). */
 static real lost_by(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].lost; }
 
-/* Returns the sum of `term` (stored_in or lost_by) over the friction springs of all rows and of all contacts with rigid
- * bodies [J]. */
+/* Returns the sum of an energy over the friction springs of all rows and of all contacts with rigid bodies of c [J].
+ * term: function that returns the energy of a spring (stored_in or lost_by). */
 static real springs_sum(const struct contact *c, real (*term)(const void *context, int64_t k))
 {
     real sum = c->spring ? reproducible_sum(c->rows, term, c->spring) : 0;
@@ -239,8 +242,9 @@ void contact_friction_reactions_make(struct contact *c)
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
 }
 
-/* Allocates the friction springs of a new contact list c. Springs of particles that were in the list `previous` are
- * copied from it. The elastic energy of springs that are not copied is lost. Does nothing without friction. */
+/* Allocates the friction springs of a new contact list c, and copies the springs of particles that were in the list
+ * `previous` of the search before. The elastic energy of springs that are not copied is lost. Does nothing without
+ * friction. */
 void contact_friction_springs_copy_from_previous(struct contact *c, const struct contact *previous)
 {
     if (!(c->law.friction > 0)) return;

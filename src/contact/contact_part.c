@@ -12,8 +12,9 @@
 
 static void contact_free_all(struct run *e) { contact_free(e->contact); }
 
-/* Writes the JSON object "contact" if particles or grids can be in contact: times of first and last contact, largest
- * numbers of contacts, work of friction and largest overlap. */
+/* Writes the JSON object "contact" to j if particles (c) or material points on the grid (mpm) can be in contact: times
+ * of first and last contact [s], largest numbers of contacts, work of friction [J] and largest overlap [spacings]. Else
+ * writes nothing. */
 static void put_contact(const struct contact *c, const struct grid_method *mpm, struct json *j)
 {
     const struct grid_contact *g = &mpm->contact;
@@ -41,8 +42,9 @@ static status contact_state(struct run *e, struct archive *a)
     return OK;
 }
 
-/* Writes the JSON array "rigid": for each rigid body its final position and velocity, the largest force on it and the
- * diameter of its contact patch. Writes nothing without rigid bodies. */
+/* Writes the JSON array "rigid" to j: for each rigid body its position and velocity at the present time of `clock`, the
+ * largest force on it [N] and the diameter of its contact patch [m]. Writes nothing without rigid bodies. c, p: contact
+ * and particles, from which the patches follow. */
 static void put_rigid(const struct rigid_set *rigid, const struct contact *c, const struct particles *p,
                       const struct run_clock *clock, struct json *j)
 {

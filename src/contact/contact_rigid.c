@@ -23,9 +23,9 @@ void contact_rigid_free_particle_lists(struct contact *c)
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Returns the gap between rigid body r and the surface of the body at the particle of row `row` of the contact list
- * (particles that may come into contact) [m]; negative if they overlap. normal: receives the outward unit normal of
- * r. */
+/* Returns the gap between rigid body r and the surface of the deformable body at the particle of row `row` of the
+ * contact list c (particles that may come into contact) [m]; negative if both overlap. p: particles; normal[DIM_MAX]:
+ * receives the outward unit normal of r. */
 static real gap_of(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                    real *normal)
 {
@@ -35,8 +35,9 @@ static real gap_of(const struct contact *c, const struct particles *p, const str
     return rigid_signed_distance(r, x, normal) - (0.5 + c->rise[row]) * c->size[row];
 }
 
-/* Returns true if the particle of row `row` may come into contact with rigid body r before the next search, i.e. if
- * their gap is less than `skin` [m]. Distant particles are rejected early by a bounding test. */
+/* Returns true if the particle of row `row` of the contact list c may come into contact with rigid body r before the
+ * next search, i.e. if the gap between both is less than `skin` [m]. Distant particles are rejected early by a bounding
+ * test. */
 static bool is_near(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                     real skin)
 {
@@ -45,8 +46,8 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
     return rigid_may_be_within_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
-/* Returns the entry of particle `particle` in the list of particles near rigid body `body`, as it was before the
- * present search. Returns -1 if the particle was not in it. before: contact before the search. */
+/* Returns the index of particle `particle` in the list of particles near rigid body number `body`, as it was before the
+ * present search; -1 if the particle was not in that list. before: contact before the search. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
     const int64_t row = before->made ? contact_list_entry_of_particle(before, particle) : -1;
@@ -61,10 +62,11 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
-/* Lists in c->near[body] the particles of the contact list that may come into contact with rigid body `body` before the
- * next search: those with a gap below `skin` [m]. Friction springs and the gaps at which contact begins are copied from
- * `before`, the contact before this search. For a new particle that already overlaps the body, contact begins at its
- * present gap, without a force, and at larger gaps as the gap opens. */
+/* Lists in c->near[body] the particles of the contact list c that may come into contact with rigid body number `body`
+ * before the next search: those with a gap below `skin` [m]. Friction springs and the gaps at which contact begins are
+ * copied from `before`, the contact before this search. For a new particle that already overlaps the body, contact
+ * begins at its present gap, without a force, and at larger gaps as the gap opens. p: particles at their present
+ * positions. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -125,9 +127,9 @@ bool contact_rigid_has_moved_by_distance(const struct contact *c, real min_dista
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Returns the gap between rigid body `body_number` and the particle of entry q in the list of particles near it, minus
- * the gap at which contact begins [m]; negative if they overlap. normal: receives the outward unit normal of the body.
- */
+/* Returns the gap between rigid body number body_number and particle q of the list of particles near it (c->near),
+ * minus the gap at which contact begins [m]; negative if both overlap. p: particles; normal[DIM_MAX]: receives the
+ * outward unit normal of the body. */
 real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t q,
                                    real *normal)
 {
@@ -135,9 +137,10 @@ real contact_rigid_gap_of_particle(const struct contact *c, const struct particl
     return gap_of(c, p, &c->rigid[body_number], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap [m] of rigid body `body` with a particle, entry q in the list of particles near the body; 0 if
- * they are not in contact. While an equilibrium is computed, marks determine which contacts act, and the overlap of
- * such a contact can be negative. normal: receives the outward unit normal of the body. */
+/* Returns the overlap of rigid body number `body` with particle q of the list of particles near it (c->near) [m]; 0 if
+ * both are not in contact. While an equilibrium is computed, marks determine which contacts act, and the overlap of
+ * such a contact can be negative. normal[DIM_MAX]: receives the outward unit normal of the body, unless a mark excludes
+ * the contact. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_rigid_selection_marks(c, body);
@@ -159,9 +162,9 @@ real contact_patch_bounding_box_diagonal(const struct contact *c, const struct p
     return sqrt(width2);
 }
 
-/* Updates the energy error that time integration has made in the contact of rigid body `body` with a particle, and the
- * small force that compensates it. q: entry of the particle in the list of particles near the body. Must be called once
- * per time step. */
+/* Updates the energy error that time integration has made in the contact of rigid body number `body` with particle q of
+ * the list of particles near it (c->near), and the small force that compensates the error. Must be called once per time
+ * step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -170,8 +173,9 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     contact_energy_correction_force(&near->balance[q], k, contact_rigid_gap_of_particle(c, p, body, q, normal), true);
 }
 
-/* Computes the force of rigid body `body` on the particle of entry q in the list of particles near it, force[DIM_MAX]
- * [N]: normal force, energy correction and friction. Returns the overlap [m]. */
+/* Computes the force of rigid body number `body` on particle q of the list of particles near it (c->near): normal
+ * force, energy correction and friction. Stores it in force[DIM_MAX] [N]. Returns the overlap [m], 0 if both are not in
+ * contact. */
 static real push_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *force)
 {
     const struct contact_near *near = &c->near[body];
@@ -183,8 +187,8 @@ static real push_of(const struct contact *c, const struct particles *p, int body
     return overlap;
 }
 
-/* Advances the friction spring between rigid body `body` and the particle of entry q in the list of particles near it,
- * by a step dt [s]. */
+/* Advances the friction spring between rigid body number `body` and particle q of the list of particles near it
+ * (c->near) by a time step dt [s]. p: particles at their present positions and velocities. */
 static void spring_step(struct contact *c, const struct particles *p, int body, int64_t q, real dt)
 {
     const struct contact_near *near = &c->near[body];
@@ -205,9 +209,9 @@ struct rigid_sum {
     int body;
 };
 
-/* Adds the force [N] and the moment about the body's position [N m] that particles exert on a rigid body to sum[0 .. 2]
- * and sum[3 .. 5]. The particles are the entries first .. end - 1 in the list of particles near the body. context: the
- * body and contact (struct rigid_sum). reproducible_sums calls it for each block of entries. */
+/* Adds the force that particles exert on a rigid body [N] to sum[0 .. 2], and the moment of this force about the body's
+ * position [N m] to sum[3 .. 5]. The particles are numbers first .. end - 1 of the list of particles near the body.
+ * context: the body and contact (struct rigid_sum). reproducible_sums calls it for each block of particles. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -225,9 +229,10 @@ static void rigid_block(const void *context, int64_t first, int64_t end, real *s
 
 enum { RIGID_TERMS = 2 * DIM_MAX };
 
-/* Adds the contact forces of rigid body `body` to p->f, and stores the opposite force and moment in the body. Bodies
- * are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction springs are
- * not advanced. all: receives largest overlap and number of contacts. */
+/* Adds the contact forces of rigid body number `body` to p->f, and stores the opposite force and moment in the body.
+ * Bodies are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction
+ * springs and energy corrections are not advanced. all: receives the largest overlap, its particle and the number of
+ * contacts. */
 static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)
 {
     const struct contact_near *near = &c->near[body];
@@ -262,9 +267,9 @@ real contact_rigid_force_norm(const struct contact *c, const struct particles *p
     return sqrt(sum);
 }
 
-/* Returns the contact energy of a rigid body with one particle, entry q in the list of particles near it [J]: k
- * overlap^2, with the stiffness k of a contact between two particles like this one. It is a term of a sum over entries.
- * context: the body and contact (struct rigid_sum). */
+/* Returns the contact energy of a rigid body with particle q of the list of particles near it [J]: k overlap^2, with
+ * the stiffness k of a contact between two particles like this one. It is a term of reproducible_sum. context: the body
+ * and contact (struct rigid_sum). */
 static real near_energy(const void *context, int64_t q)
 {
     const struct rigid_sum *s = context;

@@ -11,24 +11,25 @@ enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces op
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns a limit by which particles at the surface of a body are recognised: the volume of the bonded neighbours over
- * that of a full family [1]. The first layer of particles at a face is below the limit, the second above. In bodies
- * with horizons of 2 to 3 spacings, the share is 0.50 (1D) to 0.67 (2D) in the first layer and 0.79 or more in the
- * second. With bonds to nearest neighbours alone it is up to 5/6 in the first layer and 1 in the second. */
+/* Returns the limit of the neighbour volume below which a particle counts as being in the first layer at a face: the
+ * volume of its bonded neighbours divided by that of a full family (neighbourhood) f [1]. In bodies with horizons of 2
+ * to 3 spacings, this share is 0.50 (1D) to 0.67 (2D) in the first layer and 0.79 or more in the second. With bonds to
+ * nearest neighbours alone it is up to 5/6 in the first layer and 1 in the second. */
 static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Returns true if a particle has few bonded neighbours: their volume minus `lost` is less than `least` [m^3]. row: row
- * of the particle in the bonds b; -1 for a particle without bonds, which also returns true. */
+/* Returns true if a particle has few bonded neighbours: if their volume minus `lost` [m^3] is less than `least` [m^3].
+ * row: row of the particle in the bonds b (its list of bonds), or -1 for a particle without bonds, for which the result
+ * is true. */
 static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
 {
     return row < 0 || b->family_volume[row] - lost < least;
 }
 
-/* Returns true if particle i is peridynamic and near a face: it is damaged, or its neighbours have less volume than
- * least_volume [m^3]. everywhere: true to accept every peridynamic particle. */
+/* Returns true if particle i is peridynamic and near a face: if it has damage, or its bonded neighbours in b have less
+ * volume than least_volume [m^3]. everywhere: true to accept every peridynamic particle. */
 static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, bool everywhere, int64_t i)
 {
     const int64_t row = b->row_of[i];
@@ -63,8 +64,8 @@ real contact_notch_width_between_entries(const struct contact *c, const struct p
     return widest;
 }
 
-/* Returns the spacing of particle i, the edge of a square or cube with its volume [m]. It is law->spacing exactly if
- * the volume is that of a lattice particle up to round-off. */
+/* Returns the spacing of particle i, the edge of a square or cube with the volume of the particle [m]. It is
+ * law->spacing exactly if the volume is that of a lattice particle up to round-off. */
 static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
 {
     const real full = lattice_particle_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
@@ -72,9 +73,10 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
-/* Returns the rise at particle i: the height of the surface of the body's shape above the particle, minus 1/2
- * [spacings], limited to -RISE_MOST from below. It is 0 on a lattice that fits the shape, and is set to 0 for particles
- * deep inside the shape, at faces that cracks have made. size: spacing of the particle [m]. */
+/* Returns the rise at particle i: the height of the surface of the body's shape (law->shape) above the particle, minus
+ * 1/2 [spacings], at least -RISE_MOST. It is 0 on a lattice that fits the shape, and is set to 0 for particles deep
+ * inside the shape, which are at faces that cracks have made, and for bodies without a shape. size: spacing of the
+ * particle [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];
@@ -105,8 +107,8 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
 }
 
 /* Lists in c->particle the peridynamic particles near a face, in ascending order, then their mirror images, and stores
- * the present positions of all of them. f: family of the bonds: a particle with less neighbour volume than a share of
- * its full volume is near a face. */
+ * the present positions of all of them in c->at. A particle is near a face if the volume of its bonded neighbours in b
+ * is less than a share of that of the complete family f. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
@@ -157,10 +159,10 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Finds the particles that may come into contact with that of entry k of the contact list, and appends their entries to
- * *to. They are within the range of the search; depending on the law, only those of other bodies count, or only those
- * without a bond to the particle of entry k. near: working memory; marks: one bit per particle, all 0 before and
- * after. */
+/* Finds the particles that may come into contact with the particle of entry k of the contact list, and appends their
+ * entries to *to. They are within the range of the search, s->reach; depending on the law, only particles of other
+ * bodies count, or only those without a bond to the particle of entry k. near: working memory; marks: one bit per
+ * particle, all 0 before and after. */
 static void row_pairs(const struct contact_search *s, struct neighbour_list *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
@@ -179,8 +181,8 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     }
 }
 
-/* Converts c->first[row + 1] from the number of pairs of row `row` of the contact list to the end of these pairs in the
- * array c->other, and allocates this array. */
+/* Converts c->first[row + 1], for all rows of the contact list c, from the number of pairs of row `row` to the end of
+ * these pairs in the array c->other, and allocates this array. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -188,9 +190,9 @@ static void pairs_room(struct contact *c)
     c->other = BARE("contact.other", c->pairs, int32_t);
 }
 
-/* Finds the pairs of all rows of the contact list and stores them in c->other, row by row. Each thread first collects
- * the pairs of its own rows, because their final positions in c->other depend on the numbers of pairs of earlier
- * rows. */
+/* Finds the pairs of all rows of the contact list c (particles that may come into contact) and stores them in c->other,
+ * row by row. Each thread first collects the pairs of its own rows, because their final positions in c->other depend on
+ * the numbers of pairs of earlier rows. s: input of the search. */
 static void pairs_find(struct contact *c, const struct contact_search *s)
 {
     c->first = NEW("contact.first", c->rows + 1, int64_t);
@@ -220,9 +222,9 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     }
 }
 
-/* Returns the distance [m] at which contact of particle j with the particle of row `row` began, according to the
- * contact list before the present search, `before`. Returns NAN if that list does not contain the pair, or if row =
- * -1. */
+/* Returns the distance at which contact of a pair of particles began, according to the contact list before the present
+ * search, `before` [m]. row: row of the first particle in that list, -1 if it has none; j: index of the second
+ * particle. Returns NAN if that list does not contain the pair. */
 static real distance_before(const struct contact *before, int64_t row, int32_t j)
 {
     if (row < 0) return NAN;
@@ -231,8 +233,9 @@ static real distance_before(const struct contact *before, int64_t row, int32_t j
     return NAN;
 }
 
-/* Determines where contact begins: for each row of the contact list a height above the face (form `surface`), or for
- * each pair a distance (form `pair`). before: contact before the present search, whose contacts continue. */
+/* After the pairs have been found, determines where contact begins: for each row of the contact list c a height above
+ * the face (form `surface`), or for each pair a distance (form `pair`). before: contact before the present search,
+ * whose contacts continue; p: particles at their present positions. */
 static void pairs_begin(struct contact *c, const struct contact *before, const struct particles *p)
 {
     if (c->law.form == CONTACT_SURFACE) {
@@ -252,7 +255,8 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
     }
 }
 
-/* Returns the largest distance of two particles that can come into contact before the next search [m]. */
+/* Returns the distance within which a search must find pairs [m]: the largest distance of two particles of the contact
+ * list c that can come into contact before the next search. */
 static real search_reach(const struct contact *c)
 {
     real most = 0;
@@ -261,9 +265,9 @@ static real search_reach(const struct contact *c)
     return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_list_margin(c);
 }
 
-/* Finds the exposed particles (those near faces) and the pairs that may come into contact, at the present positions.
- * Copies the state of pairs, friction springs and contacts with rigid bodies from the previous list, and frees that
- * list. */
+/* Finds the exposed particles (those near faces) and the pairs that may come into contact at the present positions of
+ * p. Copies the state of pairs, friction springs and contacts with rigid bodies from the previous list in c, and frees
+ * that list. b, f: bonds and their complete family (neighbourhood), by which exposed particles are recognised. */
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
@@ -290,8 +294,8 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
 
 /* ---- times of checks --------------------------------------------------------------------------------------------- */
 
-/* Returns the largest displacement of a listed particle since the last search [m], INFINITY if a position is not
- * finite. */
+/* Returns the largest displacement of a particle of the contact list c since the last search [m]; INFINITY if a
+ * position is not finite. */
 static real largest_displacement(const struct contact *c, const struct particles *p)
 {
     real far2 = 0;
@@ -304,17 +308,19 @@ static real largest_displacement(const struct contact *c, const struct particles
     return sqrt(far2);
 }
 
-/* Returns true if a particle of the contact list or a rigid body has moved by half the margin of the list or more since
- * the last search. The list may then lack pairs that come into contact. */
+/* Returns true if a particle of the contact list c or a rigid body has moved by half the margin of the list or more
+ * since the last search, so that the list may lack pairs that come into contact. Uses c->moved, the largest
+ * displacement of a particle. */
 static bool has_come_far(const struct contact *c)
 {
     const real far = 0.5 * contact_list_margin(c);
     return !(c->moved < far) || contact_rigid_has_moved_by_distance(c, far);
 }
 
-/* Requests a search for contact if one of the particles particle_list[0 .. particle_count - 1], which have just become
- * peridynamic, is in the first layer at a face. A particle elsewhere with a few broken bonds does not require a search
- * at once; the next search lists it. With the contact distance of LAMMPS, any particle requests a search. */
+/* Requests a contact search (c->due) if one of particle_count particles, which have just become peridynamic, is in the
+ * first layer at a face. particle_list: their indices; b, family: bonds and their complete family (neighbourhood), by
+ * which such particles are recognised. A particle elsewhere with a few broken bonds does not require a search at once;
+ * the next search lists it. With the contact distance of LAMMPS, any particle requests a search. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *particle_list, int64_t particle_count)
 {

@@ -10,8 +10,8 @@
 
 #define KEPT 1e-10 /* gaps and overlaps that change no mark [spacings] */
 
-/* Allocates the marks that select which contacts act in an equilibrium, all 0 (none). There is a mark for each particle
- * near a face (form `surface`) or for each pair (form `pair`), and one for each particle near a rigid body. */
+/* Allocates the marks that select which contacts of c act in an equilibrium, all 0 (none). There is a mark for each row
+ * of the contact list (form `surface`) or for each pair (form `pair`), and one for each particle near a rigid body. */
 static void marks_room(struct contact *c)
 {
     memory_free(c->touch);
@@ -30,9 +30,9 @@ void contact_activate_all_listed_particles(struct contact *c)
     c->waiting = 0;
 }
 
-/* Sets *touch, the mark of a contact, from its gap [spacings]: 1 if the contact acts in the equilibrium, else 0. An
- * inactive contact becomes active at gaps below `close`, and an active one stays active up to gaps of KEPT or `close`,
- * whichever is larger. Returns true if the mark has changed. */
+/* Updates *touch, the mark of a contact, from its gap [spacings]: 1 if the contact acts in the equilibrium, else 0. An
+ * inactive contact becomes active at gaps below `close`, or below -KEPT if `close` is 0. An active one stays active up
+ * to gaps of KEPT or `close`, whichever is larger. Returns true if the mark has changed. */
 static bool mark_set(uint8_t *touch, real gap, real close)
 {
     const uint8_t was = *touch;
@@ -40,17 +40,17 @@ static bool mark_set(uint8_t *touch, real gap, real close)
     return *touch != was;
 }
 
-/* Returns the gap below which the contact of the particles with the entries `row` and l in the contact list becomes
- * active [spacings]. It is `close` for particles of different bodies. It is 0 within one body, because the faces of a
- * crack are in contact without a gap and without force at first. */
+/* Returns the gap below which the contact of two particles becomes active [spacings]: `close` for particles of
+ * different bodies, and 0 within one body, because the faces of a crack are in contact without a gap and without force
+ * at first. row, l: entries of the particles in the contact list c; p: particles. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
     return p->body[c->particle[row]] != p->body[image_source_particle(p, c->law.image, c->particle[l])] ? close : 0;
 }
 
-/* Marks which contacts of the particle of row `row` of the contact list act in the equilibrium, according to their
- * gaps. close: gap below which contacts of different bodies become active [spacings]. Returns the number of marks that
- * have changed. */
+/* Updates the marks of the contacts of the particle of row `row` of the contact list c, which say whether a contact
+ * acts in the equilibrium, according to their gaps. close: gap below which contacts of different bodies become active
+ * [spacings]. Returns the number of marks that have changed. */
 static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
 {
     int64_t changed = 0;
@@ -66,8 +66,8 @@ static int64_t mark_row(struct contact *c, const struct particles *p, int64_t ro
     return changed;
 }
 
-/* Sets the forces that compensate energy errors of time integration (contact_balance.c) to 0 in all contacts,
- * because an equilibrium must not contain them. */
+/* Sets the forces that compensate energy errors of time integration (contact_balance.c) to 0 in all contacts of c,
+ * those with rigid bodies included, because an equilibrium must not contain them. */
 static void balances_rest(struct contact *c)
 {
     for (int64_t row = 0; row < c->rows && c->balance; row++) c->balance[row].drag = 0;
@@ -125,8 +125,8 @@ struct visit {
     struct contact_term term;
 };
 
-/* Calls the function v->visit for each pair that the particle of row `row` of the contact list forms in an active
- * contact, which is passed as a linear spring. Only for laws of the form `pair`. */
+/* Calls v->visit for each active contact of the particle of row `row` of the contact list with another particle, and
+ * passes the contact as a linear spring (v->term). Only for laws of the form `pair`. */
 static void pair_terms(struct visit *v, int64_t row)
 {
     const struct contact *c = v->c;
@@ -143,8 +143,8 @@ static void pair_terms(struct visit *v, int64_t row)
     }
 }
 
-/* Calls the function v->visit for each particle that touches rigid body `body`. The contact is passed as a linear
- * spring. */
+/* Calls v->visit for each particle with an active contact with rigid body number `body`, and passes the contact as a
+ * linear spring (v->term). */
 static void rigid_terms(struct visit *v, int body)
 {
     const struct contact *c = v->c;
@@ -181,9 +181,9 @@ void contact_visit_selected_as_springs(const struct contact *c, const struct par
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the marks of the contacts that act in the equilibrium (contact_select_active_and_count_changes) to the archive
- * if a->saving, else restores them. Returns FAILED if the archive cannot be read or written or a stored size differs.
- */
+/* Saves the marks of the contacts of c that act in the equilibrium (contact_select_active_and_count_changes) to the
+ * archive a if a->saving, else restores them. Does nothing if contacts are not selected by marks (c->marked). Returns
+ * FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;

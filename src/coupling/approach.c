@@ -12,8 +12,8 @@ struct body_box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Returns for each body the bounding box of the present positions of its particles, an array [bodies]. The box of a
- * body without particles is empty (from > to). Release the array with memory_free. */
+/* Returns an array [bodies] with the bounding box of the present positions of the particles of each body [m]. The box
+ * of a body without particles is empty (from > to). The caller frees the array with memory_free. */
 static struct body_box *body_boxes(const struct particles *p, int bodies)
 {
     struct body_box *all = NEW("approach.boxes", bodies, struct body_box);
@@ -41,8 +41,8 @@ static struct body_box *body_boxes(const struct particles *p, int bodies)
     return all;
 }
 
-/* Returns true if particle i is within `reach` [m] of the bounding box of another body. box: bounding boxes of the
- * bodies, [bodies]. */
+/* Returns true if the present position of particle i is inside the bounding box of another body, enlarged by `reach`
+ * [m] on all sides. box: bounding boxes of the bodies, [bodies]. */
 static bool in_foreign_box(const struct particles *p, const struct body_box *box, int bodies, int64_t i, real reach)
 {
     for (int b = 0; b < bodies; b++) {
@@ -54,8 +54,8 @@ static bool in_foreign_box(const struct particles *p, const struct body_box *box
     return false;
 }
 
-/* Returns true if particle i is closer than `reach` [m] to the surface of one of the rigid bodies rigid[0 .. rigids -
- * 1]. */
+/* Returns true if the present position of particle i is closer than `reach` [m] to the surface of one of the rigid
+ * bodies rigid[0 .. rigids - 1], or inside one. */
 static bool near_rigid(const struct particles *p, const struct rigid_body *rigid, int rigids, int64_t i, real reach)
 {
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
@@ -66,8 +66,9 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     return false;
 }
 
-/* Records that particle i is near another body. A material point is flagged for conversion to a peridynamic particle
- * (FLAG_NEAR). A peridynamic particle is prevented from becoming a material point again for now. */
+/* Records that particle i is near another body. If it is a material point, flags it for conversion to a peridynamic
+ * particle (FLAG_NEAR). If it is peridynamic, restarts the time that must pass before it may become a material point
+ * again. */
 static void mark(struct particles *p, int64_t i)
 {
     if (p->kind[i] == KIND_MPM)
@@ -76,8 +77,8 @@ static void mark(struct particles *p, int64_t i)
         p->low_since[i] = INFINITY;
 }
 
-/* Marks those of the n particles list[k] that are within `reach` [m] of another particle of the list that belongs to
- * another body. */
+/* Marks (by mark) those of n particles whose present position is within `reach` [m] of another of these particles that
+ * belongs to another body. list[n]: indices of the particles. */
 static void mark_listed(struct particles *p, const int32_t *list, int64_t n, real reach)
 {
     struct particles places = {.n = n, .n_all = n, .dim = p->dim};

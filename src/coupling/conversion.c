@@ -22,7 +22,8 @@ static void list_add(struct index_list *l, int64_t i)
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
-/* Returns true if a pre-crack cuts a bond between particle i and one of the particles in `near` that is of its body. */
+/* Returns true if a pre-crack cuts a bond between particle i and a particle of the same body in `near`. s: holds the
+ * pre-cracks; near: neighbours of particle i. */
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i,
                        const struct neighbour_list *near)
 {
@@ -57,8 +58,9 @@ void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_
 
 #define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
 
-/* Returns true if particle i is a material point that must be converted because of its flags: it has lost a bond, is
- * near another body or, if the rule converts by stress, has exceeded the stress at which points convert. */
+/* Returns true if particle i is a material point whose flags require that it becomes peridynamic: it has lost a bond,
+ * is near another body or, if the rule includes conversion by stress, has exceeded the stress at which points
+ * convert. */
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
     /* whatever the criteria, material points convert that lost a bond, as damage is stored in bonds alone, and that are
@@ -67,7 +69,7 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-/* Returns true if particle i has a bond, intact or broken, to a material point. */
+/* Returns true if particle i has a bond in b, intact or broken, to a material point. */
 static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
@@ -75,10 +77,10 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Appends to l the peridynamic particles that have lost a bond and still have bonds to material points. Appends none
- * unless the model is state-based with s->local, i.e. normalises its forces by the intact bonds of the family. The
- * remaining bonds are then stiffer than before, so that the partial stress of the material points around must be
- * recomputed. */
+/* Appends to l the peridynamic particles that have lost a bond in this step and still have bonds to material points.
+ * Appends none unless the model is state-based and s->local is set, i.e. the model normalises its forces by the intact
+ * bonds of the family (neighbourhood). The remaining bonds are then stiffer than before, so that the partial stress
+ * (stress that bonds replace) of the material points around must be recomputed. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {
@@ -91,7 +93,7 @@ static void list_stiffened(struct index_list *l, const struct bond_source *s, co
     }
 }
 
-/* Makes material point i peridynamic and appends it to `changed`. Does nothing for a peridynamic particle. */
+/* Makes material point i peridynamic and appends i to `changed`. Does nothing if i is peridynamic already. */
 static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
@@ -101,9 +103,10 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
 }
 
 /* Converts the material points whose flags require it to peridynamic particles. If rule->block is set, also converts
- * all material points of the same body within the cutoff of these. Appends the converted points to `changed`, and
- * clears the conversion flags of all particles. t: time, stored in *c with the position at the first conversion [s].
- * map: map from lattice sites to particles, or NULL to search for neighbours. */
+ * all material points of the same body within the cutoff (largest bond length) of these. Appends the converted points
+ * to `changed`, and clears the conversion flags of all particles. source: data of bonds; map: map from lattice sites to
+ * particles, or NULL to search for neighbours; t: present time [s], stored in *c with the position of the first
+ * converted point at the first conversion. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, const struct site_map *map, struct index_list *changed,
                            real t)
@@ -135,7 +138,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     memory_free(near.at);
 }
 
-/* Appends particle i to the list, unless its flag FLAG_LISTED shows that it was listed before. */
+/* Appends particle i to the list l and sets its flag FLAG_LISTED. Does nothing if the flag is set already. */
 static void list_once(struct index_list *l, struct particles *p, int64_t i)
 {
     if (p->flag[i] & FLAG_LISTED) return;
@@ -143,10 +146,10 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
     list_add(l, i);
 }
 
-/* Updates positions and velocities of the converted particles `changed` and of all particles within the cutoff of them,
- * before bonds to these are made. Each particle is updated once, so that threads write different particles. sync:
- * function that updates listed particles, NULL if none needs it; map: map from lattice sites to particles, NULL:
- * neighbours are searched for. */
+/* Updates positions and velocities of the converted particles `changed` and of all particles within the cutoff (largest
+ * bond length) of these, before bonds between them are made. Each particle is updated once, so that threads write
+ * different particles. sync: function that updates listed particles, or NULL if none needs it; map: map from lattice
+ * sites to particles, or NULL to search for neighbours. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

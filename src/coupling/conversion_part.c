@@ -15,25 +15,26 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-/* Returns true if the conversion flags of all material points must be tested in this step. This is so with points on
- * the grid, which do not record that they were flagged, and if anything else may have flagged points or broken bonds.
- * Returns false if there are only points of a mesh and no cell of it has recorded a high stress. */
+/* Returns true if the conversion flags of all material points must be tested in this step. This is so if there are
+ * points on the background grid, which keeps no record of flagged points, or if another process may have flagged points
+ * or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points belong to the mesh of the
+ * reference frame r and no cell of it has recorded a high stress. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
            r->levels.returned || mesh_may_exceed_conversion_stress(&r->mesh);
 }
 
-/* Updates positions and velocities of those of the n particles list[k] that are points of the mesh. context: the run
- * (struct run). It is a callback of struct conversion_sync. */
+/* Updates positions and velocities of those of n listed particles that are points of the mesh of the reference frame.
+ * context: the run (struct run); list[n]: indices of the particles. It is a callback of struct conversion_sync. */
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
     reference_frame_update_listed_points(e->frame, &e->part, &e->loads, list, n);
 }
 
-/* Requests a contact search for the n particles list[k], which have become peridynamic. context: the run (struct run).
- * It is a callback of struct conversion_sync. */
+/* Requests a contact search if one of n particles that have become peridynamic is at a surface. context: the run
+ * (struct run); list[n]: indices of the particles. It is a callback of struct conversion_sync. */
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
@@ -88,8 +89,9 @@ int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_b
     return converted;
 }
 
-/* Sets c->bonded[i] to 1 for material points i with intact bonds to peridynamic particles, else to 0; c->bonded becomes
- * NULL if there are no bonds. Needed for FLIP only. */
+/* Stores in c->bonded[p->n] which particles are material points with intact bonds to peridynamic particles: 1 for
+ * these, 0 for others. Frees c->bonded and sets it to NULL if b has no rows of bonds. Does nothing without FLIP, which
+ * alone needs it, or without points on the grid. */
 static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
     if (b->rows == 0) { /* all particles have reverted: no material point has bonds */

@@ -12,16 +12,18 @@ static void region_add(struct region *r, const struct solid *s)
     r->solid[r->n++] = *s;
 }
 
-/* Returns true if X[dim] [m], a position at an end of crack c, is inside the body: if a particle is within one spacing
- * of X, and no plane of symmetry continues the crack there. Outside the body an end is the mouth of a notch. */
+/* Returns true if X, a position at an end of pre-crack c, is inside the body: if a particle is within one spacing of X,
+ * and no plane of symmetry continues the crack there. Outside the body an end is the mouth of a notch. p: particles; s:
+ * cells of the neighbour search and planes of symmetry; X[dim]: position [m]. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
     return !crack_end_is_continued_by_mirrors(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
            cells_list_particles_near_point(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
-/* Adds a ball of `radius` [m] around end k of pre-crack c to region r, if this end is inside the body. In 3D adds a
- * cylinder around the edge from corner k to the next corner instead. */
+/* Adds a ball of `radius` [m] around end k of pre-crack c to the region r, if this end is inside the body of the
+ * particles p. In 3D adds a cylinder around the edge from corner k to the next corner instead. s: cells of the
+ * neighbour search and planes of symmetry. */
 static void conversion_tip_add(struct region *r, const struct particles *p, const struct bond_source *s,
                                const struct crack *c, int k, real radius)
 {

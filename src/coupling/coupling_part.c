@@ -10,7 +10,8 @@ static void coupling_free_all(struct run *e)
     memory_free(c->bonded), memory_free(c->start_region.solid);
 }
 
-/* Returns the largest number of times that one particle has reverted to a material point. */
+/* Returns the number of times that a particle has reverted to a material point, for the particle for which it is
+ * largest. */
 static int reversions_most(const struct particles *p)
 {
     int most = 0;
@@ -18,8 +19,9 @@ static int reversions_most(const struct particles *p)
     return most;
 }
 
-/* Writes the JSON list "notches": for each of the first SAID pre-cracks a text that says whether it is a slit, along
- * which nodes of the mesh are doubled, or a row of cut bonds. spacing: lattice spacing [m]. */
+/* Writes the JSON list "notches" to j: for each of the first SAID pre-cracks of n a text that says whether it is a
+ * slit, along which nodes of the mesh are doubled, or a row of cut bonds. Writes nothing without pre-cracks. spacing:
+ * lattice spacing [m]. */
 static void put_notches(struct json *j, const struct notches *n, real spacing)
 {
     enum { SAID = 16 };
@@ -55,9 +57,9 @@ static void put_conversion(const struct run *e, struct json *j)
     json_close(j, '}');
 }
 
-/* Saves the state of the coupling to the archive a if a->saving is true, else restores it from there. The strains of
- * material points with bonds to peridynamic particles are not saved, but recomputed from the mesh. Returns FAILED if
- * the archive cannot be written or lacks the state. */
+/* Saves the state of conversion of run e to the archive a if a->saving, else restores it. The strains of material
+ * points with bonds to peridynamic particles are not saved, but recomputed from the mesh on restoring. Returns FAILED
+ * if the archive cannot be read or written or lacks the state. */
 static status coupling_state_of(struct run *e, struct archive *a)
 {
     if (!a->saving) bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, e->scene->material);

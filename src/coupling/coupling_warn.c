@@ -26,8 +26,9 @@ static void name_add(struct name_list *l, const char *name)
         snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
 }
 
-/* Warns, naming the bodies, that the material points of bodies in the reference frame have no contact with other
- * bodies. */
+/* Adds a warning to `to` that the material points of bodies in the reference frame have no contact with other bodies.
+ * It names these bodies; without such bodies, no warning is added. reference: states for each body whether it is in the
+ * reference frame. */
 static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
 {
     struct name_list names = {0};
@@ -42,8 +43,9 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
         names.text, names.all > 1 ? "are" : "is");
 }
 
-/* Warns that several bodies have no contact with each other, with the consequence for the method of the scene.
- * approaches: true if particles convert when bodies approach each other, so that they have contact. */
+/* Adds a warning to `to` if several bodies of scene s have no contact with each other, with the consequence for the
+ * method of the scene. reference: states for each body whether it is in the reference frame; approaches: true if
+ * particles convert when bodies approach each other, so that they have contact and no warning is needed. */
 static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
                             struct warnings *to)
 {
@@ -69,8 +71,8 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                                                                : "the coupling is another one");
 }
 
-/* Returns true if particles i and j start with nearly the same velocity: parts of bodies that are meant to be joined
- * do, colliding bodies do not. */
+/* Returns true if particles i and j start with nearly the same velocity, up to 0.1 %. Parts of bodies that are meant to
+ * be joined do; colliding bodies do not. */
 static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
 {
     real apart2 = 0, most2 = 0;
@@ -81,8 +83,9 @@ static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
     return apart2 <= 1e-6 * most2;
 }
 
-/* Sets touch[a * bodies + b] to true, for a < b, if particles of the bodies a and b are closer than `reach` [m] at the
- * start and have the same velocity. Returns the number of such pairs of bodies. */
+/* Finds the pairs of bodies that touch at the start: with particles closer than `reach` [m] that have the same
+ * velocity. For each such pair a < b, sets touch[a * bodies + b] to true; touch[bodies * bodies] must be false before.
+ * cells: cells of the neighbour search. Returns the number of pairs. */
 static int touching(const struct particles *p, const struct cells *cells, int bodies, real reach, bool *touch)
 {
     struct neighbour_list near = {0};
@@ -101,7 +104,8 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     return pairs;
 }
 
-/* Warns of bodies that touch at the start and are not joined. */
+/* Adds a warning to `to` that names the bodies of run e that touch at the start with the same velocity and are not
+ * joined. Adds none if there are no such bodies. */
 static void warn_of_touch(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -14,16 +14,16 @@ enum mark { OUTSIDE, BESIDE, POINT };
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Returns true if damping may change the velocity of particle j: if it is neither a mirror image nor a point of the
- * mesh, and its motion is not prescribed. */
+/* Returns true if interface damping may change the velocity of particle j: if j is neither a mirror image (j >= p->n)
+ * nor a point of the mesh, and its motion is not prescribed. */
 static bool interface_zone_is_free(const struct particles *p, int32_t j)
 {
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Sets mark[j] to `as` for the particles j within `radius` [m] of the n particles list[k]. Marks only particles of the
- * same body that have no mark and whose velocity damping may change; if `as` is POINT, only material points. Threads
- * that reach the same particle write the same value. */
+/* Sets mark[j] to `as` for all particles j within `radius` [m] of one of n particles, list[n], of the same body. Leaves
+ * out particles that have a mark or whose velocity damping may not change, and, if `as` is POINT, particles that are no
+ * material points. s: cells of the neighbour search. Threads that reach the same particle write the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -49,8 +49,9 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the particles i with mark[i] = `as`, in ascending order, to r->particle, the members of the interface zone.
- * slot[i]: receives the index of particle i among the members; n: number of particles. */
+/* Appends the particles i with mark[i] = `as`, in ascending order, to r->particle, the members of the interface zone
+ * (material points near peridynamic particles, and neighbours). slot[i]: receives the index of particle i among the
+ * members; n: number of particles, length of mark and slot. */
 static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
@@ -58,8 +59,9 @@ static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *
 }
 
 /* Lists in r->particle the members of the interface zone: first the material points near peridynamic particles, then
- * all their nearest neighbours that are no such points. mark[p->n]: 0 before, receives POINT or BESIDE for these two
- * groups; slot[p->n]: receives the index of each member in the list. */
+ * the nearest neighbours of these points that are not such points themselves. s: cells of the neighbour search;
+ * mark[p->n]: 0 before, receives POINT for members of the first group and BESIDE for those of the second; slot[p->n]:
+ * receives the index of each member in the list. */
 static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                          uint8_t *mark, int32_t *slot)
 {
@@ -71,10 +73,10 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the nearest neighbours of member k of the interface zone with which damping acts. At least one of the two must
- * be a material point of the zone, and no pre-crack may separate them. mark, slot: as computed by members_make; to:
- * receives the indices of these neighbours in the list of members, or NULL to count them only; near: working memory.
- * Returns their number. */
+/* Finds the nearest neighbours of member k of the interface zone (material points near peridynamic particles, and
+ * neighbours) with which damping acts. At least one of the two must be a material point of the zone, and no pre-crack
+ * of s may separate them. mark, slot: as computed by members_make; to: receives the indices of these neighbours in the
+ * list of members, or NULL to count them only; near: working memory. Returns the number of these neighbours. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {
@@ -92,9 +94,10 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
     return n;
 }
 
-/* With `count` true, stores the number of neighbours of each member k of the interface zone in r->start[k + 1]. With
- * `count` false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by members_make.
- * Returns the largest number of neighbours of a member, at least 1. */
+/* Counts or lists the neighbours of all members of the interface zone r (material points near peridynamic particles,
+ * and neighbours). With `count` true, stores the number of neighbours of member k in r->start[k + 1]. With `count`
+ * false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by members_make. Returns
+ * the largest number of neighbours of a member, at least 1. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
@@ -113,9 +116,9 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     return most;
 }
 
-/* Lists the neighbours of each member of the interface zone in r->neighbour. Computes from the largest number of
- * neighbours r->scale, the factor on the velocity differences between neighbours. mark, slot: as computed by
- * members_make. */
+/* Lists the neighbours of each member of the interface zone r in r->neighbour, after members_make. Computes r->scale,
+ * the factor on the velocity differences between neighbours, from the largest number of neighbours. mark, slot: as
+ * computed by members_make; s: cells of the neighbour search and pre-cracks. */
 static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                                       const uint8_t *mark, const int32_t *slot)
 {
@@ -156,8 +159,8 @@ void interface_zone_free(struct interface_zone *r)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Adds factor ((b - a) . e) e to sum[dim], with the unit vector e from the present position of particle i to that of
- * particle j. a[dim], b[dim]: vectors of i and of j, such as their velocities. */
+/* Adds factor ((b - a) . e) e to sum[dim], where e is the unit vector from the present position of particle i to that
+ * of particle j. a[dim], b[dim]: vectors of particle i and of particle j, such as their velocities. */
 static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
                       real *sum)
 {
@@ -176,8 +179,9 @@ static void velocity_of(const struct particles *p, int32_t i, real *v)
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* Computes r->difference of member k of the interface zone [kg m/s]: r->scale times its mass times the sum, over its
- * neighbours, of their velocity relative to it, projected on the line to the neighbour. */
+/* Computes r->difference of member k of the interface zone (material points near peridynamic particles, and neighbours)
+ * [kg m/s]: r->scale times the mass of the member times a sum over its neighbours. A term of the sum is the velocity of
+ * the neighbour relative to the member, projected on the line between both. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];
@@ -192,8 +196,8 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
 }
 
 /* Computes r->change, the change of momentum of member k of the interface zone by damping [kg m/s], from r->difference
- * of the member and its neighbours. The changes of the two members of a pair are bitwise opposite, so that momentum is
- * conserved. share: strength of the damping [1]. */
+ * of the member and of its neighbours. The changes of the two members of a pair are bitwise opposite, so that momentum
+ * is conserved. share: strength of the damping [1]. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;
@@ -205,9 +209,9 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
     }
 }
 
-/* Returns the second half of the energy that damping has removed [J]: -1/2 sum dp . v over the members, with their
- * change of momentum dp and their present velocity v. The first half is this sum with the velocities before the
- * step. */
+/* Returns the second half of the energy that damping has removed in this step [J]: -1/2 sum dp . v over the members of
+ * the interface zone r, with their change of momentum dp and their present velocity v. Call it after the change has
+ * been applied; the first half is this sum with the velocities before the step. */
 real interface_zone_second_half_of_damped_energy(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */

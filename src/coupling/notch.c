@@ -16,16 +16,17 @@ enum { EDGE_PARTS = 16 }; /* sampling points along an edge */
 
 /* ---- edges of cracks --------------------------------------------------------------------------------------------- */
 
-/* Stores the end points of edge e of crack c in *from and *to. In 3D they are two corners of its polygon; in 2D both
- * are end e of its segment. These edges are those from which the crack may grow. */
+/* Stores pointers to the end points of edge e of crack c, from which the crack may grow, in *from and *to. In 3D they
+ * are two corners of the crack's polygon; in 2D both are end e of its segment. The points [m] belong to c. */
 static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
 {
     *from = c->corner[e];
     *to = dim == 3 ? c->corner[(e + 1) % c->n] : c->corner[e];
 }
 
-/* Returns true if the body continues beyond edge e of crack c, away from the middle of the crack. At the mouth of a
- * notch it does not. */
+/* Returns true if the body continues beyond edge e of crack c (in 2D: end e), away from the middle of the crack. At the
+ * mouth of a notch the body does not continue. p, s: particles, with the cells of the neighbour search and planes of
+ * symmetry. */
 static bool edge_inside(const struct crack *c, int e, const struct particles *p, const struct bond_source *s)
 {
     real middle[DIM_MAX] = {0};
@@ -59,7 +60,8 @@ struct crack_edges {
 enum { EDGES_MAX = 64 };
 
 /* Returns crack c with the set of its edges (in 2D ends) beyond which the body continues. Around these edges the body
- * is peridynamic. radius: radius of these peridynamic zones [m]. */
+ * is peridynamic. radius: radius of these peridynamic zones [m]; p, s: particles and the cells of the neighbour
+ * search. */
 static struct crack_edges crack_edges_of(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                          real radius)
 {
@@ -68,7 +70,8 @@ static struct crack_edges crack_edges_of(const struct crack *c, const struct par
     return zone;
 }
 
-/* Returns true if particle i is within zone->radius of an edge of the crack that is inside the body. */
+/* Returns true if the reference position of particle i is in one of the peridynamic zones of a crack: within
+ * zone->radius of an edge (in 2D end) of the crack that is inside the body. */
 static bool in_zone(const struct crack_edges *zone, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
@@ -92,7 +95,8 @@ static bool parted(const struct crack *c, const struct particles *p, int64_t i, 
     return crack_cuts_bond(c, a, b, p->dim);
 }
 
-/* Returns true if crack c is so near particle i that it may cut a bond of it, i.e. within the cutoff. */
+/* Returns true if crack c is within the cutoff (largest bond length, from s) of the reference position of particle i,
+ * so that it may cut bonds of this particle. */
 static bool near_crack(const struct crack *c, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     real X[DIM_MAX];
@@ -113,7 +117,7 @@ struct flanks {
     int64_t particles, elsewhere;
 };
 
-/* Returns true if crack c cuts a bond between particle i and one of the particles in `near` that is of its body. */
+/* Returns true if crack c cuts a bond between particle i and a particle of the same body in `near`, its neighbours. */
 static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct neighbour_list *near)
 {
     for (int k = 0; k < near->n; k++)
@@ -121,9 +125,10 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
     return false;
 }
 
-/* Counts the particles that lose bonds by a crack, without those in the peridynamic zones around its edges. Member
- * `particles` of the result is their number; member `elsewhere` is the number of those that are not points of a mesh,
- * for which the crack cannot be a slit. zone: the crack and its peridynamic zones. */
+/* Counts the particles that lose bonds by a crack, without those in the peridynamic zones around its edges. zone: the
+ * crack and these zones; s: cells of the neighbour search. Returns the number of these particles (member `particles`)
+ * and the number of those of them that are not points of a mesh, for which the crack cannot be a slit (member
+ * `elsewhere`). */
 static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;
@@ -143,8 +148,9 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
     return (struct flanks){particles, elsewhere};
 }
 
-/* Returns a text with the reason why pre-crack c cannot be a slit, along which nodes of the mesh are doubled; NULL if
- * it can. radius: radius of the peridynamic zones around its ends [m]. */
+/* Returns the reason why pre-crack c cannot be a slit, along which nodes of the mesh are doubled, as a constant text;
+ * NULL if c can be a slit. radius: radius of the peridynamic zones around the ends of c [m]; p, s: particles, cells of
+ * the neighbour search and planes of symmetry. */
 static const char *notch_obstacle(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                   real radius)
 {
@@ -158,7 +164,8 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
     return NULL;
 }
 
-/* Returns true if particle i is so near a slit, or the mirror image of one, that this may cut a bond of it. */
+/* Returns true if a slit of n (pre-crack along which nodes of the mesh are doubled), or the mirror image of one, is so
+ * near particle i that it may cut bonds of this particle. */
 static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     for (int k = 0; k < n->slits + n->images; k++)
@@ -166,9 +173,10 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* Computes n->lost[i], the share of the volume of the neighbours of particle i within the cutoff that slits separate
- * from it [1]. Returns true if a slit separates particle i from a nearest neighbour, so that the particle is beside the
- * slit. near: working memory. */
+/* Computes n->lost[i], the share of the neighbour volume of particle i that slits (pre-cracks along which nodes of the
+ * mesh are doubled) separate from the particle [1]. Neighbours are the particles of the same body within the cutoff.
+ * Returns true if a slit separates particle i from a nearest neighbour, so that the particle is beside the slit.
+ * source: cutoff and cells of the neighbour search; near: working memory. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source,
                       struct neighbour_list *near, int64_t i)
 {
@@ -186,15 +194,17 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
     return faces;
 }
 
-/* Returns true if particle i is beside a void so narrow that bonds would cross it. */
+/* Returns true if particle i is beside a void, a narrow gap in the body, that bonds of the particle would cross.
+ * source: data of bonds, with the voids. */
 static bool beside_void(const struct bond_source *source, int64_t i)
 {
     return particle_is_beside_void(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
-/* Stores in n->lost for every particle the fraction of the volume of its neighbours that slits separate from it [1].
- * Lists in n->face the particles beside a slit or a narrow void. n->depth: receives for each of these its depth below
- * the surface of the void, 0 at a slit [m]. */
+/* Stores in n->lost[p->n] the fraction of the neighbour volume of each particle that slits (pre-cracks along which
+ * nodes of the mesh are doubled) separate from the particle [1]. Lists in n->face[n->faces] the particles beside a slit
+ * or a narrow void, and in n->depth their depth below the surface of the void [m], 0 at a slit. source: data of bonds,
+ * with the voids and the cells of the neighbour search. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
@@ -262,10 +272,10 @@ void notches_free(struct notches *n)
 
 /* ---- approach of faces ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance below which two particles on both sides of a void are converted to peridynamic particles [m]. It
- * is reached when the faces of the void are VOID_AHEAD spacings apart, but is at least NOTCH_GAP spacings less than the
- * initial distance of the particles. Returns 0 if no void is between them. k, l: indices of the particles in n->face;
- * spacing: lattice spacing [m]. */
+/* Returns the distance below which two particles on both sides of a void are converted to peridynamic particles [m]; 0
+ * if no void is between them. This distance is reached when the faces of the void are VOID_AHEAD spacings apart, but is
+ * at least NOTCH_GAP spacings less than the initial distance of the particles. k, l: indices of the particles in
+ * n->face; spacing: lattice spacing [m]. */
 static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
                                   real spacing)
 {
@@ -275,9 +285,9 @@ static real void_meeting_distance(const struct notches *n, const struct particle
     return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
 }
 
-/* Returns the distance below which two particles on both sides of a slit or void are converted to peridynamic particles
- * [m]. Returns 0 if neither is between them. face, other: indices of the particles in n->face; spacing: lattice spacing
- * [m]. */
+/* Returns the distance below which two particles on both sides of a slit (pre-crack along which nodes of the mesh are
+ * doubled) or of a void are converted to peridynamic particles [m]; 0 if neither is between them. face, other: indices
+ * of the particles in n->face; spacing: lattice spacing [m]. */
 static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
                              real spacing)
 {
@@ -289,8 +299,8 @@ static real meeting_distance(const struct notches *n, const struct particles *p,
     return width < 0 ? void_meeting_distance(n, p, face, other, spacing) : spacing - real_max(gap, width - gap);
 }
 
-/* Returns the distance of particles i and j after the time `ahead` [s] at their present velocities if they approach
- * each other, else their present distance [m]. */
+/* Returns the distance that particles i and j will have after the time `ahead` [s] at their present velocities [m], if
+ * they approach each other; else their present distance. */
 static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real ahead)
 {
     real r2 = 0, rate = 0;
@@ -302,9 +312,10 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-/* Returns a search radius [m] that finds all pairs of particles which must be converted because the faces of a slit or
- * void meet. These are pairs that will be nearer than their meeting_distance after the time `ahead` [s]. Two particles
- * approach each other by at most twice the largest speed of particles beside slits. spacing: lattice spacing [m]. */
+/* Returns a search radius that finds all pairs of particles which must be converted because the faces of a slit or void
+ * meet [m]. These are pairs that will be nearer than their meeting_distance after the time `ahead` [s]. Two particles
+ * approach each other by at most twice the largest speed of the particles beside slits, n->face. spacing: lattice
+ * spacing [m]. */
 static real meeting_reach(const struct notches *n, const struct particles *p, real spacing, real ahead)
 {
     const real gap = NOTCH_GAP * spacing;

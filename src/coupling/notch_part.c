@@ -8,8 +8,8 @@
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns a text with the reason in scene s why pre-cracks may not be slits, along which nodes of the mesh are doubled;
- * NULL if nothing in the scene prevents it. */
+/* Returns the reason in scene s why pre-cracks may not be slits, along which nodes of the mesh are doubled, as a
+ * constant text; NULL if nothing in the scene prevents slits. */
 static const char *scene_obstacle(const struct scene *s)
 {
     if (s->conversion.notch == NOTCH_BONDS) return "the scene sets this";
@@ -21,8 +21,8 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
-/* Returns a text with the reason why pre-cracks may not be slits, along which nodes of the mesh are doubled: from the
- * scene, the reference frame or the grid. NULL if nothing prevents it. */
+/* Returns the reason why pre-cracks may not be slits, along which nodes of the mesh are doubled, as a constant text: in
+ * the scene s, the reference frame r or the grid g. Returns NULL if nothing prevents slits. */
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
@@ -31,8 +31,8 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
     return why;
 }
 
-/* Returns REFUSED, with the reason in the message, if the scene requires that pre-cracks are slits, along which nodes
- * of the mesh are doubled, and one of them cannot be. Returns OK otherwise. */
+/* Checks that all pre-cracks of n are slits, along which nodes of the mesh are doubled, if scene s requires this.
+ * Returns REFUSED, with the reason in the message, if one of them is not; OK otherwise. */
 static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)

@@ -11,9 +11,9 @@
 
 #include "partial_parts.h"
 
-/* Computes the tensor zeta = (1/Q) sum w xi (x) xi over the intact bonds of material point i, in symmetric components
- * [1]; zeta must be 0 before. w: weight of a bond; xi: its reference vector; Q: weighted volume of the family. Returns
- * false if the point has no intact bond. */
+/* Computes the tensor zeta = (1/Q) sum w xi (x) xi over the intact bonds b of material point i, in symmetric components
+ * [1]; zeta must be 0 before. w: weight of a bond; xi: reference vector of the bond; Q: weighted volume of the point's
+ * family (neighbourhood). Returns true if the point has an intact bond, else false. */
 static bool own_bonds(real *zeta, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
@@ -34,8 +34,8 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 
 /* ---- eigenvalues ------------------------------------------------------------------------------------------------- */
 
-/* Applies the Jacobi rotation to the symmetric matrix M[n][n] that makes its entry (p, q) 0, and the same rotation to
- * the columns of Z[n][n], which become the eigenvectors. */
+/* Applies to the symmetric matrix M[n][n] the Jacobi rotation that makes the entry in row p and column q 0. Applies the
+ * same rotation to the columns of Z[n][n], which become the eigenvectors if Z is the unit matrix at first. */
 static void rotate(real *M, real *Z, int n, int p, int q)
 {
     const real off = M[p * n + q];
@@ -68,7 +68,8 @@ static bool is_positive(const real *M, int n)
     return true;
 }
 
-/* Sets the negative eigenvalues of the symmetric matrix M[n][n] to 0, n <= SYM_MAX. */
+/* Sets the negative eigenvalues of the symmetric matrix M[n][n] to 0, and keeps its eigenvectors. n: at most
+ * SYM_MAX. */
 static void make_positive(real *M, int n)
 {
     if (is_positive(M, n)) return;
@@ -86,15 +87,15 @@ static void make_positive(real *M, int n)
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns 1 for a normal component c and sqrt(2) for a shear component of a symmetric tensor. If the rows and columns
- * of a matrix over symmetric components are multiplied by these factors, the matrix has the eigenvalues of the
- * fourth-order tensor, in which shear components occur twice. */
+/* Returns the factor of component c of a symmetric tensor [1]: 1 for a normal component (c < dim), sqrt(2) for a shear
+ * component. If the rows and columns of a matrix over symmetric components are multiplied by these factors, the matrix
+ * has the eigenvalues of the fourth-order tensor, in which shear components occur twice. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
-/* Reduces T [J], the part of the stiffness of a material point that bonds replace, until V C + q L L - T has no
- * negative eigenvalue, so that the point stays stable. C: elastic tensor of material m; V: volume of the point [m^3];
- * q: stiffness of its bonds against a change of their mean strain [J]; L: derivative of this mean strain by the strain
- * of the point's cell, symmetric components [1]. */
+/* Reduces T, the part of the stiffness of a material point that bonds replace [J], until V C + q L L - T has no
+ * negative eigenvalue, so that the point stays stable. T[n][n]: over symmetric components; C: elastic tensor of the
+ * material m; V: volume of the point [m^3]; q: stiffness of the point's bonds against a change of their mean strain
+ * [J]; L[n]: derivative of this mean strain by the strain of the point's cell [1]. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
     const int n = symmetric_component_count(dim);

@@ -25,8 +25,9 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the fraction of the segment from segment_start[dim] to segment_end[dim] that is inside a cube [1].
- * cube_centre[dim]: centre of the cube; half_edge: half of its edge; all positions and lengths in [m]. */
+/* Returns the fraction of a segment that is inside a cube with edges along the axes [1], 0 to 1. segment_start[dim],
+ * segment_end[dim]: ends of the segment [m]; cube_centre[dim], half_edge: centre and half of the edge of the cube
+ * [m]. */
 real segment_fraction_in_cube(const real *segment_start, const real *segment_end, const real *cube_centre,
                               real half_edge, int dim)
 {
@@ -86,8 +87,9 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
         }
 }
 
-/* Returns V/Q [m^-2] of a particle: its volume V over Q, the weighted volume of its family (sum of w xi^2 V). i: index
- * of the particle or of its mirror image. Without a row of bonds, Q is that of a complete family. */
+/* Returns V/Q of a particle [m^-2]: its volume V divided by Q, the weighted volume of its family (sum of w xi^2 V over
+ * its bonds). Without bonds in b, V and Q are those of a complete family on the lattice. i: index of the particle or of
+ * a mirror image of it. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_source_particle(p, s->image, i)];
@@ -113,8 +115,8 @@ struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
-/* Returns the bounding box of the intact bonds in row `row` (bonds of one particle), in the reference configuration
- * [m]. */
+/* Returns the bounding box of the particle of row `row` (its bonds in b) and of the other ends of its intact bonds, in
+ * the reference configuration [m]. */
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
     struct box box = {{0}, {0}};
@@ -131,7 +133,7 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
     return box;
 }
 
-/* Returns true if the box and the cube with centre X[dim] and half edge `half` [m] do not overlap. */
+/* Returns true if the box does not overlap with the cube of centre X[dim] and half edge `half` [m]. */
 static bool box_passes(const struct box *box, const real *X, real half, int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -139,10 +141,11 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* Adds to T the contributions of the bonds of material point (or mirror image) j to the stress in a cube of material
- * with the centre X[dim] and half edge `half` [m], the cell of another point. Only the part of a bond inside the cell
- * counts. T: stiffness of all bonds in the cell times its volume [J]. box[rows]: bounding boxes of the bonds of each
- * particle, by which most are skipped. */
+/* Adds to T the contributions of the bonds of particle j to the stiffness of a cubic cell, which belongs to another
+ * material point. Only the part of a bond inside the cell counts; only bonds of material points count. T[n][n]:
+ * stiffness of all bonds in the cell times its volume, over symmetric components [J]; j: particle or mirror image;
+ * X[dim], half: centre and half edge of the cell [m]; box[rows]: bounding boxes of the bonds of each row, by which most
+ * rows are skipped. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -171,9 +174,9 @@ real particle_cell_half_edge(const struct particles *p, const struct bond_source
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Computes T, the stiffness that all bonds near material point i have within its cell, times the volume of the cell
- * [J]. Tests the bonds one by one, which works for any arrangement of particles. T: 0 before; box[rows]: bounding boxes
- * of the bonds of each particle; near: working memory. */
+/* Computes T, the stiffness that the bonds of all material points near point i have within the cell of i, times the
+ * volume of the cell [J]. Tests the bonds one by one, which works for any arrangement of particles. T[n][n]: over
+ * symmetric components, 0 before; box[rows]: bounding boxes of the bonds of each row; near: working memory. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
 {
@@ -186,9 +189,9 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
 }
 
-/* Computes the matrix M = T C^-1/V over symmetric components: M sigma is the part of the stress sigma of point i that
- * bonds carry. C, V: elastic tensor and volume of the point; T: stiffness of the bonds within its cell, times V [J].
- * Returns false if M is 0, i.e. if no bond crosses the cell. */
+/* Computes the matrix M = T C^-1/V over symmetric components, M[n][n]: M sigma is the part of the stress sigma of
+ * material point i that bonds carry. C, V: elastic tensor and volume of the point; T[n][n]: stiffness of the bonds
+ * within the cell of the point, times V [J]. Returns false if M is 0, i.e. if no bond crosses the cell. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -205,20 +208,20 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
     return largest > 0;
 }
 
-/* Returns the number of values that are stored for a point: those of the matrix M (share of its stress that bonds
- * carry), and for state-based models also those of the tensor L (derivative of its mean strain by the strain of its
- * cell). */
+/* Returns the number of values that partial_stress stores for a point: those of the matrix M (share of the point's
+ * stress that bonds carry), and for state-based models (s->modulus) also those of the tensor L (derivative of the mean
+ * strain of the point's bonds by the strain of its cell). */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_component_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
-/* Computes the values that are stored for point i of a state-based model. entry: receives the matrix M (part of its
- * stress that bonds carry), then the tensor L (derivative of its mean strain by the strain of its cell). T: stiffness
- * of the bonds within its cell, times its volume [J]; reduced if the point would be unstable. Returns false if the
- * point needs no entry. With partial->gives_all (hand-shake coupling), a point transmits its whole stress itself: all
- * values are 0, and the entry only marks a point with bonds. */
+/* Computes the values to be stored for material point i of a state-based model. entry: receives the matrix M (share of
+ * the point's stress that bonds carry), then the tensor L (derivative of the mean strain of its bonds by the strain of
+ * its cell). T: stiffness of the bonds within its cell, times its volume [J]; is reduced if the point would be
+ * unstable. With partial->gives_all (hand-shake coupling), a point transmits its whole stress itself: all values are 0,
+ * and the entry only marks a point with bonds. Returns false if the point needs no entry. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -229,9 +232,9 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
-/* Computes the values that are stored for point i of a bond-based model. entry: receives the matrix M (part of its
- * stress that bonds carry). T: stiffness of the bonds within its cell, times its volume [J]; reduced if the point would
- * be unstable. Returns false if no bond crosses the cell. */
+/* Computes the values to be stored for material point i of a bond-based model. entry: receives the matrix M (share of
+ * the point's stress that bonds carry). T: stiffness of the bonds within the cell of the point, times its volume [J];
+ * is reduced if the point would be unstable. Returns false if no bond crosses the cell. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_tensor_limit_for_bond_based_model(T, p, s, i);
@@ -252,11 +255,12 @@ struct renewal {
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Marks the particles that are affected when particles have changed, by bits in mark[particles]. OWN: a changed
- * particle. DIRTY: its distance from a changed particle is at most `radius` [m], so that its partial stress must be
- * recomputed. OTHERS_ROW: its distance is at most radius + reach [m], so that its bonds may cross the cell of a DIRTY
- * particle. changed: indices of the n changed particles, or NULL if all peridynamic particles have changed. With reach
- * 0, the particles within the cutoff of bonds are found, by the map of lattice sites `map` (NULL: none). */
+/* Sets bits in mark[p->n] for the particles that are affected when particles have changed. OWN: a changed particle.
+ * DIRTY: its distance from a changed particle is at most `radius` [m], so that its partial stress (stress that bonds
+ * replace) must be recomputed. OTHERS_ROW: its distance is at most radius + reach [m], so that its bonds may cross the
+ * cell of a DIRTY particle. changed[n]: indices of the changed particles, or NULL if all peridynamic particles have
+ * changed. With reach 0, the affected particles are those within the cutoff of bonds, found by the map from lattice
+ * sites to particles, `map` (NULL: by a search). */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s,
                        const struct site_map *map, real radius, real reach, const int32_t *changed, int64_t n)
 {
@@ -278,9 +282,9 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     memory_free(near.at);
 }
 
-/* Returns the number of marked particles i, those with mark[i] != 0. list: receives their indices in ascending order;
- * NULL: they are only counted; n: number of particles. mark must be readable, and 0, up to the next multiple of
- * LANES. */
+/* Lists the marked particles i, those with mark[i] != 0. list: receives their indices in ascending order; NULL: they
+ * are only counted; n: number of particles. mark must be readable, and 0, from n up to the next multiple of LANES.
+ * Returns the number of marked particles. */
 static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 {
     int64_t found = 0;
@@ -294,10 +298,11 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds in r the points whose partial stress must be recomputed, and the rows (bonds of one particle) that may cross
- * their cells. changed: indices of the n particles that have changed, or NULL if all peridynamic particles have. table:
- * table for bonds on a lattice; if it applies to all particles, no rows are listed, since they are then found by
- * lattice site. Release r with renewal_free. */
+/* Finds the material points whose partial stress (stress that bonds replace) must be recomputed after a change, and the
+ * rows (bonds of one particle) that may cross the cells of these points, and stores both in r. changed[n]: indices of
+ * the particles that have changed, or NULL if all peridynamic particles have. table: responses of bonds on a lattice;
+ * if it applies to all particles, no rows are listed, since they are then found by lattice site. Release r with
+ * renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
@@ -336,9 +341,9 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Stores the values computed for point i: `size` values of the matrix M (part of its stress that bonds carry), and
- * `local` values of the tensor L (derivative of its mean strain by the strain of its cell), which follow at M + size.
- * Creates an entry for the point if it has none. */
+/* Stores the values computed for material point i. M: `size` values of the matrix M (share of the point's stress that
+ * bonds carry), followed by `local` values of the tensor L (derivative of the mean strain of its bonds by the strain of
+ * its cell; none in bond-based models). Creates an entry for the point if it has none. */
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
@@ -351,7 +356,7 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
 }
 
 /* Removes unused entries from the arrays of stored values if they are more than half of all. Points that have become
- * peridynamic or have lost their bonds leave unused entries. size, local: numbers of values of the matrix M and the
+ * peridynamic or have lost their bonds leave unused entries. size, local: number of values of the matrix M and of the
  * tensor L in an entry. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
@@ -374,8 +379,8 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
     memory_free(old.local);
 }
 
-/* Returns true if the entry of point i equals M (`size` values) and the tensor L that follows it (`local` values)
- * bitwise. */
+/* Returns true if the stored entry of material point i is bitwise equal to M: `size` values of the matrix M and `local`
+ * values of the tensor L that follow. Returns false if the point has no entry. */
 static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     const int64_t at = partial->index[i];
@@ -383,16 +388,17 @@ static bool entry_is(const struct partial_stress *partial, int64_t i, const real
            arrays_equal(partial->local + at * local, M + size, local, sizeof *M);
 }
 
-/* Appends particle i to partial->touched, the list of points whose stored values have changed. */
+/* Appends particle i to partial->touched, the list of material points whose stored values have changed. */
 static void touch(struct partial_stress *partial, int64_t i)
 {
     GROW("partial.touched", partial->touched, partial->touches + 1);
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* Computes the values to be stored for the material points in the list r->list, in parallel. entry: receives r->n
- * entries, each with the matrix M and for state-based models the tensor L; crossed[k]: set to true if the point
- * r->list[k] needs an entry because bonds cross its cell. */
+/* Computes in parallel the values to be stored for the material points in the list r->list. entry: receives r->n
+ * entries, each with the matrix M (share of the point's stress that bonds carry) and for state-based models the tensor
+ * L; crossed[r->n]: set to true for the points that need an entry because bonds cross their cell. partial: supplies the
+ * table of bonds on a lattice, if there is one. */
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {

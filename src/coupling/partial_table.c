@@ -53,7 +53,7 @@ struct partial_table {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of lattice sites in table t: (2 reach + 1)^dim. They form a cube with a material point at its
+/* Returns the number of lattice sites in table t: (2 reach + 1)^dim. The sites form a cube with a material point at its
  * centre. */
 static int64_t partial_table_places_of(const struct partial_table *t)
 {
@@ -79,8 +79,8 @@ static int64_t place_from(const struct partial_table *t, const int *at)
     return place;
 }
 
-/* Returns the number in table t of the site at to[dim] [m] if the site at from[dim] [m] is at the centre of the table.
- * Returns -1 if it is outside the table. */
+/* Returns the number of a site in table t, from 0, if the centre of the table is at another site; -1 if the site is
+ * outside the table. from[dim], to[dim]: positions of the centre and of the site [m]. */
 static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
 {
     int64_t place = 0;
@@ -96,8 +96,9 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 /* ---- construction ------------------------------------------------------------------------------------------------ */
 
 /* Numbers all possible bond vectors on the lattice, up to the length `cutoff` [m], and stores their numbers in
- * t->vector, by the site to which a vector leads from the centre of the table. Lists these sites and the centre in
- * t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
+ * t->vector, by the site to which a vector leads from the centre of the table; -1 for sites without a vector. Lists
+ * these sites and the centre in t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST +
+ * 1. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -121,15 +122,15 @@ static void vectors_make(struct partial_table *t, real cutoff)
     }
 }
 
-/* Returns the number of the direction of bond vector number `vector`; a vector and its opposite have the same
- * direction. */
+/* Returns the number, from 0, of the direction of the bond vector number `vector` in table t. A vector and its opposite
+ * have the same direction. */
 static int direction_of(const struct partial_table *t, int vector)
 {
     return vector < t->directions ? vector : t->vectors - 1 - vector;
 }
 
-/* Computes t->mirror: for each set of axes and each bond vector, the number of the vector whose components along these
- * axes have the opposite sign. */
+/* Computes t->mirror[2^dim][vectors]: for each set of axes (one bit each) and each bond vector, the number of the
+ * vector whose components along these axes have the opposite sign. */
 static void mirrors_make(struct partial_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
@@ -142,10 +143,10 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* Lists the lattice cells that the bond from the centre of the table to site k crosses. Each crossing is listed as seen
- * from the crossed cell: under the number of the site at which the bond starts if this cell is at the centre of the
- * table. With `count` true, crossings are only counted, in next[site + 1]; otherwise they are stored in t->crossing at
- * the positions next[site], which are incremented. */
+/* Lists the lattice cells that the bond from the centre of the table to site number k crosses. Each crossing is listed
+ * as seen from the crossed cell: under the number of the site at which the bond starts if this cell is at the centre of
+ * the table. next[sites + 1]: with `count` true, crossings are only counted, in next[site + 1]; otherwise they are
+ * stored in t->crossing at the positions next[site], which are incremented. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
@@ -169,9 +170,9 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             }
 }
 
-/* Lists in t->crossing how each possible bond crosses the cell at the centre of the table: its vector, and the fraction
- * of its length inside the cell. The list is sorted by the site at which the bond starts; t->start[site] is the first
- * entry of a site. */
+/* Lists in t->crossing how each possible bond on the lattice crosses the cell at the centre of the table: its vector,
+ * and the fraction of its length inside the cell. The list is sorted by the site at which the bond starts;
+ * t->start[site] is the first entry of a site. Call it after vectors_make. */
 static void crossings_make(struct partial_table *t)
 {
     const int64_t places = partial_table_places_of(t);
@@ -187,9 +188,10 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Computes t->tensor: the stiffness T of a cell (see partial_tensor_add_bond_contribution) that a single bond from its
- * centre gives it if the whole bond is inside the cell. There is one T for each direction of bonds and each part of a
- * bond's response to strain (struct response), with this part equal to 1 and the others to 0. */
+/* Computes t->tensor: the stiffness T (see partial_tensor_add_bond_contribution) that a single bond from the centre of
+ * a cell gives to this cell if the whole bond is inside. There is one T for each direction of bonds and each part of
+ * the bond's response to strain (struct response), with this part equal to 1 and the others to 0. s: states whether the
+ * bonds rotate with the material. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
@@ -209,8 +211,8 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
     }
 }
 
-/* Returns true if the particles of each body, with their mirror images, are on one lattice with the spacing `spacing`
- * [m]. */
+/* Returns true if the reference positions of the particles of each body, with their mirror images, are on one lattice
+ * with the given spacing [m]. Bodies may have different lattices. */
 static bool on_lattice(const struct particles *p, real spacing)
 {
     int64_t first[BODIES_MOST];
@@ -275,7 +277,8 @@ void partial_table_free(struct partial_table *t)
 
 /* ---- bond responses ---------------------------------------------------------------------------------------------- */
 
-/* Returns true if the table can be used, i.e. if the particles are on a lattice and have few enough bond vectors. */
+/* Returns true if table t can be used: the particles are on a lattice and the number of bond vectors is at most
+ * VECTORS_MOST. */
 bool partial_table_is_filled(const struct partial_table *t) { return t->vectors > 0; }
 bool partial_table_covers_all_particles(const struct partial_table *t) { return t->uniform; }
 
@@ -284,8 +287,8 @@ static real *response_at(const struct partial_table *t, int64_t k)
     return t->responses.response + k * t->vectors * t->parts;
 }
 
-/* Reserves memory in t->responses for `open` rows, each with the bonds of one particle. A row has an entry of
- * t->vectors responses to strain (struct response), one for each possible bond vector. */
+/* Reserves memory in t->responses for `open` rows (a row has the bonds of one particle). A row has an entry of
+ * t->vectors responses to strain (struct response), one for each possible bond vector on the lattice. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
@@ -299,15 +302,16 @@ static void responses_room(struct partial_table *t, int64_t open)
     a->room = room;
 }
 
-/* Assigns an entry of t->responses to particle i, in which the responses of its bonds to strain are stored. Reuses a
- * released entry if there is one. Does nothing if the particle has an entry. */
+/* Assigns an entry of t->responses to particle i, for the responses of its bonds to strain (struct response). Reuses a
+ * released entry if there is one. Does nothing if the particle has an entry. Call responses_room before. */
 static void response_open(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
     if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
 }
 
-/* Releases the entry of particle i in the array of bond responses, if it has one. */
+/* Releases the entry of particle i in t->responses (responses of its bonds to strain) for use by another particle. Does
+ * nothing if it has none. */
 static void response_close(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
@@ -316,9 +320,9 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes the responses to strain (struct response) of the bonds in row `row`, the bonds of one particle.
- * response[vectors][parts]: receives them, sorted by the number of the bond's vector on the lattice; 0 for broken bonds
- * and for vectors without a bond. */
+/* Computes the responses to strain (struct response) of the bonds in row `row`, the bonds of one particle. s: law of
+ * the bonds; response[vectors][parts]: receives the responses, by the number of the bond's vector on the lattice; 0 for
+ * broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -346,7 +350,8 @@ struct row_block_intact {
     unsigned rows;
 };
 
-/* Returns true if particle i is a material point with an intact bond. *last: cache of the last row block queried. */
+/* Returns true if particle i is a material point with an intact bond in b. *last: result for the last row block queried
+ * (rows of eight particles stored together), updated. */
 static bool partial_table_has_bonds(struct row_block_intact *last, const struct particles *p, const struct bonds *b,
                                     int64_t i)
 {
@@ -393,10 +398,10 @@ struct crossing_row {
     int32_t j, place, response;
 };
 
-/* Adds to sum[directions][parts] the responses of the bonds of one particle, each times the fraction of the bond inside
- * the cell of a material point. place: number of the particle's site in the table whose centre is the point; response:
- * responses of the particle's bonds; signs: axes along which a mirror image is reflected, as bits; parts: t->parts,
- * known at compile time. */
+/* Adds to sum[directions][parts] the responses to strain of the bonds of one particle, each times the fraction of the
+ * bond inside the cell of a material point. place: number of the particle's site in table t with the material point at
+ * its centre; response[vectors][parts]: responses of the particle's bonds; signs: axes along which a mirror image is
+ * reflected, one bit each; parts: t->parts, known at compile time. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -408,7 +413,8 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
     }
 }
 
-/* Prefetches the bond responses that sum_row reads for the row of bonds *row. */
+/* Prefetches the responses to strain that sum_row reads for *row, the bonds of one particle, into the cache. It has no
+ * other effect. */
 static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
 {
     const real *response = response_at(t, row->response);
@@ -416,9 +422,9 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
         __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
-/* Adds to T the sum of sum[k] tensor_k over all k, each of which is a direction of bonds and one part of their response
- * to strain. sum[directions][parts]: summed responses; tensor_k: stiffness of a bond with a unit response, from
- * t->tensor. */
+/* Adds the sum of sum[k] tensor_k over all k to T[t->size]. A number k stands for a direction of bonds and a part of
+ * their response to strain. sum[directions][parts]: summed responses; tensor_k: stiffness of a bond with a unit
+ * response, from t->tensor. */
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {
@@ -433,9 +439,9 @@ bool partial_table_applies_to_particle(const struct particles *p, const struct b
     return fabs(p->volume0[particle] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Inserts particle or mirror image j into the list to[n], in ascending order, if its bonds may cross the cell of a
- * material point: if it is a material point, or the image of one, whose bond responses are stored. place: number of its
- * site in the table whose centre is the point with the cell. Returns the new length of the list. */
+/* Inserts particle or mirror image j into to[n], a list in ascending order of j, if its bonds may cross the cell of a
+ * material point: if j is a material point, or the image of one, whose bond responses are stored in t. place: number of
+ * the site of j in the table with that material point at its centre. Returns the new length of the list. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -447,9 +453,10 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists in `to` the particles and images whose bonds may cross the cell of point i, in ascending order, and returns
- * their number. l: map from lattice sites to particles, in which they are looked up. Sites are visited in the order of
- * the particles, so that only images have to be inserted between others. */
+/* Lists the particles and images whose bonds may cross the cell of material point i in `to`, in ascending order. l: map
+ * from lattice sites to particles, in which they are looked up. Sites are visited in the order of the particles, so
+ * that only images have to be inserted between others. Returns the number of listed particles, at most t->vectors +
+ * 1. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -463,9 +470,9 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists in `to` the particles and images whose bonds may cross the cell of point i, in ascending order, and returns
- * their number. Finds them by a neighbour search, for particles without a map of lattice sites. near: working
- * memory. */
+/* Lists the particles and images whose bonds may cross the cell of material point i in `to`, in ascending order, found
+ * by a neighbour search: for particles without a map of lattice sites. s: cells of the search; near: working memory.
+ * Returns the number of listed particles. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

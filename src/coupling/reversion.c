@@ -20,8 +20,8 @@ struct search {
     struct neighbour_list near;
 };
 
-/* Finds the particles of the body of particle i within `radius` [m] of it, including i, and stores them in s->near. A
- * mirror image is replaced by the particle that it mirrors. */
+/* Finds the particles of the body of particle i whose reference position is within `radius` [m] of that of i, i
+ * included, and stores them in s->near. A mirror image is replaced by the particle that it mirrors. */
 static void search_near(struct search *s, int64_t i, real radius)
 {
     int kept = 0;
@@ -33,7 +33,8 @@ static void search_near(struct search *s, int64_t i, real radius)
     s->near.n = kept;
 }
 
-/* Returns true if mark[i] is not 0, or mark[j] of a particle j of the same body within `radius` [m] of particle i. */
+/* Returns true if mark[j] is not 0 for particle i itself or for a particle j of the same body within `radius` [m] of i.
+ * s: neighbour search; mark[particles]. */
 static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 {
     if (mark[i]) return true;
@@ -43,10 +44,10 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
     return false;
 }
 
-/* Returns true if the stress of particle i is low enough for reversion to a material point: its largest principal value
- * is less than rule->low_stress times the stress at which a point is converted. In bond-based models the stress of a
- * particle near a surface is too small because neighbours are missing, and is divided by the volume share of those that
- * exist. */
+/* Returns true if the stress of peridynamic particle i is low enough for reversion to a material point: its largest
+ * principal value is less than rule->low_stress times the stress at which a point is converted. In bond-based models
+ * the stress of a particle near a surface is too small because neighbours are missing, and is divided by the volume
+ * share of those that exist. b: bonds, with these volumes. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -57,11 +58,11 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_largest_principal(stress, p->dim) < limit;
 }
 
-/* Finds the peridynamic particles that may not revert to material points for reasons of their own. Sets held[i] to 1
+/* Finds the peridynamic particles that may not revert to material points because of their own state. Sets held[i] to 1
  * for particles with a broken or softened bond, for those in the region rule->kept, and for those whose stress has not
- * been low for the hold time; to 0 for others. Sets cut[i] to 1 for particles with a broken or softened bond. Updates
- * low_since, the time since when the stress of a particle is low [s]. t: present time [s]. Returns the number of
- * peridynamic particles with held[i] = 0. */
+ * been low for the hold time; to 0 for others. Sets cut[i] to 1 for particles with a broken or softened bond, else to
+ * 0. Updates p->low_since, the time since when the stress of a particle is low [s]. t: present time [s]. Returns the
+ * number of peridynamic particles with held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -83,10 +84,11 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
     return rested;
 }
 
-/* Sets bound[i] to 1 for peridynamic particles that must not become material points. These have a particle marked in
- * `held` within the cutoff, or one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i
- * within the cutoff of a peridynamic particle that is not bound. (A set of particles reverts only as a ball, as large
- * as the cutoff, without bound particles; its centre must have near[i] = 1.) All arrays: [p->n]. */
+/* Sets bound[i] to 1 for peridynamic particles i that must not become material points: a particle marked in `held` is
+ * within the cutoff, or one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i within
+ * the cutoff of a peridynamic particle that is not bound. (A set of particles reverts only as a ball, as large as the
+ * cutoff, without bound particles; its centre must have near[i] = 1.) All arrays: [p->n]; held, cut: from
+ * mark_constrained. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -111,9 +113,9 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* Sets mark[i] to 1 for those particles i with wanted[i] = 1 that have a particle j with other[j] = 1 within the
- * cutoff, if `meeting` is true. If it is false, sets mark[i] to 1 for those that have no such particle. Sets mark[i] to
- * 0 for all others. Arrays: [p->n]. */
+/* Sets mark[i] for all particles i, depending on whether a particle j with other[j] = 1 is within the cutoff (largest
+ * bond length). If `meeting` is true, mark[i] becomes 1 for those with wanted[i] = 1 that have such a particle j; if
+ * false, for those with wanted[i] = 1 that have none. mark[i] becomes 0 for all others. Arrays: [p->n]. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -159,9 +161,9 @@ static void rows_swap(real *a, real *b, int n)
     }
 }
 
-/* Solves A x = b for n unknowns and `columns` right sides by elimination with pivots. A[n][n] is overwritten; x
- * replaces b[n][columns]. Returns false if A is singular, as it is if the bonds of a particle have too few
- * directions. */
+/* Solves the linear equations A x = b for n unknowns and `columns` right-hand sides by Gauss-Jordan elimination with
+ * pivots. A[n][n] is overwritten; x replaces b[n][columns]. Returns false if A is singular, as it is if the bonds of a
+ * particle have too few directions; b is then undefined. */
 static bool reversion_solve(real *A, real *b, int n, int columns)
 {
     real largest = 0;
@@ -184,9 +186,9 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Adds the sums K = sum w e e and G = sum w e y/r over the intact bonds of row `row`, the bonds of one particle, to K
- * and G, both [dim dim]. w: weight of a bond; e, r: its reference direction and length; y: its present vector. The
- * deformation gradient F of the family follows from K F^T = G. */
+/* Adds the sums K = sum w e e and G = sum w e y/r over the intact bonds of row `row`, the bonds of one particle, to
+ * K[dim][dim] and G[dim][dim]. w: weight of a bond; e, r: its reference direction and length [m]; y: its present vector
+ * [m]. The deformation gradient F of the family (neighbourhood) follows from K F^T = G. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -213,8 +215,9 @@ struct crossing {
 };
 
 /* Adds half of the contribution of one bond to the stress in the cell *to of a particle, and to the derivative of this
- * stress by the strain. The other half is added when the bond is found in the row of its other particle. The bond
- * starts at particle or mirror image j. r: reflection that maps the particle r->root, which has the row, to j. */
+ * stress by a uniform strain, both times the volume of the cell. The other half is added when the bond is found in the
+ * row of its other particle. bond: the bond, as stored for the particle r->root; j: that particle or a mirror image of
+ * it; r: reflection that maps r->root to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -246,11 +249,11 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* Computes the stress in the cell of particle i from all bonds that cross it, sigma = (1/V) sum l F (x) y, and its
- * derivative by a uniform strain, T = (1/V) sum k r l e e e e. V: volume of the cell; l: fraction of the bond inside
- * the cell; F, y: force and present vector of the bond; k, r, e: its stiffness, reference length and direction. In a
- * uniform strain sigma equals the virial stress of the bonds of particle i, but it averages a wave over only half the
- * distance. near: working memory. */
+/* Computes the stress in the cell of particle i from all bonds that cross it, sigma = (1/V) sum l F (x) y, and the
+ * derivative of this stress by a uniform strain, T = (1/V) sum k r l e e e e, in *to [Pa]. V: volume of the cell; l:
+ * fraction of the bond inside the cell; F, y: force and present vector of the bond; k, r, e: its stiffness, reference
+ * length and direction. In a uniform strain sigma equals the virial stress of the bonds of particle i, but it averages
+ * a wave over only half the distance. near: working memory. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
@@ -277,9 +280,10 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Corrects `stress` [Pa], the stress of the bonds that cross the cell of particle i, for missing bonds. The uniform
- * strain that causes this stress is T^-1 stress; the result is the stress of a complete family under this strain. T:
- * derivative of the stress by a uniform strain [Pa], overwritten. Leaves the stress unchanged if T is singular. */
+/* Corrects `stress`, the stress of the bonds that cross the cell of particle i [Pa], for missing bonds. The uniform
+ * strain that causes this stress is T^-1 stress; the corrected stress is that of a complete family (neighbourhood)
+ * under this strain. T[n][n]: derivative of the stress by a uniform strain [Pa], overwritten. Leaves the stress
+ * unchanged if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -291,9 +295,10 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-/* Computes the stress that particle i gets as a material point, in symmetric components [Pa]. In bond-based models it
- * is the stress of the bonds that cross its cell. In state-based models it is the virial stress of its own bonds, since
- * a single bond has no force of its own there. near: working memory. */
+/* Computes the stress that peridynamic particle i gets as a material point. stress: receives its symmetric components
+ * [Pa]. In bond-based models it is the stress of the bonds that cross the cell of the particle. In state-based models
+ * it is the virial stress of its own bonds, since a single bond has no force of its own there. source: law of the bonds
+ * and cells of the neighbour search; near: working memory. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
                              const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
@@ -305,8 +310,9 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
     memcpy(stress, c.stress, sizeof c.stress);
 }
 
-/* Sets the state that particle i has as a material point from its bonds: stress, volume and stretch. The velocity
- * gradient becomes 0. near: working memory. */
+/* Sets the state that peridynamic particle i has as a material point from its bonds b: stress, volume and stretch. The
+ * velocity gradient becomes 0. If the bonds have too few directions to determine the deformation, it is taken to be
+ * undeformed. near: working memory. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct neighbour_list *near)
 {

@@ -10,8 +10,8 @@
 #include "run/energies.h"
 
 /* Returns the number of time steps, at least 1, from one search for particles that may become material points again to
- * the next. In this time a wave travels one horizon, half the diameter of a family, so that no wave crosses a family
- * unnoticed. */
+ * the next. In this time a wave travels one horizon, half the diameter of a family (neighbourhood), so that no wave
+ * crosses a family unnoticed. clock: time step; tables: wave speed; source: horizon. */
 static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
                       const struct bond_source *source)
 {
@@ -34,7 +34,8 @@ status reversion_check_scene_allows_reversion(const struct scene *s)
     return why ? status_set(REFUSED, "conversion.reversion: true needs %s", why) : OK;
 }
 
-/* Returns the sum of elastic and kinetic energies of the bodies at the present positions [J]. */
+/* Returns the sum of the elastic and kinetic energies of the bodies of run e at the present positions [J], those of
+ * bonds, material points and mesh included. */
 static real energy_now(struct run *e)
 {
     if (e->source.modulus) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
@@ -44,8 +45,9 @@ static real energy_now(struct run *e)
            particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
-/* Turns the n peridynamic particles list[k] into material points. The change of elastic and kinetic energy that this
- * causes is added to the quantity conversion.reversion_energy of the run [J]. */
+/* Turns n peridynamic particles into material points, with bonds, mesh and interface zone updated. list[n]: indices of
+ * the particles. The change of elastic and kinetic energy that this causes is added to the quantity
+ * conversion.reversion_energy of run e [J]. */
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);
