@@ -9,16 +9,16 @@
  * rules differ by more. */
 static const real WEIGHT_NEAR = 1e-6;
 
-/* Returns the share beta(r) of the volume of a neighbour at distance r [m] in the LAMMPS styles peri/pmb and peri/lps:
- * beta = 1/2 + (x->cutoff - r)/x->lattice within half a lattice constant of the cutoff, and 1 closer to the
- * particle. */
+/* Returns the share beta(r) of the volume of a neighbour at distance r [m] that counts in the LAMMPS styles peri/pmb
+ * and peri/lps [1]: beta = 1/2 + (x->cutoff - r)/x->lattice within half a lattice constant of the cutoff, and 1 closer
+ * to the particle. x: the export, with cutoff and lattice constant of LAMMPS. */
 static real lammps_share(const struct exported *x, real r)
 {
     return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
 }
 
-/* Returns the squared reference distance of the particles i and j [m^2], with the same rounding as in LAMMPS. In 2D all
- * particles are at z = 0. */
+/* Returns the squared reference distance of the particles i and j [m^2], with the same rounding as in LAMMPS, which has
+ * z = 0 for all particles in 2D. */
 static real distance2(const struct particles *p, int64_t i, int64_t j)
 {
     real sum = 0;
@@ -26,8 +26,9 @@ static real distance2(const struct particles *p, int64_t i, int64_t j)
     return sum;
 }
 
-/* Returns the ratio c/c_0 of the micro-modulus c of a bond between the materials a and b to that of material 0 [1]. The
- * two halves of the bond act as springs in series: c = 2 c_a c_b/(c_a + c_b). */
+/* Returns the ratio c/c_0 of the micro-modulus c of a bond between the materials number a and b to the micro-modulus
+ * c_0 of material 0 in the exported scene [1]. The two halves of the bond act as springs in series: c = 2 c_a c_b/(c_a
+ * + c_b). */
 static real modulus_ratio(const struct exported *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
@@ -37,8 +38,8 @@ static real modulus_ratio(const struct exported *x, int a, int b)
     return 2 * first * second / (first + second) / family_micro_modulus(f, &m[0]);
 }
 
-/* Returns true if the weight of `bond`, a bond of particle i, equals the weight that LAMMPS would use, to within the
- * relative tolerance WEIGHT_NEAR. */
+/* Returns true if the weight of `bond`, a bond of particle i in the exported scene, equals the weight that LAMMPS would
+ * use, to within the relative tolerance WEIGHT_NEAR. */
 static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &x->e->part;
@@ -56,9 +57,10 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
                       p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0, what);
 }
 
-/* Sets bonded[j] = i + 1 for each neighbour j of particle i to which the scene has a bond, and stores the number of
- * these bonds in *n. Returns REFUSED if LAMMPS would give a bond another weight, or if a bond is longer than the cutoff
- * of LAMMPS by round-off. The latter can occur for bonds as long as the horizon. */
+/* Sets bonded[j] = i + 1 for each neighbour j of particle i to which the exported scene has a bond, and stores the
+ * number of these bonds in *n. bonded[particles]: 0 before the first call. Returns REFUSED, with a message, if LAMMPS
+ * would give a bond another weight, or if a bond is longer than the cutoff of LAMMPS by round-off. The latter can occur
+ * for bonds as long as the horizon. */
 static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
 {
     const struct run *e = x->e;
@@ -76,8 +78,8 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
     return OK;
 }
 
-/* Finds the particles to which LAMMPS would bond particle i: those within its cutoff. Stores their indices in
- * found[capacity] and returns their number. */
+/* Finds the particles to which LAMMPS would bond particle i: those within the cutoff of the export x. found[capacity]:
+ * receives their indices; it must have capacity for all of them. Returns their number. */
 static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int capacity)
 {
     const struct run *e = x->e;
@@ -93,7 +95,8 @@ static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int 
 
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the hash of a sequence of words that ends with `word`. hash: hash of the words before it. */
+/* Returns the hash of a sequence of numbers with one more number at its end. hash: hash of the sequence so far; word:
+ * the number at its end. */
 static uint64_t mix(uint64_t hash, int64_t word)
 {
     hash = (hash ^ (uint64_t)word) * 0x9E3779B97F4A7C15u;
@@ -105,9 +108,9 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
     return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
 }
 
-/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo p = 2
- * m + 1 spacings along each axis, where m is the reach of bonds [spacings]. Two neighbours are at most m spacings apart
- * along each axis, so that the vector between them follows from their positions modulo p. */
+/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo 2 m +
+ * 1 spacings along each axis, where m is the reach of bonds [spacings]. Two neighbours are at most m spacings apart
+ * along each axis, so that the vector between them follows from both reduced positions. */
 static uint64_t key_of(const struct exported *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
@@ -137,8 +140,8 @@ struct search {
 };
 
 /* Sets a->number[i] to 1 for each particle i with at least one cut bond, else to 0. Cut bonds are pairs within the
- * cutoff of LAMMPS that have no bond in the scene. Stores the number of bonds of the scene in *bonds and of cut bonds
- * in *cut. Returns REFUSED if LAMMPS cannot represent a bond of the scene. */
+ * cutoff of LAMMPS that have no bond in the exported scene. *bonds, *cut: receive the number of bonds of the scene and
+ * of cut bonds. Returns REFUSED, with a message, if LAMMPS cannot represent a bond of the scene. */
 static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
 {
     int64_t ends = 0, ends_cut = 0;
@@ -154,8 +157,8 @@ static status touched_find(const struct exported *x, struct search *a, int64_t *
 }
 
 /* Lists in t the particles for which a->number is 1, those with a cut bond (a pair that LAMMPS would bond and the scene
- * does not). Allocates their keys t->key. Replaces a->number[i] by the index of particle i in the list, or -1 for other
- * particles. */
+ * does not). Allocates t->key, the array of their keys. Replaces a->number[i] by the index of particle i in the list,
+ * or -1 for other particles. Call it after touched_find. */
 static void touched_list(struct touched *t, const struct exported *x, struct search *a)
 {
     const int64_t n = x->e->part.n;
@@ -169,9 +172,10 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-/* For each particle listed in t, those with a cut bond, lists the neighbours to which LAMMPS would bond it and the kind
- * of each pair: bonded or cut in the scene. Computes the key t->key of the particle: the sum of a hash of its material,
- * loads and lattice position and of hashes of the lattice vectors to the neighbours at its cut bonds. */
+/* For each particle listed in t, those with a cut bond, lists the neighbours to which LAMMPS would bond the particle,
+ * and the kind of each pair: bonded or cut in the scene. Computes t->key of the particle: the sum of a hash of its
+ * material, loads and lattice position and of hashes of the lattice vectors to the neighbours at its cut bonds. a: work
+ * arrays, after touched_list. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

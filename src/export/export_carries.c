@@ -62,17 +62,17 @@ static status carries_materials(const struct scene *s, bool bond_style)
     return OK;
 }
 
-/* Appends to the list `to` a key of the scene that the export must change, if `differs` is true. value: new value of
- * the key; effect: how this changes results, in words. The texts are kept by reference. */
+/* Appends a setting to the list `to`, a key of the scene that the export must change, if `differs` is true. key, value:
+ * name and new value of the key; effect: how the change affects results, in words. The texts are kept by reference. */
 static void settings_add(struct lammps_settings *to, bool differs, const char *key, const char *value,
                          const char *effect)
 {
     if (differs) to->of[to->n++] = (struct lammps_setting){key, value, effect};
 }
 
-/* Appends to the list the settings of contact that an export of the scene s needs; none if s has no contact. own: true
- * if the pair style of LAMMPS includes a contact law, whose rules the settings must follow. If `own` is false, contact
- * is switched off. */
+/* Appends to the list `to` the settings of contact that an export of the scene s must change; none if s has no contact.
+ * own: true if the pair style of LAMMPS includes a contact law, whose rules the settings must follow; false if it has
+ * none, contact is then switched off. */
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
     static const char *const effect =
@@ -94,8 +94,8 @@ bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s)
     return s->model == MODEL_OSPD && scene_bonds_break(s);
 }
 
-/* Appends to the list the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect
- * of changing them. bond_style: true for an export for bond_style bpm/peri, false for a pair_style. */
+/* Appends to the list `to` the peridynamic settings of the scene s that differ from the fixed rules of LAMMPS, with the
+ * effect of changing them. bond_style: true for an export for bond_style bpm/peri, false for a pair_style. */
 static void pd_settings(struct lammps_settings *to, const struct scene *s, bool bond_style)
 {
     const bool state = s->model == MODEL_OSPD, touches = s->contact_between != CONTACT_NONE && !state;

@@ -32,10 +32,10 @@ struct colouring {
 
 static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
 
-/* Returns true if the k-th listed particle can have colour c. LAMMPS excludes bonds by pairs of particle types, and
- * colours become types: all particle pairs with the same two colours must be of one kind, bonded or cut. For each
- * neighbour of the particle, the pair of c and the neighbour's colour must be unused so far, or already have the kind
- * of this pair. */
+/* Returns true if particle k in the list a->t of particles at cut bonds can have colour c. LAMMPS excludes bonds by
+ * pairs of particle types, and colours become types: all pairs of particles with the same two colours must be of one
+ * kind, bonded or cut. For each neighbour of the particle, the pair of c and the neighbour's colour must be unused so
+ * far, or already have the kind of this pair of particles. */
 static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
 {
     for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {
@@ -46,9 +46,9 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns colour c to the k-th listed particle, and records in a->pair the kind, bonded or cut, of the pairs of c with
- * the colours of its neighbours. Colours become particle types, by which LAMMPS excludes bonds. Returns false if a pair
- * of colours would need both kinds. */
+/* Assigns colour c to particle k in the list a->t of particles at cut bonds, and records in a->pair the kind, bonded or
+ * cut, of the pairs of c with the colours of its neighbours. Colours become particle types, by which LAMMPS excludes
+ * bonds. Returns false if a pair of colours would need both kinds. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 {
     a->of[k] = c;

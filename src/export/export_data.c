@@ -4,8 +4,8 @@
 
 #include "export_parts.h"
 
-/* Returns the number, from 1, of the LAMMPS bond type for bonds between the materials a and b of `materials` materials.
- * Each unordered pair of materials has its own type. */
+/* Returns the number of the LAMMPS bond type for bonds between the materials a and b, from 0, of `materials` materials.
+ * Types are numbered from 1; each unordered pair of materials has one. */
 static int bond_type(int materials, int a, int b)
 {
     const int low = a < b ? a : b, high = a < b ? b : a;
@@ -47,8 +47,9 @@ static void velocities_write(FILE *to, const struct exported *x)
     }
 }
 
-/* Writes the section of plate.data with the per-particle columns of loads and displacements. It is the last section,
- * since LAMMPS of 2021 reads no section after one of `fix property/atom`. */
+/* Writes the section of the LAMMPS file plate.data with the per-particle columns of loads and displacements of the
+ * export x to the stream `to`. It must be the last section, since LAMMPS of 2021 reads no section after one of `fix
+ * property/atom`. */
 static void columns_write(FILE *to, const struct exported *x)
 {
     fputs("\nColumns\n\n", to);

@@ -50,8 +50,9 @@ struct exodus_export {
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the components of the field with the index `field` as variables. Their names end in _x or _xx, by which
- * readers of Exodus files join them to vectors and tensors. */
+/* Appends the components of field number `field` (index in `fields`) to the variables of the Exodus file x. Their names
+ * end in _x or _xx, by which readers of Exodus files join them to vectors and tensors. Components that a 2D run lacks
+ * are added, too, with component -1. */
 static void variables_add(struct exodus_export *x, int field)
 {
     static const char *const vector[] = {"_x", "_y", "_z"}, *const tensor[] = {"_xx", "_yy", "_zz",
@@ -68,8 +69,8 @@ static void variables_add(struct exodus_export *x, int field)
     }
 }
 
-/* Lists the frames of the run in x->folder, and the variables from the fields of the first frame. Returns REFUSED
- * without frames, FAILED if the frame cannot be read. */
+/* Lists the frames of the run in x->folder, and appends the variables of the fields that the first frame has. Returns
+ * REFUSED if the run has no frames, FAILED if they or the first frame cannot be read. */
 static status frames_open(struct exodus_export *x)
 {
     struct output_frame f;
@@ -90,8 +91,8 @@ static status frames_open(struct exodus_export *x)
     return OK;
 }
 
-/* Checks that a frame has the particles of the exported mesh, as an Exodus file has one list of elements for all times.
- * Returns REFUSED otherwise. */
+/* Checks that the frame f has the particles of the exported mesh, as an Exodus file has one list of elements for all
+ * times. Returns OK, or REFUSED with a message. */
 static status frame_check(const struct exodus_export *x, const struct output_frame *f)
 {
     const struct particles *p = &x->mesh.e->part;
@@ -105,9 +106,9 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
                       printable_name(x->folder).text, f->t, (long long)f->n, (long long)x->mesh.n);
 }
 
-/* Writes the variables of the k-th listed frame as one record of the file, in the order in which the arrays were
- * defined. Returns FAILED or REFUSED if the frame cannot be read, or has other particles or components than the first
- * one. */
+/* Writes the variables of frame number k of the list x->frame as one record of the file, in the order in which the
+ * arrays were defined. Returns FAILED if the frame cannot be read, REFUSED if it has other particles or components than
+ * the first one. */
 static status exodus_frame_write(struct exodus_export *x, int k)
 {
     const struct export_mesh *m = &x->mesh;
@@ -153,8 +154,9 @@ struct shared {
     int records, dim, nodes, blocks, sets, name, line, rows;
 };
 
-/* Defines the arrays of the element blocks, one block for each material. d: dimensions that arrays share. Stores in
- * over[materials] the index of the dimension of each block, whose length is its number of elements. */
+/* Defines the arrays of the element blocks of the Exodus file x, one block for each material that has particles. d:
+ * dimensions that arrays share; over[materials]: receives the index of the dimension of each block, whose length is the
+ * number of elements in the block. */
 static void blocks_define(struct exodus_export *x, const struct shared *d, int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -187,9 +189,9 @@ static void sets_define(struct exodus_export *x, const struct shared *d)
     }
 }
 
-/* Defines the arrays with names and values of variables. The arrays over time are the last ones, in the order in which
- * records are written. d: dimensions that arrays share; over[materials]: index of the dimension of each element block,
- * whose length is its number of elements. */
+/* Defines the arrays with names and values of the variables of the Exodus file x. The arrays over time are the last
+ * ones, in the order in which records are written. d: dimensions that arrays share; over[materials]: index of the
+ * dimension of each element block, as stored by blocks_define. */
 static void variables_define(struct exodus_export *x, const struct shared *d, const int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -213,8 +215,8 @@ static void variables_define(struct exodus_export *x, const struct shared *d, co
         }
 }
 
-/* Defines all dimensions, arrays and attributes of the file, in the order in which their contents are written.
- * attribute[attributes]: attributes of the file, kept by reference. */
+/* Defines all dimensions, arrays and attributes of the Exodus file x, in the order in which their contents are written.
+ * attribute[attributes]: attributes of the file, kept by reference until the header has been written. */
 static void all_define(struct exodus_export *x, const struct netcdf_attribute *attribute, int attributes)
 {
     static const char *const axes[] = {"coordx", "coordy", "coordz"};
@@ -245,7 +247,8 @@ static void all_define(struct exodus_export *x, const struct netcdf_attribute *a
 
 /* ---- contents ---------------------------------------------------------------------------------------------------- */
 
-/* Writes spacing, horizon and materials of the scene as lines of text to the array info_records of the file. */
+/* Writes spacing, horizon and materials of the exported scene as lines of text to the array info_records of the Exodus
+ * file x. */
 static void info_write(struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;
@@ -276,8 +279,8 @@ static void coordinates_write(struct exodus_export *x)
     memory_free(numbers);
 }
 
-/* Writes the element block of the material with the number `material`: the nodes of its elements, and the attributes
- * radius and volume of the spheres that represent the particles. */
+/* Writes the element block of material number `material` to the Exodus file x: the nodes of its elements, and the
+ * attributes radius [m] and volume [m^3] of the spheres that represent the particles. */
 static void block_write(struct exodus_export *x, int material)
 {
     const int64_t first = x->mesh.first[material], n = block_size(&x->mesh, material);
@@ -335,8 +338,8 @@ static void sets_write(struct exodus_export *x)
     }
 }
 
-/* Writes the whole Exodus file to `to`. context: pointer to a struct exodus_export. Returns FAILED or REFUSED if a
- * frame cannot be written. It is passed to export_write_file_and_rename, which calls it. */
+/* Writes the whole Exodus file to the stream `to`; export_write_file_and_rename calls it. context: the export (struct
+ * exodus_export). Returns FAILED or REFUSED if a frame cannot be written. */
 static status exodus_put(FILE *to, void *context)
 {
     struct exodus_export *x = context;
@@ -363,7 +366,8 @@ static status exodus_put(FILE *to, void *context)
 
 /* ---- the export -------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED unless the name of a file ends in .exo, .e or .g, as readers of Exodus files expect. */
+/* Checks that the file name `path` ends in .exo, .e or .g, in either case of letters, as readers of Exodus files
+ * expect. Returns OK, or REFUSED with a message. */
 static status exodus_check_name(const char *path)
 {
     const char *const endings[] = {".exo", ".e", ".g"};
@@ -373,9 +377,9 @@ static status exodus_check_name(const char *path)
     return status_set(REFUSED, "%s: give a name that ends in .exo, .e or .g", path);
 }
 
-/* Creates the particles of the scene, lists the frames if a run is exported, and writes the file. Returns REFUSED if
- * there are too many particles for the format. Returns REFUSED or FAILED if the scene or a frame cannot be read, or the
- * file cannot be written. */
+/* Creates the particles of the scene of the request `scene`, lists the frames if a run is exported (x->folder), and
+ * writes the Exodus file. Returns REFUSED, with a message, if there are too many particles for the format; REFUSED or
+ * FAILED if the scene or a frame cannot be read, or the file cannot be written. */
 static status exodus_make(struct exodus_export *x, const struct export_request *scene)
 {
     TRY(export_mesh_make(&x->mesh, scene));
@@ -387,8 +391,8 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
     return export_write_file_and_rename(x->request->folder, exodus_put, x);
 }
 
-/* Prints which file was written with which contents, and what of the scene the file does not contain: rigid bodies, and
- * pre-cracks. */
+/* Prints to standard output the name of the written Exodus file, what it contains, and what of the scene it does not
+ * contain: rigid bodies and pre-cracks. */
 static void exodus_print(const struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;

@@ -15,9 +15,9 @@
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* Reads the scene to be exported, with three kinds of changes to its keys: bonds fill the whole body, the overrides of
- * the user, and the settings `with`, by which the scene agrees with LAMMPS. Returns REFUSED or FAILED if it cannot be
- * read. */
+/* Reads the scene to be exported to *s, with three kinds of changes to its keys: the overrides of the user
+ * (r->override), method: pd so that bonds fill the whole body, and the settings `with`, by which the scene agrees with
+ * LAMMPS. Release s with scene_free. Returns REFUSED or FAILED, with a message, if the scene cannot be read. */
 static status scene_make(struct scene *s, const struct export_request *r, const struct lammps_settings *with)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1 + with->n, struct scene_override);
@@ -30,8 +30,9 @@ static status scene_make(struct scene *s, const struct export_request *r, const 
     return read;
 }
 
-/* Returns REFUSED with a message that lists all keys of the scene s that the export would have to change, and their new
- * values. If there are no such keys, the message states the difference in results that no key removes. */
+/* Refuses the export of scene s with a message that lists all keys that the export would have to change, `settings`,
+ * and their new values. If there are no such keys, the message states the difference in results that no key removes.
+ * Returns REFUSED. */
 static status settings_refuse(const struct lammps_settings *settings, const struct scene *s)
 {
     char list[1024] = "";
@@ -70,8 +71,8 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Prints to `to` how many probes the scene has, and how many regions with frames of their own, since the script does
- * not write these. Prints nothing if there are none. */
+/* Writes to the stream `to` what of scene s the script leaves out: the number of probes, and of regions with frames of
+ * their own. Writes nothing if there are none. */
 static void left_out_write(FILE *to, const struct scene *s)
 {
     if (s->probes == 0 && s->n_series == 0) return;
@@ -164,8 +165,9 @@ static const struct export_file files[] = {{"plate.data", put_data},
                                            {"check.csv", put_check},
                                            {"in.lammps", put_script}};
 
-/* Writes the file f of the export under its temporary name and synchronises it with the disk. t: types of the
- * particles. Returns FAILED, with the file removed, if it cannot be written completely. */
+/* Writes the file f of the export x under its temporary name and synchronises it with the disk. t: particle types of
+ * LAMMPS. Returns FAILED, with the temporary file removed, if it cannot be written completely, or the status of
+ * f->write. */
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
     const struct path path = path_join(x->request->folder, f->name), aside = file_begin_writing_temporary(path.text);
@@ -185,8 +187,8 @@ static status file_export(const struct export_file *f, struct exported *x, const
 
 #define SIGN_OF_EXPORT ", exported by Cleave " /* in the first line of in.lammps */
 
-/* Returns true if the file `path` is a script in.lammps that Cleave has exported, by its first line. scene_text is not
- * used. */
+/* Returns true if the file `path` is a script in.lammps that Cleave has exported, by its first line; false if it cannot
+ * be read. scene_text: not used; it belongs to the type of function that struct folder_kind requires. */
 static bool is_script_of_export(const char *path, const char *scene_text)
 {
     (void)scene_text;
@@ -199,8 +201,8 @@ static bool is_script_of_export(const char *path, const char *scene_text)
     return is;
 }
 
-/* Checks that the folder of the request may be written to. Returns REFUSED if it contains files that belong to no
- * export, an older export and --overwrite is not given, or an input of this export. */
+/* Checks that the folder of the request r may be written to. Returns OK, or REFUSED, with a message, if it contains
+ * files that belong to no export, an older export and --overwrite is not given, or an input of this export. */
 static status export_guard(const struct export_request *r)
 {
     static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};
@@ -212,10 +214,11 @@ static status export_guard(const struct export_request *r)
     return OK;
 }
 
-/* Writes the files of an export into its folder, which the caller has locked. All are first written under temporary
+/* Writes the files of the export x into its folder, which the caller has locked. All are first written under temporary
  * names, so that an older export stays complete if one fails. Then the older script is removed and the new files are
- * renamed, the script last, because a folder without a script is not recognised as an export. t: types of the
- * particles. Returns FAILED if a file cannot be written. */
+ * renamed, the script last, because a folder without a script is not recognised as an export. t: particle types of
+ * LAMMPS. Returns FAILED, with the temporary files removed, if a file cannot be written; REFUSED if the folder may not
+ * be written to. */
 static status files_write_locked(struct exported *x, const struct lammps_types *t)
 {
     const char *folder = x->request->folder;
@@ -242,8 +245,8 @@ static status files_write(struct exported *x, const struct lammps_types *t)
 
 /* ---- the export -------------------------------------------------------------------------------------------------- */
 
-/* Prints how to start LAMMPS on the export, whether its style has been tested, the number of bonds that it cuts, the
- * estimated cost, and how the results differ from the scene. t: types of the particles. */
+/* Prints to standard output how to start LAMMPS on the export x, whether its style has been tested, the number of bonds
+ * that the export cuts, the estimated cost, and how the results differ from the scene. t: particle types of LAMMPS. */
 static void export_print(const struct exported *x, const struct lammps_types *t)
 {
     printf("%s: run LAMMPS in this folder with: lmp -in in.lammps\n", printable_name(x->request->folder).text);

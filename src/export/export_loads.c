@@ -25,7 +25,8 @@ static bool is_constant(const struct load *load) { return load->boundary->time.k
 
 /* ---- what can be done -------------------------------------------------------------------------------------------- */
 
-/* Returns true if a time function can be written as a formula of LAMMPS. */
+/* Returns true if the time function f can be written as a formula of LAMMPS: if it is constant, a step, a pulse, a ramp
+ * or a table. */
 static bool function_carries(const struct time_function *f)
 {
     const enum time_kind kind = f->kind;
@@ -91,9 +92,9 @@ void lammps_initial_velocity(const struct exported *exported, int64_t particle, 
 
 /* ---- columns of plate.data --------------------------------------------------------------------------------------- */
 
-/* Returns component d of the force of a load on its k-th particle at the factor 1 of its time function. For pair
- * styles, in which the density stands for the mass, it is the force per volume [N/m^3]; for bond styles the force
- * [N]. */
+/* Returns component d of the force that `load` exerts on its k-th particle, from 0, at the factor 1 of its time
+ * function. For bond styles of LAMMPS it is the force [N]; for pair styles, in which the density stands for the mass,
+ * the force per volume [N/m^3]. */
 static real force_on(const struct exported *x, const struct load *load, int d, int64_t k)
 {
     const real force = load->boundary->value[d] * load->share[d][k];
@@ -105,7 +106,8 @@ static bool pushes_along(const struct load *load, int d)
     return is_force(load) && load->n > 0 && load->boundary->value[d] != 0;
 }
 
-/* Returns true if component d of the forces of a load differs between its particles by more than round-off. */
+/* Returns true if component d of the forces that `load` exerts differs between its particles by more than round-off.
+ * Only for components in which it exerts a force. */
 static bool force_varies(const struct exported *x, const struct load *load, int d)
 {
     for (int64_t k = 1; k < load->n; k++)
@@ -121,9 +123,9 @@ static bool is_displaced(const struct particles *p)
     return false;
 }
 
-/* Adds an entry to x->column, the list of per-particle columns of plate.data, for each component of a force that varies
- * over the particles of its load. Also adds one for each component of displacement if particles are displaced at the
- * start. */
+/* Lists in x->column the per-particle columns of plate.data that the export x needs: one for each component of a force
+ * that varies over the particles of its load and, if particles are displaced at the start (x->displaced is set), one
+ * for each component of displacement. */
 static void columns_make(struct exported *x)
 {
     const struct loads *l = &x->e->loads;
@@ -158,7 +160,8 @@ void lammps_write_compute_commands(FILE *file, const struct exported *x)
     }
 }
 
-/* Returns the index of particle i in the ascending list load->particle, or -1 if it is not in the list. */
+/* Returns the index of particle i in the list load->particle, which is in ascending order; -1 if the particle is not in
+ * the list. */
 static int64_t index_in_load(const struct load *load, int64_t i)
 {
     int64_t low = 0, high = load->n;
@@ -183,15 +186,16 @@ real lammps_column_value(const struct exported *exported, int c, int64_t particl
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Writes a number to the script, in parentheses if it is negative. Infinite numbers become 1e300 or -1e300. */
+/* Writes a number with 17 digits to the LAMMPS script `to`, in parentheses if it is negative. Infinite numbers become
+ * 1e300 or -1e300. */
 static void put(FILE *to, real value)
 {
     if (!isfinite(value)) value = value > 0 ? 1e300 : -1e300;
     fprintf(to, value < 0 ? "(%.17g)" : "%.17g", value);
 }
 
-/* Writes a formula for a LAMMPS script. It is the template `text`, in which each % is replaced by the next element of
- * number[], and each letter t by the name `t` of the time variable. */
+/* Writes a formula to the LAMMPS script `to`. text: template, in which each % is replaced by the next element of
+ * number[] and each letter t by the name `t` of the time variable, other characters are copied. */
 static void put_formula(FILE *to, const char *text, const char *t, const real *number)
 {
     for (; *text; text++)
@@ -214,7 +218,8 @@ static void put_table(FILE *to, const struct time_function *f, const char *t)
     put_formula(to, "+(t>=%)*%)", t, (real[]){f->t[f->n - 1], f->value[f->n - 1]});
 }
 
-/* Writes the time function f as a LAMMPS formula. t: name of the LAMMPS variable with the time. */
+/* Writes the time function f as a formula to the LAMMPS script `to`. t: name of the LAMMPS variable with the time. Only
+ * for functions that function_carries accepts. */
 static void put_function(FILE *to, const struct time_function *f, const char *t)
 {
     const real a = f->from, b = f->until;
@@ -240,8 +245,8 @@ static void put_function(FILE *to, const struct time_function *f, const char *t)
 
 /* ---- commands ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the LAMMPS command that defines the group of the particles on which load k acts, by their types. t: types of
- * the particles. */
+/* Writes the LAMMPS command that defines the group of the particles on which load k, from 0, acts, by their types, to
+ * the script `to`. t: particle types of LAMMPS, from 1; x: the export. */
 static void group_write(FILE *to, int k, const struct lammps_types *t, const struct exported *x)
 {
     fprintf(to, "group load%d type", k + 1);
@@ -250,9 +255,9 @@ static void group_write(FILE *to, int k, const struct lammps_types *t, const str
     fputc('\n', to);
 }
 
-/* Returns component d of the force of load k as an argument of a LAMMPS command. It is a number, or the name of a
- * variable if the force depends on time or on the particle. In the latter case the definition of the variable is
- * written to `to` first. */
+/* Returns component d of the force of load k as an argument of a LAMMPS command: a number, or the name of a variable if
+ * the force depends on time or on the particle. In the latter case the definition of the variable is written to the
+ * script `to` first. */
 static struct word force_word(FILE *to, const struct exported *x, int k, int d)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -272,9 +277,9 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
     return w;
 }
 
-/* Writes the LAMMPS commands that apply the force of load k to its particles. LAMMPS uses a force in a velocity update
- * that extends from half a step before to half a step after the time of a step. The time function is therefore replaced
- * by the mean of its values at the beginning and at the end of the update. */
+/* Writes the LAMMPS commands that apply the force of load k to its particles to the script `to`. LAMMPS uses a force in
+ * a velocity update that extends from half a step before to half a step after the time of a step. The time function is
+ * therefore replaced by the mean of its values at the beginning and at the end of the update. */
 static void force_write(FILE *to, const struct exported *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -290,9 +295,9 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-/* Writes the definition of a LAMMPS variable for particles with a prescribed displacement: component d of the force by
- * which they reach the prescribed position at the end of a step. k: number of the load that prescribes the
- * displacement. */
+/* Writes the definition of a LAMMPS variable for particles with a prescribed displacement to the script `to`: component
+ * d of the force by which they reach the prescribed position at the end of a step. k: number of the load that
+ * prescribes the displacement. */
 static void displacement_write(FILE *to, const struct exported *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
@@ -303,9 +308,10 @@ static void displacement_write(FILE *to, const struct exported *x, int k, int d)
     fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
 }
 
-/* Writes the LAMMPS commands that make the particles of load k follow its prescribed velocity or displacement. LAMMPS
- * cannot prescribe these; a force replaces the one on the particles in each step. It changes their velocity from the
- * value in the middle of the previous step to the prescribed one in the middle of this step. */
+/* Writes the LAMMPS commands that make the particles of load k follow its prescribed velocity or displacement to the
+ * script `to`. LAMMPS cannot prescribe these; instead, a force replaces the force on the particles in each step. It
+ * changes their velocity from the value in the middle of the previous step to the prescribed one in the middle of this
+ * step. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;

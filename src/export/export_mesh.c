@@ -9,8 +9,9 @@
 #include "output/output_files.h"
 #include "scene/scene_read.h"
 
-/* Reads the scene of the request r into m->scene. For methods with material points, sets mpm.fill=all, so that all
- * particles of the bodies are created. Returns REFUSED or FAILED if the scene cannot be read. */
+/* Reads the scene of the request r, with its overrides, into m->scene. For methods with material points, also sets
+ * mpm.fill=all, so that all particles of the bodies are created. Release m->scene with scene_free. Returns REFUSED or
+ * FAILED, with a message, if the scene cannot be read. */
 static status scene_make_whole(struct export_mesh *m, const struct export_request *r)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1, struct scene_override);
@@ -25,8 +26,8 @@ static status scene_make_whole(struct export_mesh *m, const struct export_reques
     return s;
 }
 
-/* Compares two keys a and b for qsort, each of type int64_t[3] with number of the material, id and index: first by
- * number, then by id. */
+/* Compares two keys a and b for qsort, each an int64_t[3] of material number, id and index of a particle: first by
+ * material, then by id, in ascending order. */
 static int mesh_key_order(const void *a, const void *b)
 {
     const int64_t *p = a, *q = b;
@@ -67,8 +68,8 @@ void export_mesh_free(struct export_mesh *m)
 
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the name of the node set of load load_number: the name of its boundary, or nodelist_N with N = load_number +
- * 1 if the boundary has no name or an earlier load has the same one. */
+/* Returns the name of the node set of load number load_number, from 0: the name of its boundary, or nodelist_N with N =
+ * load_number + 1 if the boundary has no name or an earlier load has the same one. */
 struct set_name export_node_set_name_of_load(const struct export_mesh *m, int load_number)
 {
     const struct load *load = m->e->loads.load;

@@ -24,9 +24,9 @@ static real modulus_of(const struct exported *x, int a, int b)
     return first == second ? first : 2 * first * second / (first + second);
 }
 
-/* Writes the coefficients of the material law for bonds between the materials a and b, as arguments of pair_coeff or
- * bond_coeff. In 2D, the shear and bulk moduli G_L = 8 G/15 and K_L = 4 (lambda + G)/9 turn the 3D law of LAMMPS into
- * the 2D law. */
+/* Writes the coefficients of the material law for bonds between the materials a and b to the LAMMPS script `to`, as
+ * arguments of pair_coeff or bond_coeff. In 2D, the shear and bulk moduli G_L = 8 G/15 and K_L = 4 (lambda + G)/9 turn
+ * the 3D law of LAMMPS into the 2D law. */
 static void law_write(FILE *to, const struct exported *x, int a, int b)
 {
     const struct material *m = &x->s->material[a];
@@ -39,8 +39,8 @@ static void law_write(FILE *to, const struct exported *x, int a, int b)
     fprintf(to, " %.17g %.17g 0.0\n", x->cutoff, stretch_of(x, a, b));
 }
 
-/* Writes the particle types of the material with the index `material` as a range FIRST*LAST; they are numbered
- * consecutively. t: types of the particles. */
+/* Writes the particle types of material number `material` to the LAMMPS script `to` as a range FIRST*LAST; the types of
+ * one material are numbered consecutively. t: particle types, from 1. */
 static void types_of(FILE *to, const struct lammps_types *t, int material)
 {
     int first = 0, last = 0;
@@ -49,8 +49,8 @@ static void types_of(FILE *to, const struct lammps_types *t, int material)
     fprintf(to, " %d*%d", first, last);
 }
 
-/* Returns true if a particle of the material with the index `material` exists, found by the types t of the
- * particles. */
+/* Returns true if material number `material` has particles, i.e. if one of the particle types t of LAMMPS has this
+ * material. */
 static bool is_there(const struct lammps_types *t, int material)
 {
     bool there = false;
@@ -123,9 +123,9 @@ static void particles_write(FILE *to, const struct exported *x)
     if (x->bond_style) fputs("compute damage all property/atom d_damage\n", to);
 }
 
-/* Writes the LAMMPS commands between the creation of bonds and the run: two runs of zero steps, then initial
- * displacements and time integration. Pairs of types that were excluded while bonds were created are no longer
- * excluded, since excluded pairs cannot come into contact. */
+/* Writes the LAMMPS commands between the creation of bonds and the run to the script `to`: two runs of zero steps, then
+ * initial displacements and time integration. Pairs of types that were excluded while bonds were created are no longer
+ * excluded, since excluded pairs cannot come into contact. t: particle types, with these pairs. */
 static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);
@@ -144,8 +144,8 @@ static void start_write(FILE *to, const struct exported *x, const struct lammps_
     fputs("fix motion all nve\n", to);
 }
 
-/* Writes, as a comment of the script, the command that compares the results of LAMMPS after `steps` steps with
- * check.csv. It works on a machine without Cleave. */
+/* Writes, as a comment of the LAMMPS script `to`, the command that compares the results of LAMMPS after `steps` time
+ * steps with check.csv. The command works on a machine without Cleave. */
 static void test_write(FILE *to, int64_t steps)
 {
     fprintf(to,
@@ -159,7 +159,8 @@ static void test_write(FILE *to, int64_t steps)
             (long long)steps, (long long)steps);
 }
 
-/* Returns the number of time steps between frames if it is the same for all, else 0. frames: number of frames. */
+/* Returns the number of time steps from each frame of run e to the next if it is the same for all frames, else 0.
+ * frames: number of frames. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
     const int64_t first = report_step_number_of_frame(e->scene, &e->clock, 1);
@@ -168,8 +169,9 @@ static int64_t frame_distance(const struct run *e, int64_t frames)
     return first;
 }
 
-/* Writes the command `dump` at exactly the steps of Cleave's frames. If their distance varies, a variable returns the
- * step of the next frame; with more than FRAMES_MOST such frames, the dump has a constant distance. */
+/* Writes the LAMMPS command `dump` to the script `to`, with output at exactly the steps of Cleave's frames. If their
+ * distance varies, a variable returns the step of the next frame; with more than FRAMES_MOST such frames, the dump has
+ * a constant distance. */
 static void frames_write(FILE *to, const struct exported *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"

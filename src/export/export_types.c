@@ -13,7 +13,8 @@ struct classes {
     int32_t *any;
 };
 
-/* Returns true if the particles i and j have the same material and loads, and for bond styles the same mass. */
+/* Returns true if the particles i and j of the export x can have the same LAMMPS type: if they have the same material,
+ * the same loads and, for bond styles, the same mass. */
 static bool class_alike(const struct exported *x, int64_t i, int64_t j)
 {
     const struct particles *p = &x->e->part;
@@ -21,9 +22,9 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
            (!x->bond_style || reals_are_bitwise_equal(p->mass[i], p->mass[j]));
 }
 
-/* Returns the index of the class of particle i. Particles of one class have the same material, the same loads and, for
- * bond styles, the same mass. Adds a class to c if there is none for particle i. Returns -1 if there would be more than
- * CLASSES_MOST classes. */
+/* Returns the index of the class of particle i in c, from 0. Particles of one class have the same material, the same
+ * loads and, for bond styles, the same mass. Adds a class to c if particle i belongs to none. Returns -1 if there would
+ * be more than CLASSES_MOST classes. */
 static int class_of(struct classes *c, const struct exported *x, int64_t i)
 {
     for (int k = c->n; k-- > 0;)
@@ -34,9 +35,9 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
     return c->n++;
 }
 
-/* Numbers n types of particles from 1, such that the types of one material are consecutive. any[k]: index of a particle
- * of type k before the renumbering; number[k]: receives the new number of type k. Allocates t->material and t->any and
- * fills them in the order of the new numbers. */
+/* Numbers n particle types from 1, such that the types of one material are consecutive. any[n]: index of a particle of
+ * each type before the renumbering; number[n]: receives the new number of each type. Allocates t->material and t->any
+ * and fills them in the order of the new numbers. */
 static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
 {
     t->material = NEW("types.material", n + 1, int32_t);
@@ -49,8 +50,9 @@ static void types_number(struct lammps_types *t, const struct exported *x, int32
             }
 }
 
-/* Lists in t->pair the pairs of particle types between which LAMMPS must not create bonds: the types of the colours a
- * and b with pair[a * colours + b] == PAIR_CUT. number[a]: type of the particles with colour a. */
+/* Lists in t->pair, which is allocated, the pairs of particle types between which LAMMPS must not create bonds: the
+ * types of the colours a and b with pair[a * colours + b] == PAIR_CUT. number[colours]: type of the particles of each
+ * colour. */
 static void types_exclude(struct lammps_types *t, const int32_t *number, const uint8_t *pair, int colours)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -65,8 +67,9 @@ static void types_exclude(struct lammps_types *t, const int32_t *number, const u
     }
 }
 
-/* Finds the class of every particle (particles with the same material, loads and, for bond styles, mass) and stores it
- * in t->of. Returns REFUSED if there are more than CLASSES_MOST classes. */
+/* Finds the class of every particle of the export x (particles with the same material, loads and, for bond styles,
+ * mass) and stores it in t->of, which is allocated. c: receives the classes. Returns REFUSED, with a message, if there
+ * are more than CLASSES_MOST classes. */
 static status classes_find(struct classes *c, struct lammps_types *t, const struct exported *x)
 {
     t->of = NEW("types.of", x->e->part.n, int32_t);
@@ -81,9 +84,9 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
 
 /* Sets the LAMMPS type t->of[i] of every particle i. It follows from the class of the particle (its material, loads
  * and, for bond styles, mass) or, if the particle is in the list `touched` of particles with cut bonds, from its
- * colour. Lists the excluded pairs of types. colour[touched->n]: colours of the listed particles; pair[a * colours +
- * b]: kind of the colours a and b, bonded or cut, or `pair` is NULL if no bond is cut. Returns REFUSED if the particles
- * have too many classes. */
+ * colour. Lists the excluded pairs of types. colour[touched->n]: colours of the listed particles, 0 .. colours - 1;
+ * pair[a * colours + b]: kind of the pair of colours a and b, bonded or cut, or NULL if no bond is cut. Returns
+ * REFUSED, with a message, if the particles have too many classes. */
 static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
                          const int32_t *colour, int colours, const uint8_t *pair)
 {

@@ -39,7 +39,8 @@ void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suf
 
 /* ---- the header -------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the first dimension of an array is that of records, so that it has a part in every record. */
+/* Returns true if the first dimension of the array a is that of records (length 0), so that the array has a part in
+ * every record of the file. */
 static bool is_over_records(const struct netcdf_writer *w, const struct netcdf_array *a)
 {
     return w->dimension[a->dimension[0]].length == 0;
@@ -69,7 +70,7 @@ static void put_number(struct netcdf_writer *w, uint64_t value, int bytes)
     put_bytes(w, text, bytes);
 }
 
-/* Appends to the header the length of a text and the text, filled up with zeros to a multiple of four bytes. */
+/* Appends the length of a text and the text to the header in w, filled up with zeros to a multiple of four bytes. */
 static void put_text(struct netcdf_writer *w, const char *text)
 {
     static const char zeros[3];
@@ -79,7 +80,8 @@ static void put_text(struct netcdf_writer *w, const char *text)
     put_bytes(w, zeros, (4 - n % 4) % 4);
 }
 
-/* Appends to the header the tag `tag` and the length n of a list. For an empty list two zeros are appended. */
+/* Appends the head of a list to the header in w: the tag `tag`, which states the kind of list, and the number n of
+ * elements. For an empty list two zeros are appended. */
 static void put_list_head(struct netcdf_writer *w, int tag, int n)
 {
     put_number(w, n > 0 ? (uint64_t)tag : 0, 4);
@@ -101,8 +103,8 @@ static void put_attribute(struct netcdf_writer *w, const struct netcdf_attribute
     put_number(w, bits, 4);
 }
 
-/* Builds the header of the file. first: length of the header [byte], which is the position of the first array in the
- * file. */
+/* Builds the header of the netCDF file in w, with the definitions of dimensions, attributes and arrays. first: length
+ * of the header [byte], which is the position of the first array in the file. */
 static void header_build(struct netcdf_writer *w, int64_t first)
 {
     int64_t at[2] = {first, first}; /* position of the next array of one length; over records */

@@ -6,16 +6,17 @@
 
 #include "base/memory.h"
 
-/* Returns the leader of particle i, the root of its tree in the union-find structure leader[particles], and shortens
- * the path from i to it. */
+/* Returns the root of the tree of particle i in the union-find structure leader[particles], where leader[i] is the
+ * parent of particle i and a root is its own parent. Shortens the path from i to the root. */
 static int32_t fragment_leader(int32_t *leader, int32_t i)
 {
     while (leader[i] != i) i = leader[i] = leader[leader[i]];
     return i;
 }
 
-/* Joins both particles of every intact bond in the union-find structure leader[p->n], in which initially leader[i] = i.
- * Of both roots, that with the lower index becomes the leader of both trees. Bonds to mirror images are left out. */
+/* Joins both particles of every intact bond of b in the union-find structure leader[p->n], in which initially leader[i]
+ * = i. Of the roots of both particles, that with the lower index becomes the root of both trees. Bonds to mirror images
+ * are left out. */
 static void join_ends(int32_t *leader, const struct bonds *b, const struct particles *p)
 {
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
@@ -33,7 +34,8 @@ static void join_ends(int32_t *leader, const struct bonds *b, const struct parti
     }
 }
 
-/* Compares two struct fragment by mass, the heavier first; equal masses by the index of their first particle. */
+/* Compares two fragments a and b (struct fragment) for qsort: by mass, the heavier first; those of equal mass by the
+ * index of their first particle. */
 static int heavier_first(const void *a, const void *b)
 {
     const struct fragment *x = a, *y = b;
@@ -41,15 +43,17 @@ static int heavier_first(const void *a, const void *b)
     return x->first < y->first ? -1 : 1;
 }
 
-/* Adds mass, mass times position and mass times velocity of particle i to fragment f. */
+/* Adds particle i to fragment f: increments the number of particles, and adds the mass, mass times position and mass
+ * times velocity of the particle to the sums of the fragment. */
 static void add_particle(struct fragment *f, const struct particles *p, int32_t i)
 {
     f->particles++, f->mass += p->mass[i];
     for (int d = 0; d < p->dim; d++) f->x[d] += p->mass[i] * p->x[d][i], f->v[d] += p->mass[i] * p->v[d][i];
 }
 
-/* Divides the sums of position and velocity of each fragment by its mass. Removes fragments of a single particle from
- * the list; their number and mass are added to f->singles and f->mass_singles. */
+/* Divides the sums of position and velocity of each fragment in f by the mass of the fragment, which gives means.
+ * Removes fragments of a single particle from the list; their number is added to f->singles and their mass to
+ * f->mass_singles [kg]. */
 static void leave_singles(struct fragments *f)
 {
     int64_t kept = 0;
@@ -65,8 +69,8 @@ static void leave_singles(struct fragments *f)
     f->n = kept;
 }
 
-/* Stores in f->of[n], which is allocated here, the number of the fragment of each particle, or -1 if it is in none of
- * the list. leader[n]: union-find structure of the particles. */
+/* Allocates f->of[n] and stores in it the number of the fragment of each particle, or -1 for a particle in none of the
+ * listed fragments. leader[n]: union-find structure of the n particles, as made by join_ends. */
 static void number_particles(struct fragments *f, int32_t *leader, int64_t n)
 {
     int32_t *number = BARE("fragments.number", n, int32_t);

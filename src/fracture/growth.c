@@ -27,10 +27,11 @@ void growing_crack_free(struct growing_crack *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* Updates g->target_speed, the speed that the tip should have so that K = k(v) K_c (crack-tip equation of motion), by
- * one secant step towards its solution v, smoothed in time. K: measured stress-intensity factor g->intensity; k(v):
- * factor by which a speed v reduces the factor of a crack at rest; K_c: toughness. control: elastic constants and time
- * of the new stress-intensity factors; settling: time constant of the smoothing [s]. */
+/* Updates g->target_speed, the speed that the tip of crack g should have so that K = k(v) K_c (crack-tip equation of
+ * motion), by one secant step towards its solution v, smoothed in time. K: measured stress-intensity factor
+ * g->intensity; k(v): factor by which a speed v reduces the stress-intensity factor of a crack at rest; K_c: toughness.
+ * control: elastic constants and time of the new stress-intensity factors; settling: time constant of the smoothing
+ * [s]. */
 static void target_speed_find(struct growing_crack *g, const struct growth_control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -45,10 +46,10 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates the speeds that control a crack by its stress-intensity factors: g->filtered_speed, the speed of the tip
- * smoothed in time, by the last step of length dt [s], and the target speed g->target_speed, by new factors at time t
- * [s]. control: these factors; NULL: not known, the target speed becomes 0. horizon: horizon of the bonds [m]. Must be
- * called before g->speed is overwritten. */
+/* Updates the speeds by which stress-intensity factors control crack g. g->filtered_speed, the speed of the tip
+ * smoothed in time, follows from g->speed in the last step of length dt [s]; g->target_speed from new factors at time t
+ * [s]. control: these factors, or NULL if they are not known, then the target speed becomes 0. horizon: horizon of the
+ * bonds [m]. Must be called before g->speed is overwritten. Does nothing for cracks of prescribed speed. */
 static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
                                 real dt)
 {
@@ -65,9 +66,9 @@ static void target_speed_update(struct growing_crack *g, const struct growth_con
 
 /* ---- growth and direction ---------------------------------------------------------------------------------------- */
 
-/* Returns true if the crack grows at time t [s]: it has started and is shorter than its final length. If
- * stress-intensity factors control it, then also its target speed must be positive or, at a prescribed speed, its
- * factor must reach the toughness. */
+/* Returns true if crack g grows at time t [s]: its start time has passed and it is shorter than its final length. If
+ * stress-intensity factors control the crack, its target speed must also be positive or, at a prescribed speed, its
+ * stress-intensity factor must reach the toughness. */
 static bool grows(const struct growing_crack *g, real t)
 {
     const struct growth_rule *r = g->rule;
@@ -77,8 +78,8 @@ static bool grows(const struct growing_crack *g, real t)
     return g->intensity >= r->toughness;
 }
 
-/* Sets g->heading, the direction in which the tip moves, to that of the largest hoop stress. control: stress-intensity
- * factors K_I, K_II and the direction of the crack to which they refer. */
+/* Sets g->heading, the direction in which the tip of crack g moves, to that of the largest hoop stress. control:
+ * stress-intensity factors K_I and K_II, and the direction of the crack to which they refer. */
 static void growth_turn(struct growing_crack *g, const struct growth_control *control)
 {
     const real angle = crack_kink_angle_from_sif(control->factors.K), c = cos(angle), s = sin(angle);
@@ -86,8 +87,9 @@ static void growth_turn(struct growing_crack *g, const struct growth_control *co
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
 
-/* Moves the tip by `increment` [m] along g->heading. The direction g->along, to which stress-intensity factors refer,
- * turns to the heading over the smoothing length g->rule->smoothing, by default a quarter of `horizon` [m]. */
+/* Moves the tip of crack g by `increment` [m] along g->heading. The direction g->along, to which stress-intensity
+ * factors refer, turns to the heading over the smoothing length g->rule->smoothing, by default a quarter of `horizon`
+ * [m]. */
 static void growth_advance(struct growing_crack *g, real increment, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
@@ -105,7 +107,7 @@ static void growth_advance(struct growing_crack *g, real increment, real horizon
 /* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
 /* Returns true if the bond from particle i to particle j is in g->fading, the list of bonds behind the tip whose
- * weights decrease as the crack grows. The bond from j to i is a separate entry. */
+ * weights decrease as crack g grows. The bond from j to i is a separate entry. */
 static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
 {
     for (int64_t k = g->n - 1; k >= 0; k--)
@@ -113,16 +115,16 @@ static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
     return false;
 }
 
-/* Appends the bond from particle i to particle j to g->fading, the bonds whose weights decrease as the crack grows. w:
- * present weight of the bond [1]; length: growth of the crack when its tip crosses the bond [m]. */
+/* Appends the bond from particle i to particle j to g->fading, the bonds behind the tip whose weights decrease as crack
+ * g grows. w: present weight of the bond [1]; length: growth of the crack when its tip crosses the bond [m]. */
 static void fading_add(struct growing_crack *g, int32_t i, int32_t j, real w, real length)
 {
     GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Appends the intact bonds of particle i that cross `path` to g->fading, the bonds whose weights decrease as the crack
- * grows. path: last increment of the tip. Bonds that are already in the list are skipped. */
+/* Appends the intact bonds of particle i that cross `path`, the last increment of the tip, to g->fading, the bonds
+ * behind the tip whose weights decrease as crack g grows. Bonds that are already in the list are skipped. */
 static void cross_row(struct growing_crack *g, const struct bonds *b, const struct particles *p,
                       const struct crack *path, int32_t i)
 {
@@ -136,9 +138,10 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
     }
 }
 
-/* Finds the particles that may have bonds across the segment from `from` to `to` [m]: those whose distance from `from`
- * is at most the length of the segment plus the length of the longest bond. *found: receives an allocated list of their
- * indices, which the caller frees. Returns their number. */
+/* Finds the particles that may have bonds across the segment from from[2] to to[2] [m]: those whose distance from
+ * `from` is at most the length of the segment plus the length of the longest bond. s: cells of the neighbour search.
+ * *found: receives a list of their indices, which the caller frees with memory_free. Returns the number of these
+ * particles. */
 static int near_path(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
                      int32_t **found)
 {
@@ -149,8 +152,8 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
     return cells_list_particles_near_point(s->cells, p, X, radius, -1, *found, room);
 }
 
-/* Marks the material points within the cutoff of the tip for conversion to peridynamic particles, because cracks grow
- * through bonds only. Returns the number of points marked. */
+/* Marks the material points within the cutoff (largest bond length) of the tip of crack g for conversion to peridynamic
+ * particles, because cracks grow through bonds only. Returns the number of marked points. */
 static int claim(const struct growing_crack *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
@@ -165,9 +168,9 @@ static int claim(const struct growing_crack *g, struct particles *p, const struc
     return claimed;
 }
 
-/* Appends the bonds that the tip has crossed between `from` [m] and its present position to g->fading, the bonds whose
- * weights decrease as the crack grows. Both directed bonds of a pair are appended, and also bonds across planes of
- * symmetry. */
+/* Appends the bonds that the tip of crack g has crossed on the straight path from from[2] [m] to its present position
+ * to g->fading, the bonds whose weights decrease as the crack grows. Both directed bonds of a pair of particles are
+ * appended, and also bonds across the images of the path in planes of symmetry (s->mirror). */
 static void cross(struct growing_crack *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
@@ -189,8 +192,9 @@ static void cross(struct growing_crack *g, const struct bonds *b, struct particl
 
 /* ---- fading ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the directed bond from particle i to j in the arrays of b, where it may be written, or -1 if the
- * bond is no longer stored. *row: receives the row of particle i. */
+/* Returns the index of the directed bond from particle i to particle j in the arrays of b, where it may be written
+ * (shared arrays are copied first if necessary); -1 if the bond is no longer stored. *row: receives the row of particle
+ * i, its list of bonds. */
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
@@ -199,9 +203,9 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Resets the weights of the bonds in g->fading, which lose their weights gradually behind the tip, to those of the
- * previous step. `fade` then reduces them again, and books the lost energy. Bonds that load has broken since then are
- * removed from the list. */
+/* Resets the weights of the bonds in g->fading, which decrease gradually behind the tip, to those of the previous step,
+ * so that `fade` can reduce them again and book the lost energy. Bonds that load has broken since then are removed from
+ * the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -216,11 +220,12 @@ static void step_back(struct growing_crack *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the bonds in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent. `grown`
- * is the growth of the crack since its tip crossed the bond, w0 the weight of the bond at that time. The energy lost is
- * booked at the present positions: half of the loss of the previous step and half of that of this step. Bonds change
- * one after the other, each from its weight of the previous step, so that the losses sum to the whole energy. f:
- * family; half its horizon is the default of `damping`. Returns the number of directed bonds whose weight becomes 0. */
+/* Reduces the weights of the bonds in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent, and
+ * removes bonds without weight from the list. `grown` is the growth of the crack since its tip crossed the bond, w0 the
+ * weight of the bond at that time; f: family (neighbourhood), half its horizon is the default of `damping`. The energy
+ * lost is booked at the present positions: half of the loss of the previous step and half of that of this step. Bonds
+ * change one after the other, each from its weight of the previous step, so that the losses sum to the whole energy.
+ * Returns the number of directed bonds whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -244,9 +249,11 @@ static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
- * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. control: present
- * stress-intensity factors, NULL if not known. Returns the number of directed bonds whose weight has become 0. */
+/* Advances growing crack g by one time step dt [s] at time t [s]: moves the tip by its speed times dt, appends the
+ * bonds that the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. Material
+ * points around the tip are marked for conversion. source: data of bonds, with the cells of the neighbour search;
+ * control: present stress-intensity factors, NULL if not known. Returns the number of directed bonds whose weight has
+ * become 0. */
 int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,
                                                   const struct bond_source *source,
                                                   const struct growth_control *control, real t, real dt)

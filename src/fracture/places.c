@@ -8,8 +8,8 @@
 #define EQUAL_POSITION 1e-6      /* tolerance of equal coordinates [reach] */
 enum { POSITIONS_MOST = 16384 }; /* limit of the number of positions: all pairs are compared */
 
-/* Returns true if the positions a and b are at most `reach` apart [m]. Only their distance perpendicular to the vector
- * along[dim] counts, or the whole distance if that vector is 0. */
+/* Returns true if the positions a and b are at most `reach` apart [m]. Only the distance perpendicular to the vector
+ * along[dim] counts, or the whole distance if this vector is 0. */
 static bool places_near(const struct place *a, const struct place *b, int dim, real reach, const real *along)
 {
     real apart[DIM_MAX];
@@ -20,8 +20,8 @@ static bool places_near(const struct place *a, const struct place *b, int dim, r
     return dot(apart, apart, dim) <= square(reach);
 }
 
-/* Returns true if position a is after b in the order of x, then y, then z. Coordinates that differ by less than
- * EQUAL_POSITION * reach count as equal. reach [m]. */
+/* Returns true if position a comes after b in the order of x, then y, then z. Coordinates that differ by less than
+ * EQUAL_POSITION * reach count as equal; reach: distance that positions in one group may have [m]. */
 static bool comes_after(const struct place *a, const struct place *b, int dim, real reach)
 {
     for (int d = 0; d < dim; d++)
@@ -29,9 +29,9 @@ static bool comes_after(const struct place *a, const struct place *b, int dim, r
     return false;
 }
 
-/* Divides n positions into groups: two positions are in one group if a chain of positions connects them whose steps
- * are at most `reach` [m], measured perpendicular to the vector along[dim]. group[n]: receives the number of the
- * group of each position, from 0. Returns the number of groups. */
+/* Divides the positions place[n] into groups: two positions are in one group if a chain of positions connects them
+ * whose steps are at most `reach` [m], measured perpendicular to the vector along[dim]. group[n]: receives the number
+ * of the group of each position, from 0. Returns the number of groups. */
 static int64_t groups_number(const struct place *place, int64_t n, int dim, real reach, const real *along,
                              int32_t *group)
 {
@@ -52,9 +52,9 @@ static int64_t groups_number(const struct place *place, int64_t n, int dim, real
     return groups;
 }
 
-/* Computes middle[dim], the mean [m] of those positions in group number `which` whose member `beside` is not set. If
- * all of them are farther than `reach` [m] from the mean, as in a ring, the position nearest to it is stored instead.
- * group[n]: group of each position. */
+/* Computes middle[dim], the mean of those positions in group number `which` whose member `beside` is not set [m]; at
+ * least one must be. If all of them are farther than `reach` [m] from the mean, as in a ring, the position nearest to
+ * the mean is stored instead. place[n]: positions; group[n]: number of the group of each position. */
 static void group_middle(const struct place *place, const int32_t *group, int64_t n, int32_t which, int dim, real reach,
                          real *middle)
 {

@@ -29,9 +29,9 @@ void sif_contour_weight(enum sif_weight form, const struct contour *c, real dist
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the first integrand of the interaction integral, which the gradient of the weight function q multiplies, per
- * area and for a unit gradient along n [Pa]. It is the mutual energy flux of the actual motion a and the auxiliary
- * motion b. density: density of the material [kg/m^3]. */
+/* Returns the first integrand of the interaction integral at a point, which the gradient of the weight function q
+ * multiplies, per area and for a unit gradient along n[2] [Pa]. It is the mutual energy flux of the actual motion a and
+ * the auxiliary motion b. density: mass density of the material [kg/m^3]. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;
@@ -45,8 +45,9 @@ static real ring_density(const struct crack_state *a, const struct crack_state *
     return flux - n[0] * energy;
 }
 
-/* Returns the second, inertial integrand of the interaction integral, which the weight function q multiplies, per area
- * and for q = 1 [Pa/m]. a: actual motion; b: auxiliary motion; density: density of the material [kg/m^3]. */
+/* Returns the second, inertial integrand of the interaction integral at a point, which the weight function q
+ * multiplies, per area and for q = 1 [Pa/m]. a: actual motion; b: auxiliary motion; density: mass density of the
+ * material [kg/m^3]. */
 static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
 {
     real sum = 0;
@@ -86,16 +87,16 @@ struct sif_points {
     struct sif_point *point;
 };
 
-/* Transforms vector v to the axes of the crack at the tip: local[0] along its direction, local[1] perpendicular to
- * it. */
+/* Transforms the vector v from the global axes to those of the crack at `tip`: local[0] is the component along the
+ * direction of the crack, local[1] the component perpendicular to it. */
 static void local_vector(const struct sif_tip *tip, const real v[2], real local[2])
 {
     local[0] = v[0] * tip->along[0] + v[1] * tip->along[1];
     local[1] = v[1] * tip->along[0] - v[0] * tip->along[1];
 }
 
-/* Transforms tensor t to the axes of the crack at the tip: local = R t R^T, with R the rotation from the global
- * axes. */
+/* Transforms the tensor t from the global axes to those of the crack at `tip`: local = R t R^T with the rotation R
+ * between both, component 0 along the crack and 1 perpendicular to it. */
 static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][2])
 {
     real half[2][2];
@@ -107,15 +108,17 @@ static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][
     }
 }
 
-/* Computes the reference position of particle i relative to the tip, in the axes of the crack, x[2] [m]. */
+/* Computes x[2], the reference position of particle i relative to the crack tip, in the axes of the crack [m]: x[0]
+ * along its direction, x[1] perpendicular to it. */
 static void local_place(const struct sif_tip *tip, const struct particles *p, int64_t i, real x[2])
 {
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Lists in s->particle the particles of the tip's body within the outer radius of the largest of the n contours
- * contour[n], and allocates s->point for them. Without inertia and loads inside the contours, particles within the
- * smallest inner radius contribute nothing and are left out. */
+/* Lists in s->particle the particles of the tip's body within the outer radius of the largest of n contours,
+ * contour[n], and allocates s->point for them. Without inertia and loads inside the contours (s->inner is false),
+ * particles within the smallest inner radius contribute nothing and are left out. Particles at the tip itself are left
+ * out in any case. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -130,8 +133,9 @@ static void points_find(struct sif_points *s, const struct contour *contour, int
     s->point = memory_new("sif.point", s->n, sizeof *s->point);
 }
 
-/* Computes state->stress of particle i in the axes of the crack [Pa]: from state->gradient by Hooke's law if
- * tip->stress is SIF_HOOKE, else by rotating the stress in m. m: motion of the particles. */
+/* Computes state->stress, the stress of particle i in the axes of the crack at `tip` [Pa]: by Hooke's law from
+ * state->gradient, which must be set, if tip->stress is SIF_HOOKE; else by rotating the stress in m, the motion of the
+ * particles. */
 static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i,
                              struct crack_state *state)
 {
@@ -143,9 +147,9 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
     local_tensor(tip, global, state->stress);
 }
 
-/* Computes s->point[k], position, area and fields of the particle s->particle[k] in the axes of the crack:
- * displacement gradient, stress and, if there is inertia, velocity and acceleration minus that caused by loads. m:
- * motion of the particles; stencil: weights by which the gradient at this particle is computed. */
+/* Computes s->point[k]: position, area and fields of particle s->particle[k] in the axes of the crack. The fields are
+ * displacement gradient, stress and, with inertia, velocity and acceleration minus that caused by loads. m: motion of
+ * the particles; stencil: weights by which gradients at this particle are computed. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {
@@ -174,8 +178,8 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     for (int d = 0; d < 2; d++) point->state.acceleration[d] += moved[d];
 }
 
-/* Computes s->point, the fields of all listed particles around the tip, with their gradients. m: motion of the
- * particles; rule: how gradients are computed; c: search cells of the particles. */
+/* Computes in parallel s->point, position and fields of all particles listed around the tip. m: motion of the
+ * particles; rule: how gradients are computed; c: cells of the neighbour search. */
 static void points_make(struct sif_points *s, const struct sif_motion *m, const struct gradient_rule *rule,
                         const struct particles *p, const struct cells *c)
 {
@@ -191,9 +195,10 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
     }
 }
 
-/* Returns the weight of the inertial part of the interaction integral at distance r [m] from the tip [1]. It
- * increases gradually from 0 to 1 around r = tip->core. A sharp edge would let particles enter and leave the sum as
- * the tip moves, and the stress-intensity factors would oscillate with the period of a spacing. */
+/* Returns the weight of the inertial part of the interaction integral at the distance r [m] from the tip [1]. It
+ * increases gradually from 0 to 1 around r = tip->core, and is 1 everywhere for a tip at rest or without a core. A
+ * sharp edge would let particles enter and leave the sum as the tip moves, and the stress-intensity factors would
+ * oscillate with the period of a spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
@@ -203,9 +208,9 @@ static real core_share(const struct sif_tip *tip, real r)
     return 1 - q;
 }
 
-/* Adds the interaction integrals over the entries first .. end - 1 of s->particle to sum[3]: of the actual motion with
- * the auxiliary fields of modes I and II, then with itself. context: the points (struct sif_points). reproducible_sums
- * calls it for each block of particles. */
+/* Adds the terms of the particles first .. end - 1 of the list s->particle to the interaction integrals sum[3]: of the
+ * actual motion with the auxiliary fields of modes I and II, and with itself. context: the points around the tip
+ * (struct sif_points). reproducible_sums calls it for each block of particles. */
 static void points_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct sif_points *s = context;
@@ -248,9 +253,9 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
 
 /* ---- path independence ------------------------------------------------------------------------------------------- */
 
-/* Returns the largest relative difference between the results of several contours [1]: of K_I or K_II over the mean of
- * |K| = sqrt(K_I^2 + K_II^2), or of J over its mean; NAN if a denominator is 0. result[contour_count]: stress-intensity
- * factors and J of each contour. */
+/* Returns the largest relative difference between the results of several contours, a measure of their error [1]: of K_I
+ * or K_II, divided by the mean of |K| = sqrt(K_I^2 + K_II^2), or of J, divided by the mean of J; NAN if a denominator
+ * is 0. result[contour_count]: stress-intensity factors and J of each contour. */
 real sif_relative_spread_over_contours(const struct sif *result, int contour_count)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];

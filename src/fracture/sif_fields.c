@@ -36,9 +36,10 @@ void crack_stress_from_displacement_gradient(const struct crack_medium *m, real 
 
 /* ---- a crack at rest --------------------------------------------------------------------------------------------- */
 
-/* Computes g[2] and slope[2] = dg/dtheta of the displacements u = K sqrt(r/(2 pi))/(2 G) g(theta) around the tip of a
- * crack at rest (Williams 1957). K, G: stress-intensity factor and shear modulus; r, theta: distance from the tip and
- * angle from the crack direction [rad]; kappa: Kolosov's constant [1]; mode: I or II. */
+/* Computes g(theta) and slope = dg/dtheta [1] of the displacements u = K sqrt(r/(2 pi))/(2 G) g(theta) around the tip
+ * of a crack at rest (Williams 1957), along the crack and perpendicular to it. K, G: stress-intensity factor and shear
+ * modulus; r, theta: distance from the tip and angle from the crack direction [rad]; kappa: Kolosov's constant [1];
+ * mode: I or II. */
 static void williams_angular(real kappa, enum crack_mode mode, real theta, real g[2], real slope[2])
 {
     const real c = cos(0.5 * theta), s = sin(0.5 * theta);
@@ -68,16 +69,17 @@ void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode,
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
 
-/* Computes a[0] = sqrt(1 - v^2/c_d^2) and a[1] = sqrt(1 - v^2/c_s^2) [1] for the tip speed v [m/s], where c_d and c_s
- * are the speeds of dilatational and shear waves in the material m. */
+/* Computes a[0] = sqrt(1 - v^2/c_d^2) and a[1] = sqrt(1 - v^2/c_s^2) [1] for the tip speed v [m/s], which must be below
+ * c_s. c_d, c_s: speeds of dilatational and of shear waves in the material m. */
 static void slownesses(const struct crack_medium *m, real v, real a[2])
 {
     a[0] = sqrt(1 - square(v / m->longitudinal));
     a[1] = sqrt(1 - square(v / m->shear_speed));
 }
 
-/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2 [1] for the tip speed v [m/s], with a_d = sqrt(1 - v^2/c_d^2) and a_s =
- * sqrt(1 - v^2/c_s^2) and the speeds c_d and c_s of dilatational and shear waves. D is 0 at the Rayleigh speed. */
+/* Returns the Rayleigh function D(v) = 4 a_d a_s - (1 + a_s^2)^2 [1] of the material m at the tip speed v [m/s], with
+ * a_d = sqrt(1 - v^2/c_d^2), a_s = sqrt(1 - v^2/c_s^2) and the speeds c_d of dilatational and c_s of shear waves. D is
+ * 0 at the Rayleigh speed. */
 static real crack_rayleigh_function(const struct crack_medium *m, real v)
 {
     real a[2];
@@ -85,10 +87,10 @@ static real crack_rayleigh_function(const struct crack_medium *m, real v)
     return 4 * a[0] * a[1] - square(1 + a[1] * a[1]);
 }
 
-/* Computes weight[i][w], the coefficients in the displacements around a tip of speed v [m/s]: u_i is the real part (i =
- * 0 in mode I, i = 1 in mode II) or the imaginary part (else) of sum_w weight[i][w] sqrt(z_w), with the complex number
- * z_w = x_1 + a_w x_2 sqrt(-1). w: 0 dilatational, 1 shear waves; a[2]: the factors a_w = sqrt(1 - v^2/c_w^2) with the
- * wave speeds c_w. */
+/* Computes weight[i][w], the coefficients in the displacements u_0 along the crack and u_1 perpendicular to it around a
+ * tip of speed v [m/s]: u_i is the real part (i = 0 in mode I, i = 1 in mode II) or the imaginary part (else) of sum_w
+ * weight[i][w] sqrt(z_w), with the complex number z_w = x_1 + a_w x_2 sqrt(-1). w: 0 dilatational, 1 shear waves; m:
+ * material; a[2]: the factors a_w = sqrt(1 - v^2/c_w^2) with the wave speeds c_w. */
 static void wave_weights(const struct crack_medium *m, enum crack_mode mode, real v, const real a[2], real weight[2][2])
 {
     const real size = sqrt(2 / pi) / (m->shear * crack_rayleigh_function(m, v)), b = 1 + a[1] * a[1];
@@ -144,17 +146,19 @@ real crack_universal_function(const struct crack_medium *m, enum crack_mode mode
 
 /* ---- growth at constant speed ------------------------------------------------------------------------------------ */
 
-/* Returns the angle in the integrand of the speed factor k(v) at slowness z [s/m], which is between 1/c_d and 1/c_s,
- * with the speeds c_d of dilatational and c_s of shear waves (Freund 1990, eq. 6.4.26). */
+/* Returns the angle in the integrand of the speed factor k(v) of a crack [rad] at the slowness z [s/m], which is
+ * between 1/c_d and 1/c_s (Freund 1990, eq. 6.4.26). c_d, c_s: speeds of dilatational and of shear waves in the
+ * material m. */
 static real factor_angle(const struct crack_medium *m, real z)
 {
     const real a = 1 / m->longitudinal, b = 1 / m->shear_speed;
     return atan(4 * z * z * sqrt(real_max(0, (z * z - a * a) * (b * b - z * z))) / square(b * b - 2 * z * z));
 }
 
-/* Returns the factor k(v) by which the speed v changes the stress-intensity factor of a crack that grows at constant
- * speed [1], by numerical integration. The integrand has square roots at both ends. The substitution z = middle - half
- * cos(phi) makes it smooth and periodic in phi, where the midpoint rule converges faster than any power. */
+/* Returns the factor k(v) by which the constant speed v [m/s] of a crack in the material m changes its stress-intensity
+ * factor [1], by numerical integration (Freund 1990). The integrand has square roots at both ends. The substitution z =
+ * middle - half cos(phi) makes it smooth and periodic in phi, where the midpoint rule converges faster than any
+ * power. */
 static real factor_exact(const struct crack_medium *m, real v)
 {
     enum { POINTS = 256 };
@@ -199,7 +203,8 @@ real crack_sif_after_plane_wave(const struct crack_medium *m, real wave_stress, 
 /* ---- direction of growth ----------------------------------------------------------------------------------------- */
 
 /* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
- * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. */
+ * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. K: stress-intensity factors of modes I and II.
+ * The angle is negative for positive K_II. */
 real crack_kink_angle_from_sif(const real K[MODES])
 {
     return 2 * atan2(-2 * K[MODE_II], K[MODE_I] + sqrt(square(K[MODE_I]) + 8 * square(K[MODE_II])));

@@ -13,9 +13,10 @@ enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 #define ON_FACE 0.03
 #define SINGULAR 1e-12 /* least pivot over the diagonal entry */
 
-/* Computes the displacements, times 2 G, of term n of the Williams series with a unit coefficient: mode_1[2] for mode
- * I, mode_2[2] for mode II [1]. G: shear modulus; r: distance from the tip over the outer radius of the fit [1]; theta:
- * angle from the crack direction [rad]; kappa: Kolosov's constant [1]. */
+/* Computes the displacements, times 2 G, of term n of the Williams series (expansion of the field at a crack tip) with
+ * a unit coefficient [1], along the crack and perpendicular to it: mode_1[2] for mode I, mode_2[2] for mode II. G:
+ * shear modulus; r: distance from the tip divided by the outer radius of the fit [1]; theta: angle from the crack
+ * direction [rad]; kappa: Kolosov's constant [1]. */
 static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real mode_2[2])
 {
     const real half = 0.5 * n, s = n % 2 ? -1 : 1, q = pow(r, half);
@@ -33,8 +34,8 @@ struct surface_fit_problem {
     int particles;
 };
 
-/* Adds one equation, sum_m row[m] x_m = value, for the coefficients x of the fit to its normal equations *f. row:
- * [UNKNOWNS]. */
+/* Adds one equation, sum_m row[m] x_m = value, for the coefficients x[UNKNOWNS] of the fit to the normal equations *f
+ * of the least-squares problem. row[UNKNOWNS]: its coefficients. */
 static void fit_add(struct surface_fit_problem *f, const real *row, real value)
 {
     for (int m = 0; m < UNKNOWNS; m++) {
@@ -43,15 +44,16 @@ static void fit_add(struct surface_fit_problem *f, const real *row, real value)
     }
 }
 
-/* Returns true if the position X [m], relative to the tip, is on the line of the crack behind the tip. Such particles
- * are left out, since round-off would decide on which side of the crack they are. */
+/* Returns true if the position X [m], relative to the tip, is on the line of the crack behind the tip seen in v. Such
+ * particles are left out of the fit, since round-off would decide on which side of the crack they are. */
 static bool on_face(const struct tip_view *v, const real X[2])
 {
     return dot(v->last, X, 2) < 0 && fabs(v->last[0] * X[1] - v->last[1] * X[0]) < ON_FACE * v->inner;
 }
 
-/* Adds the two equations of a particle, one for each displacement component, to the normal equations of the fit. X: its
- * position relative to the tip [m]; u: its displacement [m]. */
+/* Adds the two equations of a particle, one for each displacement component, to the normal equations *f of the fit. v:
+ * the tip, its axes and the radii of the fit; X: position of the particle relative to the tip [m]; u: displacement of
+ * the particle [m]. */
 static void fit_particle(struct surface_fit_problem *f, const struct tip_view *v, const real X[2], const real u[2])
 {
     const real *a = v->along, *l = v->last;
@@ -68,8 +70,8 @@ static void fit_particle(struct surface_fit_problem *f, const struct tip_view *v
     f->particles++;
 }
 
-/* Solves the normal equations A x = y of the fit by L D L^T factors; x replaces f->y. Returns false if A is
- * singular. */
+/* Solves the normal equations A x = y of the fit *f by L D L^T factors; x replaces f->y, and f->A is overwritten.
+ * Returns false if A is singular. */
 static bool fit_solve(struct surface_fit_problem *f)
 {
     real(*A)[UNKNOWNS] = f->A, *y = f->y;
@@ -90,7 +92,8 @@ static bool fit_solve(struct surface_fit_problem *f)
     return true;
 }
 
-/* Returns true if no crack is between position X [m] and a point slightly ahead of the tip. */
+/* Returns true if no crack of v is between the position X [m] and a point slightly ahead of the tip, so that a particle
+ * at X is visible from the tip. */
 static bool seen(const struct tip_view *v, const real *X)
 {
     real eye[DIM_MAX] = {0};

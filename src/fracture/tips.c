@@ -31,8 +31,8 @@ struct flood {
     bool grown_by[TIPS_MAX]; /* another crack has become a part of the crack in this sample */
 };
 
-/* Returns true if particle i can be assigned to a crack: it is damaged, not yet assigned to one, and its motion is not
- * prescribed. */
+/* Returns true if particle i can be assigned to a crack: its damage exceeds TIP_DAMAGE, it is not yet assigned to a
+ * crack of t, and its motion is not prescribed. */
 static bool can_belong(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
@@ -45,7 +45,7 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
     return bits;
 }
 
-/* Returns true if one of the particles at[0 .. n - 1] is damaged. The bits of their damages are combined instead of
+/* Returns true if one of n particles, at[n], has damage above 0. The bits of their damages are combined instead of
  * comparing numbers, which is faster. */
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
@@ -57,9 +57,9 @@ static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
     return any != 0;
 }
 
-/* Searches the list of peridynamic particles for damage above TIP_DAMAGE, in pieces of TIP_PIECE entries. Returns the
- * index of the first entry of the first piece that contains such a particle, or the length of the list if there is
- * none. first: entry at which the search starts, the first of a piece. */
+/* Finds the next damaged particles in the list of peridynamic particles, p->list[KIND_PD], which is searched in pieces
+ * of TIP_PIECE entries. first: entry at which the search starts, the first of a piece. Returns the first entry of the
+ * first piece that contains a particle with damage above TIP_DAMAGE; the length of the list if there is none. */
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -73,7 +73,7 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
     return p->n_of[KIND_PD];
 }
 
-/* Assigns particle i to crack number `tip` and appends it to the queue of particles whose neighbours must be
+/* Assigns particle i to crack number `tip`, from 0, and appends it to the queue of particles whose neighbours must be
  * visited. */
 static void flood_label(struct flood *f, int32_t i, int tip)
 {
@@ -81,16 +81,17 @@ static void flood_label(struct flood *f, int32_t i, int tip)
     f->queue[f->queued++] = i;
 }
 
-/* Returns the number of the crack into which crack number `tip` has been merged in this sample, or `tip` itself if it
- * has not been merged. */
+/* Returns the number of the crack into which crack number `tip` has been merged in this sample (present set of tip
+ * positions), or `tip` itself if it has not been merged. */
 static int tips_root_of(const struct flood *f, int tip)
 {
     while (f->into[tip] != tip) tip = f->into[tip];
     return tip;
 }
 
-/* Merges cracks number a and b, which touch. Two cracks that both start at ends of pre-cracks stay separate. Otherwise
- * a crack that starts at no pre-crack is merged into one that does, or the later crack into the earlier one. */
+/* Merges the cracks number a and b, which touch. Two cracks that both start at ends of pre-cracks stay separate.
+ * Otherwise a crack that starts at no pre-crack is merged into one that does, or, if neither starts at a pre-crack, the
+ * later crack into the earlier one. */
 static void flood_join(struct flood *f, int a, int b)
 {
     a = tips_root_of(f, a), b = tips_root_of(f, b);
@@ -101,8 +102,9 @@ static void flood_join(struct flood *f, int a, int b)
     f->grown_by[keep] = true;
 }
 
-/* Takes the particles of the queue one after the other, and assigns all damaged particles that are connected with them
- * to the same crack. Cracks that touch are merged. The queue is empty afterwards. */
+/* Takes the particles of the queue f->queue one after the other, and assigns all damaged particles that are connected
+ * with them, from neighbour to neighbour, to the same crack. Cracks that touch are merged. The queue is empty
+ * afterwards. */
 static void flood_run(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -124,8 +126,8 @@ static void flood_run(struct flood *f)
     f->queued = 0;
 }
 
-/* Returns the number of the crack whose start is nearest to particle i, among cracks that start at the end of a
- * pre-crack in the body of i. Returns -1 if none starts within TIP_START_REACH spacings. */
+/* Returns the number of the crack of t whose start is nearest to the reference position of particle i, among cracks
+ * that start at the end of a pre-crack in the body of i; -1 if none starts within TIP_START_REACH spacings. */
 static int start_near(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
@@ -142,7 +144,7 @@ static int start_near(const struct crack_tips *t, const struct particles *p, int
 }
 
 /* Returns the lowest number of a crack that has a particle within TIP_TOUCH spacings of particle i, in the same body;
- * -1 if there is none. */
+ * -1 if there is none. f: its search memory is used. */
 static int crack_touched(struct flood *f, int64_t i)
 {
     const struct particles *p = f->search.p;
@@ -158,7 +160,8 @@ static int crack_touched(struct flood *f, int64_t i)
     return lowest;
 }
 
-/* Returns the number of the crack whose tip is nearest to particle i. It is used if there is no room for more tips. */
+/* Returns the number of the crack of t whose tip is nearest to the reference position of particle i. It is used if t
+ * cannot store more tips. */
 static int tip_nearest(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = 0;
@@ -172,8 +175,9 @@ static int tip_nearest(const struct crack_tips *t, const struct particles *p, in
 }
 
 /* Starts a new crack at the most damaged of the newly damaged particles that belong to no crack, and assigns the
- * damaged particles connected with it. If there is no room for more tips, they are assigned to the crack with the
- * nearest tip instead. Returns false, without a change, if all newly damaged particles belong to a crack. */
+ * damaged particles connected with it. If the list of tips is full (TIPS_MAX), assigns them to the crack with the
+ * nearest tip instead. Returns true if it has assigned particles; false if all newly damaged particles belong to a
+ * crack already. */
 static bool flood_nucleate(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -198,8 +202,8 @@ static bool flood_nucleate(struct flood *f)
     return true;
 }
 
-/* Removes the cracks that have been merged into others from the list of tips and from the record of their growth.
- * Renumbers the remaining cracks and the labels of particles. */
+/* Removes the cracks that have been merged into others in this sample from the list of tips and from the record of
+ * their growth. Renumbers the remaining cracks and the labels of particles. */
 static void flood_close_ranks(struct flood *f)
 {
     struct crack_tips *t = f->t;
@@ -222,8 +226,8 @@ static void flood_close_ranks(struct flood *f)
 }
 
 /* Prepares the assignment of damaged particles to cracks in one sample: lists in f->fresh the damaged particles that
- * belong to no crack yet, in the order of the list of peridynamic particles. t: cracks; c: search cells of the
- * particles. Release with flood_free. */
+ * belong to no crack of t yet, in the order of the list of peridynamic particles. c: cells of the neighbour search.
+ * Release f with flood_free. */
 static void flood_make(struct flood *f, struct crack_tips *t, const struct particles *p, const struct cells *c)
 {
     const int32_t *list = p->list[KIND_PD];
@@ -247,9 +251,9 @@ static void flood_free(struct flood *f)
     memory_free(f->search.found);
 }
 
-/* Assigns every newly damaged particle to a crack, by the first of these rules that applies: (1) the start of the
- * crack, or a particle of the crack, is near the particle; (2) a damaged particle connected with the particle belongs
- * to the crack; (3) a new crack begins at the particle. */
+/* Assigns every newly damaged particle in f->fresh to a crack, by the first of these rules that applies: (1) the start
+ * of the crack, or a particle of the crack, is near the particle; (2) a damaged particle connected with the particle
+ * belongs to the crack; (3) a new crack begins at the particle. */
 static void flood_all(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -267,9 +271,9 @@ static void flood_all(struct flood *f)
 
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Updates position, growth and times of a tip from the extent r of its crack at time `time` [s]. took_in: true if
- * another crack has been merged into this one. A jump in growth is then added to tip->joined, so that it does not count
- * for the speed. */
+/* Updates position, growth and times of `tip` from r, the extent of its crack at time `time` [s]. A growth below the
+ * previous one does not change them. t: all cracks, for the spacing; took_in: true if another crack has been merged
+ * into this one. A jump in growth is then added to tip->joined, so that it does not count for the speed. */
 static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const struct crack_tips *t, real time,
                      bool took_in)
 {
@@ -286,8 +290,8 @@ static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const str
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
 
-/* Returns the slope of the least-squares line through the growth of tip k over time, samples first .. last [m/s];
- * NAN if all samples have one time. */
+/* Returns the slope of the least-squares line through the growth of tip k over time, of the samples first .. last
+ * [m/s]; NAN if all these samples have the same time. */
 static real regression(const struct crack_tips *t, int k, int64_t first, int64_t last)
 {
     real n = (real)(last - first + 1), mean_time = 0, mean_growth = 0, both = 0, spread = 0;
@@ -318,8 +322,8 @@ real tips_average_speed(const struct crack_tips *t, int k)
     return regression(t, k, first < last ? first : last - 1, last);
 }
 
-/* Updates the largest speed of tip k and its mean speed since its start. The speed is the slope of growth over the time
- * window that ends at the last sample. */
+/* Updates the largest speed of tip number k and its mean speed since its start, after a sample has been added to t. The
+ * speed is the slope of growth over the time window that ends at the last sample. */
 static void tip_speeds(struct crack_tips *t, int k)
 {
     struct crack_tip *tip = &t->tip[k];
@@ -367,8 +371,8 @@ void tips_update_from_damage(struct crack_tips *t, const struct particles *p, co
 /* ---- queries ----------------------------------------------------------------------------------------------------- */
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
- * tip, 0 to 180 [degree]; NAN if the crack has not grown. dim: number of dimensions; in 3D only the part perpendicular
- * to the crack front counts. */
+ * tip, 0 to 180 [degree]; NAN if the crack has not grown. dim: number of dimensions; in 3D only the part of the line
+ * perpendicular to the crack front counts. */
 real tip_deflection_angle(const struct crack_tip *tip, int dim)
 {
     if (!(tip->growth > 0)) return NAN;
@@ -382,8 +386,8 @@ real tip_deflection_angle(const struct crack_tip *tip, int dim)
     return acos(real_max(-1, real_min(1, dot(chord, tip->along, dim) / length))) * (180 / M_PI);
 }
 
-/* Returns the tip with the largest growth, or NULL if no crack has grown. Of several with equal growth, up to
- * round-off, the first is returned: round-off then does not choose between the halves of a symmetric crack. */
+/* Returns the tip of t with the largest growth, owned by t; NULL if no crack has grown. Of several with equal growth,
+ * up to round-off, the first is returned: round-off then does not choose between the halves of a symmetric crack. */
 const struct crack_tip *tips_find_tip_with_largest_growth(const struct crack_tips *t)
 {
     const struct crack_tip *longest = NULL;

@@ -17,8 +17,9 @@ static int64_t strips_of(const struct crack_tips *t, const struct crack_tip *tip
     return (int64_t)real_max(1, floor(front_width(tip, t->dim) / t->spacing + 0.5));
 }
 
-/* Returns the number of the strip of a crack that contains the position X [m]. The front of the pre-crack at `tip` is
- * divided into strips about one spacing wide. Positions beyond the ends of the front count to the nearest strip. */
+/* Returns the number, from 0, of the strip of a crack that contains the position X[dim] [m]. The front of the pre-crack
+ * at `tip` is divided into strips about one spacing wide. Positions beyond the ends of the front count to the nearest
+ * strip. */
 static int64_t strip_at(const struct crack_tips *t, const struct crack_tip *tip, const real *X)
 {
     const real edge2 = dot(tip->edge, tip->edge, t->dim);
@@ -36,8 +37,9 @@ struct ahead {
     int64_t cell;
 };
 
-/* Finds the front of a pre-crack in body number `body` that is nearest to the position X [m]. Returns its tip, -1 if X
- * is not ahead of it, and the distance of X from it [cells of one spacing]. */
+/* Finds the front of a pre-crack in body number `body` that is nearest to the position X[dim] [m]. Returns the number
+ * of its tip, or -1 if X is not ahead of this front or there is no front, and the distance of X from the front [cells
+ * of one spacing]. */
 static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X)
 {
     struct ahead found = {-1, 0};
@@ -56,9 +58,9 @@ static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X
 }
 
 /* Marks the part of the area ahead of all pre-cracks that is damaged. The fronts of pre-cracks are divided into strips
- * about one spacing wide, and the strip ahead of a front into `deepest` cells of one spacing. cell[] is set to 1 for
- * cells that contain a particle with more damage than `least`; cell = NULL: no cell is marked. first[k]: number of the
- * first strip of tip k; strip s has the cells from cell[s * deepest] on. Returns the largest distance of such a
+ * about one spacing wide, and the strip ahead of a front into `deepest` cells of one spacing. cell: the entries of
+ * cells that contain a particle with more damage than `least` are set to 1; NULL: no cell is marked. first[k]: number
+ * of the first strip of tip k; strip s has the cells from cell[s * deepest] on. Returns the largest distance of such a
  * particle from its front [cells]. */
 static int64_t strips_mark(const struct crack_tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
@@ -77,8 +79,9 @@ static int64_t strips_mark(const struct crack_tips *t, const struct particles *p
     return deep;
 }
 
-/* Returns the length of a strip of a crack [cells]: up to its last marked cell before a gap of GAP unmarked ones.
- * cell[deepest]: marks of the strip's cells, from the front of the pre-crack on. */
+/* Returns the length of a strip of a crack, from its start at the pre-crack up to its last marked cell before a gap of
+ * GAP unmarked cells [cells]. cell[deepest]: 1 for marked (damaged) cells of the strip, from the front of the pre-crack
+ * on. */
 static int64_t strip_length(const uint8_t *cell, int64_t deepest)
 {
     int64_t end = 0;
@@ -128,15 +131,16 @@ struct bar_place {
     int32_t particle;
 };
 
-/* Compares two struct bar_place by position for qsort. */
+/* Compares two particles of a bar (struct bar_place) for qsort, in ascending order of their reference positions. */
 static int bar_place_order(const void *a, const void *b)
 {
     const struct bar_place *p = a, *q = b;
     return (p->X > q->X) - (p->X < q->X);
 }
 
-/* Extends *kept and *lost to the farthest position that an intact bond of the particle `i` of a bar reaches in the
- * direction `side`, and one that load has broken [side m]. side: -1: towards smaller positions, 1: larger ones. */
+/* Increases *kept to the farthest position that an intact bond of particle i of a bar reaches on one side, and *lost to
+ * the farthest position that a bond broken by load reaches, if they are farther. side: 1 towards larger positions, -1
+ * towards smaller ones. *kept, *lost: positions times `side` [m]. */
 static void bar_bonds_reach(const struct bonds *b, const struct particles *p, int32_t i, int side, real *kept,
                             real *lost)
 {

@@ -5,13 +5,13 @@
 #include "fracture/places.h"
 #include "tips_parts.h"
 
-/* Returns true for the label of a particle that belongs to a crack: not 0 (undamaged) and not TIP_BEFORE
- * (pre-crack). */
+/* Returns true if `label`, the crack number of a particle plus 1, stands for a crack: it is neither 0 (undamaged) nor
+ * TIP_BEFORE (damaged by a pre-crack). */
 static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
 
-/* Searches the list of peridynamic particles for particles of cracks, in pieces of TIP_PIECE entries. Returns the index
- * of the first entry of the first piece that contains one, or the length of the list if there is none. first: entry at
- * which the search starts, the first of a piece. */
+/* Finds the next particles of cracks in the list of peridynamic particles, p->list[KIND_PD], which is searched in
+ * pieces of TIP_PIECE entries. first: entry at which the search starts, the first of a piece. Returns the first entry
+ * of the first piece that contains a particle of a crack of t; the length of the list if there is none. */
 static int64_t next_of_crack(const struct crack_tips *t, const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -27,8 +27,8 @@ static int64_t next_of_crack(const struct crack_tips *t, const struct particles 
     return p->n_of[KIND_PD];
 }
 
-/* Returns the distance of particle i from the start of its crack [m]; -1 if it is beside the end of the pre-crack,
- * behind the start. The particle must belong to a crack. */
+/* Returns the distance of particle i from the start of its crack [m]; -1 if the particle is beside the end of the
+ * pre-crack, behind the start. The particle must belong to a crack of t. */
 static real tips_reach_of(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     const struct crack_tip *tip = &t->tip[t->label[i] - 1];
@@ -51,8 +51,8 @@ struct ahead {
 
 typedef void of_crack_fn(struct ahead *a, int32_t i, int tip);
 
-/* Calls visit(a, i, tip) for every particle i that belongs to a crack, where `tip` is the number of the crack, in the
- * order of the list of peridynamic particles. */
+/* Calls visit(a, i, tip) for every particle i that belongs to a crack, where `tip` is the number of the crack, from 0,
+ * in the order of the list of peridynamic particles. */
 static void each_of_crack(struct ahead *a, of_crack_fn *visit)
 {
     const int32_t *list = a->p->list[KIND_PD];
@@ -62,8 +62,8 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
             if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 
-/* Adds particle i to the extent of crack number `tip` in a->reach: to its number of particles, and to the largest
- * distance from its start. */
+/* Adds particle i to the extent of crack number `tip`, a->reach[tip]: increments the number of particles, and increases
+ * the largest distance from the start of the crack to that of the particle. */
 static void extent_find(struct ahead *a, int32_t i, int tip)
 {
     struct tip_reach *r = &a->reach[tip];
@@ -71,8 +71,9 @@ static void extent_find(struct ahead *a, int32_t i, int tip)
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
 
-/* If particle i is farthest from the start of crack number `tip`, or at most one spacing less far than the farthest
- * particle, counts it in a->n[tip]. Its position is stored in a->place[tip], unless that is NULL. */
+/* If particle i is the farthest from the start of crack number `tip`, or at most one spacing less far, counts it in
+ * a->n[tip] and stores its reference position in a->place[tip], unless that is NULL. a->reach must be complete
+ * (extent_find). */
 static void farthest_collect(struct ahead *a, int32_t i, int tip)
 {
     const real farthest = a->reach[tip].farthest, equal = TIP_EQUAL * a->t->spacing;

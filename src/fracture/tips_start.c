@@ -9,9 +9,9 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the particles, mirror images included, within `radius` of the position `position` [m]; the radius is reduced to
- * the edge of the search cells if it is larger. Writes their indices to s->found, which grows as needed and is freed by
- * the caller. Returns their number. */
+/* Finds the particles, mirror images included, whose reference position is within `radius` [m] of position[dim] [m].
+ * The radius is reduced to the edge of the search cells if it is larger. Stores their indices in s->found, which grows
+ * as needed; the caller frees it. Returns the number of these particles. */
 int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius)
 {
     radius = real_min(radius, s->c->edge);
@@ -25,9 +25,9 @@ int tip_search_find_particles_near(struct tip_search *s, const real *position, r
 
 /* ---- starts: the ends of pre-cracks ------------------------------------------------------------------------------ */
 
-/* Computes the vector from the nearest point of a segment to the point `point` [m]. centre: middle of the segment [m];
- * half_vector: vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the
- * vector [m]. */
+/* Computes the vector from the nearest point of a segment to a point. centre[dim]: middle of the segment [m];
+ * half_vector[dim]: vector from the middle to one end [m]; point[dim]: the point [m]; offset[dim]: receives the vector
+ * [m]. Returns the length of the vector [m]. */
 real segment_distance_and_offset_to_point(const real *centre, const real *half_vector, const real *point, int dim,
                                           real *offset)
 {
@@ -47,8 +47,9 @@ bool tips_start_at_precrack_end(const struct crack_tips *t, const real *end)
 
 static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
 
-/* Returns true if the position X [m] is within half a spacing of a pre-crack other than number `self`. It is then a
- * corner or a branch of a longer cut, from which no crack grows. crack[cracks]: pre-cracks of the scene. */
+/* Returns true if the position X[dim] [m], an end of pre-crack number `self`, is within half a spacing of another
+ * pre-crack. The end is then a corner or a branch of a longer cut, from which no crack grows. crack[cracks]: pre-cracks
+ * of the scene. */
 static bool on_another(const struct crack_tips *t, const struct crack *crack, int cracks, int self, const real *X)
 {
     for (int c = 0; c < cracks; c++) {
@@ -63,8 +64,9 @@ static bool on_another(const struct crack_tips *t, const struct crack *crack, in
     return false;
 }
 
-/* Returns the number of the body in which a crack that ends at X[] [m] could grow in the direction `along` (unit
- * vector), or -1 if fewer than two particles of free motion are ahead of X. */
+/* Returns the number of the body in which a crack that ends at X[dim] [m] could grow in the direction along[dim] (unit
+ * vector); -1 if fewer than two particles of free motion are ahead of X. s: search, whose list of found particles is
+ * overwritten. */
 static int body_ahead(const struct crack_tips *t, struct tip_search *s, const real *X, const real *along)
 {
     real ahead[DIM_MAX];
@@ -98,8 +100,9 @@ struct crack_tip *tip_add_without_growth(struct crack_tips *t, int body_number, 
     return tip;
 }
 
-/* Adds a tip at the end `to` of a segment of pre-crack number `self`, if a body continues there and no other
- * pre-crack does. from, to: ends of the segment [m]; crack[cracks]: pre-cracks of the scene. */
+/* Adds a tip to t at the end `to` of a segment of pre-crack number `self`, if a body continues there and no other
+ * pre-crack does. Adds none if t is full. s: search of particles; from, to: ends of the segment [m]; crack[cracks]:
+ * pre-cracks of the scene. */
 static void start_at_end(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                          const real *from, const real *to)
 {
@@ -112,8 +115,9 @@ static void start_at_end(struct crack_tips *t, struct tip_search *s, const struc
     if (body >= 0) tip_add_without_growth(t, body, to, along)->from_crack = true;
 }
 
-/* Computes the unit vector `outward` in the plane of polygon c, perpendicular to its edge k (from corner k to the next
- * one) and away from its middle. Returns false if the edge has no length. */
+/* Computes outward[3], the unit vector in the plane of polygon c perpendicular to its edge k (from corner k to the next
+ * one) and away from the middle of the polygon. Returns false if the edge has no length or the polygon no area beside
+ * it. */
 static bool edge_outward(const struct crack *c, int k, real *outward)
 {
     const real *a = c->corner[k], *b = c->corner[(k + 1) % c->n];
@@ -130,8 +134,9 @@ static bool edge_outward(const struct crack *c, int k, real *outward)
     return size > 0;
 }
 
-/* Adds a crack front along the part of edge k of polygon number `self` that is inside a body, found in steps of
- * about one spacing. Adds none if no part is inside a body. crack[cracks]: pre-cracks of the scene. */
+/* Adds a crack front to t along the part of edge k of polygon number `self` that is inside a body, found in steps of
+ * about one spacing. Adds none if no part is inside a body or t is full. s: search of particles; crack[cracks]:
+ * pre-cracks of the scene. */
 static void start_at_edge(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                           int k)
 {
