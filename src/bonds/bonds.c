@@ -12,17 +12,17 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
-/* Returns true if particle i has a row in the previous bonds `old` with bonds to all particles within the cutoff, as
- * rows of peridynamic particles have. Rows of material points have bonds to peridynamic neighbours only. For an image,
- * the row of the particle that it mirrors is tested. */
+/* Returns true if particle i has a row (list of bonds) in the previous bonds `old` with bonds to all particles within
+ * the cutoff, as rows of peridynamic particles have. Rows of material points have bonds to peridynamic neighbours only.
+ * For a mirror image, the row of the particle that it mirrors is tested. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
-/* Returns true if rows of the previous bonds `old` can be used again: `old` is not NULL, and no particle that was
- * peridynamic in `old`, with bonds to all its neighbours, is a material point now. */
+/* Returns true if rows (lists of bonds of one particle) of the previous bonds `old` can be used again: `old` is not
+ * NULL, and no particle that was peridynamic in `old`, with bonds to all its neighbours, is a material point now. */
 static bool rows_reusable(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
@@ -31,9 +31,9 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks particle or image i and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the groups of eight
- * consecutive particles that contain one of them, which get rows of bonds; and in fresh[particles] these particles
- * themselves, whose neighbours must be searched again. found[capacity]: working memory. */
+/* Marks particle or image i and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the sets of eight
+ * consecutive particles that contain one of them, which get rows of bonds; in fresh[particles] these particles
+ * themselves, whose neighbours must be searched again. map: lattice sites; found[capacity]: working memory. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -43,11 +43,11 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
 }
 
-/* Marks in wanted[(n + 7)/8] the groups of eight consecutive particles that get rows: groups with a peridynamic
- * particle or with a material point that has a peridynamic neighbour. Rows of other particles of a marked group have
- * no bonds. Whole groups are used, since a row block keeps its eight particles for as long as it exists. Marks in
- * fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
- * previous rows or NULL; capacity: largest number of neighbours of a particle. */
+/* Marks by 1 in wanted[(n + 7)/8] the sets of eight consecutive particles that get rows (lists of bonds): sets with a
+ * peridynamic particle or with a material point that has a peridynamic neighbour. Rows of other particles of a marked
+ * set have no bonds. Whole sets are used, since a row block keeps its eight particles for as long as it exists. Marks
+ * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
+ * previous bonds or NULL; map: lattice sites; capacity: largest number of neighbours of a particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -70,9 +70,9 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the micro-moduli c of bonds for all pairs of materials of s, divided by that of material 0: 2 c_a c_b/(c_a
- * + c_b) between materials a and b; all 1 for state-based models. Release the array `ratio` of the table with
- * memory_free. */
+/* Returns a table of the micro-moduli c of bonds for all pairs of materials of s, divided by the modulus of material 0
+ * [1]: c = 2 c_a c_b/(c_a + c_b) between materials a and b; all entries are 1 for state-based models. The caller frees
+ * the array `ratio` of the table with memory_free. */
 struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
@@ -87,8 +87,8 @@ struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_sou
     return t;
 }
 
-/* Returns an array [n] of row indices, one for each particle, with all entries -1 (no row). If the previous bonds `old`
- * have a spare array of this kind, it is taken from them instead of allocating one. The caller owns it. */
+/* Returns an array [n] with the row index of each particle, all -1 (no row). If the previous bonds `old` (or NULL) have
+ * a spare array of this kind, it is taken from them instead of allocating one. The caller owns the array. */
 static int32_t *row_of_make(struct bonds *old, int64_t n)
 {
     int32_t *row_of = old ? old->no_rows : NULL;
@@ -101,9 +101,9 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
     return row_of;
 }
 
-/* Makes rows of bonds for the particles of all groups of eight consecutive ones that are marked in wanted[groups]: sets
- * b->particle (particle of each row) and b->row_of (row of each particle). Rows are used in blocks of eight; unused
- * rows of the last block repeat its last particle. old: previous rows or NULL. */
+/* Makes rows (lists of bonds, empty so far) for the particles of all sets of eight consecutive ones that are marked in
+ * wanted[sets]: sets b->particle (particle of each row) and b->row_of (row of each particle, -1 without one). Rows are
+ * used in blocks of eight; unused rows of the last block repeat its last particle. old: previous bonds or NULL. */
 static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
 {
     const int64_t eights = (p->n + LANES - 1) / LANES;
@@ -119,8 +119,8 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
-/* Allocates the arrays of b with an entry for each row (the bonds of one particle) or each block of eight rows. The
- * arrays with an entry for each bond are allocated later. */
+/* Allocates the arrays of b with an entry for each row (bonds of one particle) or each row block (eight rows stored
+ * together). The arrays with an entry for each bond are allocated later. Call it after rows_list. */
 static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->row_blocks * LANES;
@@ -153,7 +153,8 @@ struct rows_pass {
 };
 
 /* Returns true if the new rows of the particles particle[rows] inherit changed weights: one of these particles had its
- * row in a row block (bonds of eight particles) of the previous bonds `old` in which a bond has broken or softened. */
+ * row in a row block (eight rows stored together) of the previous bonds `old` in which a bond has broken or softened.
+ * Returns false if `old` is NULL. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -164,9 +165,9 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
     return changed;
 }
 
-/* Returns true if the bonds of row block g (rows of eight particles) can be made from the map of lattice sites, without
- * a search: its particles are consecutive, on a regular part of the lattice, and have no changed weights. The bonds are
- * then in room->regular. */
+/* Returns true if the bonds of row block g (eight rows stored together) can be made from the map of lattice sites,
+ * without a search: its particles are consecutive, on a regular part of the lattice, and have no changed weights. The
+ * bonds are then in room->regular. */
 static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
@@ -176,15 +177,15 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *ro
            bond_row_block_compute_lattice_bonds(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
-/* Replaces *reach by |distance| if that is larger. */
+/* Increases *reach, the largest difference of indices so far, to |distance| if that is larger. */
 static void reach_widen(int32_t *reach, int32_t distance)
 {
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
-/* Raises room->reach to the largest difference of the indices of two bonded particles in row block g (rows of eight
- * particles). Images do not count, as they have no rows. regular: true if the bonds are in room->regular (found from
- * the lattice map), false if they are in room->row (found by search). */
+/* Increases room->reach to the largest difference of the indices of two bonded particles in row block g (eight rows
+ * stored together). Images do not count, as they have no rows. regular: true if the bonds are in room->regular (found
+ * from the lattice map), false if they are in room->row (found by search). */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -195,8 +196,8 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Makes row block g (rows of eight particles): in the first pass (pass->count) counts its columns, in the second fills
- * them. Column k of a row block contains the k-th bonds of its eight particles. room: working memory of the thread.
+/* Makes row block g (eight rows stored together): in the first pass (pass->count is true) counts its columns, in the
+ * second fills them. Column k contains the k-th bonds of its eight particles. room: working memory of the thread.
  * Returns the number of bonds of the row block. */
 static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
@@ -229,9 +230,9 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Compares the new rows with the previous ones. pass->kept[g] receives the previous row block (rows of eight particles)
- * that is equal to new row block g, so that its contents can be copied, or -1. pass->list receives the row blocks
- * without an equal one, which must be made. */
+/* Compares the new row blocks (eight rows stored together) with the previous ones. pass->kept[g]: receives the previous
+ * row block that is equal to new row block g, so that its contents can be copied, or -1. pass->list: receives the row
+ * blocks without an equal one, which must be made; pass->n: their number. */
 static void rows_pass_begin(struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
@@ -247,9 +248,9 @@ static void rows_pass_begin(struct rows_pass *pass)
         if (pass->kept[g] < 0) pass->list[pass->n++] = g;
 }
 
-/* Makes all row blocks in pass->list (rows of eight particles each) in parallel: counts their columns in the first
- * pass, fills them in the second. In two passes the memory is known before it is filled, and bonds are not stored
- * twice. Raises b->reach to the distance of the farthest bonded particle [row blocks]. */
+/* Makes all row blocks (eight rows stored together) in pass->list in parallel: counts their columns in the first pass,
+ * fills them in the second. In two passes the memory is known before it is filled, and bonds are not stored twice.
+ * Increases b->reach to the distance from a particle to the farthest one bonded to it [row blocks]. */
 static void rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -268,8 +269,8 @@ static void rows_pass(const struct rows_pass *pass)
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
 }
 
-/* Copies the row blocks (rows of eight particles) that are equal to previous ones from the previous rows, and sets b->n
- * to the number of directed bonds of all row blocks. */
+/* Copies the row blocks (eight rows stored together) that are equal to previous ones from the previous bonds, and sets
+ * b->n to the number of directed bonds of all row blocks. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
@@ -282,9 +283,9 @@ static void rows_pass_end(const struct rows_pass *pass)
     b->n = made;
 }
 
-/* Makes all row blocks (rows of eight particles each) of b in two passes: the first counts their columns, the second
- * fills them. If previous rows exist, few row blocks change; the neighbours that the first pass finds for these are
- * then kept for the second pass. */
+/* Makes all row blocks (eight rows stored together) of b in two passes: the first counts their columns, the second
+ * fills them. maker: input, with the previous bonds, if any. If there are previous bonds, few row blocks change; the
+ * neighbours that the first pass finds for these are then kept for the second pass. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = material_pair_table_make_of_micro_moduli(maker.source);
@@ -306,8 +307,8 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
     memory_free(pairs.ratio);
 }
 
-/* Copies fracture energy, plastic work and number of broken bonds of each particle from its row in the previous rows,
- * if it had one. */
+/* Copies fracture energy, plastic work and number of broken bonds of each particle of b from its row in the previous
+ * bonds `old`, if it had one. Other rows keep the value 0. */
 static void rows_inherit(struct bonds *b, const struct bonds *old)
 {
     for (int64_t r = 0; r < b->rows; r++) {

@@ -6,7 +6,8 @@
 #include "base/memory.h"
 
 /* Computes sign[DIM_MAX], 1 or -1: component d of the displacement of image j is sign[d] times that of the particle
- * that it mirrors, directly or through other images. Returns true if one of these mirrors is clamped. */
+ * that it mirrors, directly or through other images. Returns true if one of these mirrors is clamped (s->mirror_axis <
+ * 0), in which all components change their sign. */
 static bool image_rotates(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
 {
     bool clamp = false;
@@ -20,8 +21,8 @@ static bool image_rotates(const struct bond_source *s, const struct particles *p
     return clamp;
 }
 
-/* Returns an array [n_all - n] with 1 for images in clamped planes and 0 for others, or NULL if no image is in a
- * clamped plane. Release it with memory_free. */
+/* Returns an array [n_all - n] with 1 for images in clamped planes and 0 for others; NULL if no image is in a clamped
+ * plane. The caller frees it with memory_free. */
 static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
 {
     bool any = false;
@@ -34,9 +35,9 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts in c->n the intact bonds of column k of row block g (rows of eight particles) to images in clamped planes.
- * If c->entry is not NULL, also stores index and both particles of each of these bonds. is[image]: 1 for images in
- * clamped planes. */
+/* Counts in c->n the intact bonds of column k (the k-th bonds) of row block g (eight rows stored together) to images in
+ * clamped planes. If c->entry is not NULL, also stores index, both particles, inverse length and weight of each of
+ * these bonds. is[images]: 1 for images in clamped planes. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -52,9 +53,9 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Counts in c->n the bonds of all row blocks (rows of eight particles each) to images in clamped planes, and stores
- * them if c->entry is not NULL. Images have indices behind those of the body, so that one comparison excludes most
- * columns. is[image]: 1 for images in clamped planes. */
+/* Counts in c->n the intact bonds of all row blocks (eight rows stored together) of b to images in clamped planes, and
+ * stores them if c->entry is not NULL. Images have indices behind those of the body, so that one comparison excludes
+ * most columns. is[images]: 1 for images in clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;
@@ -67,9 +68,9 @@ static void bonds_note(struct clamped *c, struct bonds *b, const struct particle
         }
 }
 
-/* Lists n reactions in c->end, sorted by the particle on which they act, and sets c->particle and c->first, the range
- * of each particle. Reactions on one particle remain in the order of their bonds. end[n]: unsorted reactions; of[n]:
- * particle of each reaction; particles: number of particles of the body. */
+/* Copies n reactions to c->end, sorted by the particle on which they act, lists these particles in c->particle and the
+ * range of reactions of each in c->first. Reactions on one particle remain in the order of their bonds. end[n]:
+ * unsorted reactions; of[n]: particle of each reaction; particles: number of particles of the body. */
 static void ends_sort(struct clamped *c, const struct clamp_end *end, const int32_t *of, int64_t n, int64_t particles)
 {
     int64_t *next = NEW("clamped.next", particles + 1, int64_t);
@@ -87,10 +88,10 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Lists in c->end the reactions of bonds between a particle and a mirror image across a clamped plane, with the
- * particle on which each acts. In state-based models the particle already has its half of the bond force; the other
- * half is one reaction, on the particle that the image mirrors. In bond-based models the particle has both halves; two
- * reactions move one half from there to the particle that the image mirrors. */
+/* Lists in c->end the reactions of bonds between a particle and an image across a clamped plane, sorted by the particle
+ * on which they act. In state-based models the particle already has its half of the bond force; the other half is one
+ * reaction, on the particle that the image mirrors. In bond-based models the particle has both halves; two reactions
+ * move one half from there to the particle that the image mirrors. The bonds must be in c (bonds_note). */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

@@ -12,8 +12,8 @@ struct holes_by_size {
     int32_t most;
 };
 
-/* Inserts hole number k in the list of the holes of its size. A hole is a range of unused columns of the bond
- * arrays. */
+/* Inserts hole number k (a range of unused columns of the bond arrays) in the list of the holes of its size, in
+ * front. */
 static void hole_list(struct holes_by_size *s, int64_t k)
 {
     const int32_t size = s->all->hole[k].columns;
@@ -21,7 +21,8 @@ static void hole_list(struct holes_by_size *s, int64_t k)
     s->first[size] = (int32_t)k;
 }
 
-/* Returns lists of all holes (ranges of unused columns) by size. Release them with holes_close. */
+/* Returns lists of all holes (ranges of unused columns of the bond arrays) by size. all: the holes, kept by reference.
+ * Release the lists with holes_close. */
 static struct holes_by_size holes_sort(struct bond_holes *all)
 {
     struct holes_by_size s = {.all = all};
@@ -33,8 +34,8 @@ static struct holes_by_size holes_sort(struct bond_holes *all)
     return s;
 }
 
-/* Returns the first column of the smallest hole (range of unused columns) with at least `columns` columns; -1 if there
- * is none. The rest of the hole remains a hole. */
+/* Takes `columns` columns from the smallest hole (range of unused columns) that has as many, and returns the first of
+ * them; -1 if there is no such hole or `columns` is 0. The rest of the hole remains a hole. */
 static int64_t hole_take(struct holes_by_size *s, int32_t columns)
 {
     int32_t size = columns;
@@ -49,8 +50,8 @@ static int64_t hole_take(struct holes_by_size *s, int32_t columns)
     return at;
 }
 
-/* Removes empty holes (ranges of unused columns of the bond arrays, here without a column left) from the array of all
- * holes, and frees the lists of holes by size. */
+/* Removes the holes (ranges of unused columns) of which no column is left from the array s->all, and frees the lists of
+ * holes by size. */
 static void holes_close(struct holes_by_size *s)
 {
     int64_t n = 0;
@@ -61,9 +62,9 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* Appends the columns of those row blocks of `old` (rows of eight particles each) that are not taken over to the list
- * of unused columns b->holes. The next rebuilding may use them; the present one still reads them. kept[row blocks]: row
- * block of `old` that is taken over, -1: none. */
+/* Appends the columns of those row blocks of the previous bonds `old` (eight rows stored together) that are not kept to
+ * the list of unused columns b->holes. The next rebuilding may use them; the present one still reads them. kept[row
+ * blocks of b]: row block of `old` that is kept, or -1. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     struct bond_holes *holes = &b->holes;
@@ -80,8 +81,9 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Allocates the column arrays of b for b->room columns. sparse: true to reserve addresses only, which get memory
- * when they are written; on a lattice most row blocks (rows of eight particles each) write no column. */
+/* Allocates the arrays of b with an entry for each column (the k-th bonds of eight rows), for b->room columns. s:
+ * states which arrays the model needs; sparse: true to reserve addresses only, which get memory when they are written;
+ * on a lattice most row blocks (eight rows stored together) write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
     void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_lazy_uninitialised : memory_new_uninitialised;
@@ -104,7 +106,8 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
     b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
 }
 
-/* Extends the bond arrays to `room` columns of eight bonds each, without initialising the new ones. */
+/* Extends the bond arrays of b from b->room to `room` columns of eight bonds each, without initialising the new ones.
+ * The arrays may move. */
 static void columns_extend(struct bonds *b, int64_t room)
 {
     const int64_t had = b->room, each = LANES;
@@ -127,9 +130,10 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Chooses the position of each row block g (rows of eight particles) of b in the column arrays of the previous rows
- * `old`. If it is equal to the previous row block kept[g], it stays at the columns of that. If kept[g] is -1, it gets a
- * range of unused columns (hole) that is large enough, or else columns at the end of the arrays, which are extended. */
+/* Chooses the position of each row block g (eight rows stored together) of b in the column arrays of the previous bonds
+ * `old`. If kept[g] >= 0, it is equal to this previous row block and stays at the columns of that one. If kept[g] is
+ * -1, it gets a range of unused columns that is large enough, or else columns at the end of the arrays, which are
+ * extended. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);
@@ -142,9 +146,9 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Makes b use the column arrays of the previous rows `old`. Both use them until bonds_clear_pointers_to_moved_arrays
- * takes them from `old`. kept[g]: row block of `old` (rows of eight particles) whose columns row block g keeps; -1:
- * none. */
+/* Makes b use the column arrays of the previous bonds `old`. Both use them until bonds_clear_pointers_to_moved_arrays
+ * removes them from `old`. kept[g]: row block of `old` (eight rows stored together) whose columns row block g keeps, or
+ * -1. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -157,10 +161,10 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
     holes_add(b, old, kept);
 }
 
-/* Assigns columns to all row blocks (rows of eight particles each), in the arrays of the previous rows if possible,
- * else in new ones. Rows with plastic bonds always get new arrays, because their plastic state is archived in the order
- * of the row blocks (bonds_archive.c). previous_row_block[row blocks]: previous row block that is taken over, -1: none;
- * NULL: no previous rows. */
+/* Assigns columns (the k-th bonds of eight rows) to all row blocks of b, in the arrays of the previous bonds m->old if
+ * possible, else in new ones. Row blocks with plastic bonds always get new arrays, because their plastic state is
+ * archived in the order of the row blocks (bonds_archive.c). previous_row_block[row blocks]: previous row block that is
+ * kept, or -1; not used without previous bonds. */
 void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *m, const int64_t *previous_row_block)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];

@@ -4,8 +4,8 @@
 #include "bonds_parts.h"
 
 /* Checks the order of rows and particles: rows must ascend by particle, row_of must be the inverse of `particle`, and
- * the padding rows behind the last one must repeat its particle. Returns a text that names the first fault, or NULL if
- * there is none. */
+ * the padding rows behind the last one must repeat its particle. Returns a constant text that names the first fault, or
+ * NULL if there is none. */
 static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -17,8 +17,8 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* Returns a text about what is wrong with row block g (rows of eight particles), which stores no columns but uses a
- * stencil; NULL if nothing is. */
+/* Checks row block g (eight rows stored together), which stores no columns but uses a stencil. Returns a constant text
+ * that names the first fault; NULL if there is none. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "an implicit row block follows no stencil";
@@ -29,7 +29,7 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
 }
 
 /* Checks that the common properties of a stored column (b->common[column]) agree with each of its eight bonds. Returns
- * a text that names the first fault, or NULL if there is none. */
+ * a constant text that names the first fault; NULL if there is none. */
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];
@@ -45,8 +45,8 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     return NULL;
 }
 
-/* Returns a text about an intact bond of a row that leads farther than b->reach row blocks (rows of eight particles
- * each) away; NULL if there is none. */
+/* Checks that no intact bond of row `row` leads to a row more than b->reach row blocks (eight rows stored together)
+ * away. Returns a constant text that names the fault; NULL if there is none. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {

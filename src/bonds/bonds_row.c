@@ -30,8 +30,8 @@ void bond_row_buffer_free(struct row *row)
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Lists the particles and images within the cutoff of particle i that belong to its body in found[capacity], in
- * ascending order. Returns their number; if it exceeds `capacity`, the list is incomplete. */
+/* Lists the particles and images of the body of particle i within its cutoff in found[capacity], in ascending order,
+ * without i. Returns their number. A number above `capacity` means that the list is incomplete. */
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found,
                          int capacity)
 {
@@ -45,7 +45,7 @@ static int family_search(const struct bond_source *s, const struct particles *p,
 }
 
 /* Removes from found[n] those neighbours of particle i for which the line to i passes through a void (a hole of the
- * body without particles). Returns the number of remaining neighbours. */
+ * body without particles). The others keep their order. Returns the number of remaining neighbours. */
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
     int kept = 0;
@@ -97,8 +97,9 @@ bool particle_is_near_precrack_or_void(const struct bond_source *source, const s
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the weight of the bond i-j with the components xi [m] and the length r [m] [1]: partial volume, influence,
- * volumes and materials of both particles, and the surface correction. Exchanging i and j changes no bit. */
+/* Returns the weight [1] of the bond between particles i and j: product of partial volume, influence, volumes and
+ * materials of both particles, and the surface correction. xi[dim], r: reference vector from i to j and its length [m];
+ * pairs: stiffness by pair of materials, divided by that of material 0. Exchanging i and j changes no bit. */
 static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                         int32_t i, int32_t j, const real *xi, real r)
 {
@@ -112,9 +113,9 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
-/* Lists the neighbours with which particle i has bonds in row->nbr[capacity]: all within the cutoff if it is
- * peridynamic, only the peridynamic ones if it is a material point. Sets row->n and row->family_volume, the volume of
- * all neighbours within the cutoff [m^3]. map: map of lattice sites to particles. */
+/* Lists the neighbours with which particle i has bonds in row->nbr[capacity], ascending: all within the cutoff if it is
+ * peridynamic, only the peridynamic ones if it is a material point. Sets row->n, their number, and row->family_volume,
+ * the volume of all neighbours within the cutoff [m^3]. map: map from lattice sites to particles. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
@@ -127,7 +128,8 @@ static void row_search(struct row *row, const struct site_map *map, const struct
     row->n = kept;
 }
 
-/* Returns the elastic strain e . (C^-1 sigma) e of material point i along the unit vector e [1]. m: materials. */
+/* Returns the elastic strain e . (C^-1 sigma) e of material point i along the unit vector e[dim] [1], with the stress
+ * sigma of the point and its elastic tensor C. m: array of materials. */
 static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -143,9 +145,10 @@ static real elastic_strain_along(const struct particles *p, const struct materia
     return sum;
 }
 
-/* Returns the initial plastic state of the bond i-j between material points that have yielded: as plastic stretch the
- * part of its stretch that their stress does not explain elastically, and the mean of their plastic strains. A bar then
- * carries the stress of its points to the last digit. r: reference length [m]. The value is symmetric in i and j. */
+/* Returns the initial plastic state of the bond between material points i and j (j may be an image): 0 if neither has
+ * yielded. Its plastic stretch is the part of the present stretch that the points' stress does not explain elastically,
+ * its plastic path the mean of their plastic strains. A bar then carries the stress of its points to the last digit. r:
+ * reference length of the bond [m]. The value is symmetric in i and j. */
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
@@ -161,9 +164,9 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Returns the stretch above which the vector test reports the bond between `particle` and `other_particle`: the stretch
- * at which the bond breaks or begins to soften, reduced by TRIGGER_MARGIN; half of it where strengths depend on the
- * strain rate, which is measured from there on. */
+/* Returns the stretch of the bond between `particle` and `other_particle` above which the vector test reports the bond
+ * to the exact test [1]: the stretch at which the bond breaks or begins to soften, reduced by TRIGGER_MARGIN; half of
+ * it if the strength depends on the strain rate, which is measured from there on. */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle)
 {
@@ -173,9 +176,9 @@ real bond_stretch_that_triggers_exact_test(const struct bond_source *source, con
     return limit->softening && limit->softening[pair].rate ? RATE_FROM * onset : onset;
 }
 
-/* Computes lengths and weights of the bonds from particle i to the row->n neighbours in row->nbr. A bond that a
- * pre-crack cuts gets weight 0 and a negative inverse length. pairs: stiffness by pair of materials over that of
- * material 0. */
+/* Computes inverse lengths and weights of the bonds from particle i to the row->n neighbours in row->nbr, and
+ * row->trigger, the smallest stretch to be tested. A bond that a pre-crack cuts gets weight 0 and a negative inverse
+ * length. pairs: stiffness by pair of materials, divided by that of material 0. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
@@ -195,16 +198,16 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-/* Returns the plastic state of the k-th bond of one of the eight particles of a row block. lane: which of them, 0 to
- * 7. */
+/* Returns the plastic state of bond k of one particle of a row block (eight rows stored together). lane: which of the
+ * eight particles, 0 to 7. Only if bonds may yield (b->plastic_stretch is not NULL). */
 static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
-/* Copies the state of broken, yielded and softened bonds of a particle to `row` from its row number old_row of the
- * previous rows `old`. Both rows may have different neighbours. */
+/* Copies the state of broken, yielded and softened bonds of a particle to `row` from the previous bonds `old`, in which
+ * the particle had row old_row. Both rows may have different neighbours; bonds in only one of them are left out. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;
@@ -223,7 +226,8 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
-/* Copies the neighbours of a particle to `row` from its unchanged row number old_row of the previous rows `old`. */
+/* Copies the neighbours of a particle to `row` from the previous bonds `old`, in which the particle had row old_row,
+ * which has not changed. Sets row->n. */
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
@@ -235,8 +239,8 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
     }
 }
 
-/* Copies lengths, weights and plastic state of the bonds of a particle to `row` from its unchanged row number old_row
- * of the previous rows `old`. */
+/* Copies lengths, weights and plastic state of the bonds of a particle to `row` from the previous bonds `old`, in which
+ * the particle had row old_row, which has not changed. */
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];

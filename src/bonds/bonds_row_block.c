@@ -4,8 +4,8 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Returns true if the neighbours of `particle` in *row, n of them, are particle + offset[0], .., particle + offset[n -
- * 1] in this order, and no others. */
+/* Returns true if the neighbours of `particle` in *row are exactly the n particles particle + offset[0], .., particle +
+ * offset[n - 1], in this order. */
 static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
 {
     int32_t other = 0;
@@ -14,9 +14,9 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
     return other == 0;
 }
 
-/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block in g->offset, ascending,
- * and returns their number. A row block has the bonds of up to eight particles: particle[rows]. g: working memory, with
- * the bonds of these particles in g->row[rows]. */
+/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block (eight rows stored
+ * together) in g->offset, ascending, and returns their number. particle[rows]: its particles, up to eight; g: working
+ * memory, with the bonds of these particles in g->row[rows]. */
 static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
@@ -33,10 +33,11 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
     return n;
 }
 
-/* Returns the number of columns of a row block (rows of eight particles). Stores in *one_offset_per_column how its
- * bonds are arranged: true if all bonds of a column have one index distance (neighbour minus particle), false if each
- * row has its bonds in the first columns, without gaps. The latter is used off a lattice, where columns by distance
- * would be mostly padding. particle[row_count]: particles of the rows. */
+/* Returns the number of columns of a row block (eight rows stored together), whose bonds are in buffer->row.
+ * *one_offset_per_column: receives how the bonds are arranged: true if all bonds of a column have one index distance
+ * (neighbour minus particle), false if each row has its bonds in the first columns, without gaps. The latter is used
+ * off a lattice, where columns by distance would be mostly padding. particle[row_count]: particles of the rows, 1 to
+ * 8. */
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column)
 {
@@ -48,13 +49,13 @@ int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t 
     return *one_offset_per_column ? offsets : longest;
 }
 
-/* Returns the index of the pair of materials of particles i and j in the table b->yield. */
+/* Returns the index of the pair of materials of particles i and j in the tables of b->yield. */
 static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] * b->yield.materials + p->material[j];
 }
 
-/* Stores the plastic state of the bond with index q in the bond arrays. pair: index of its pair of materials in
+/* Stores the plastic state of the bond with index q in the bond arrays of b. pair: index of its pair of materials in
  * b->yield. */
 static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plastic, int32_t pair)
 {
@@ -63,9 +64,9 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
     b->pair[q] = pair;
 }
 
-/* Stores properties of row block g (rows of eight particles) in b: whether its particles are consecutive, and for
- * each of its `rows` rows the smallest stretch at which a bond may break, the volume of all neighbours and that of
- * the neighbours whose bonds are broken. */
+/* Stores properties of row block g (eight rows stored together) in b: whether its particles are consecutive, and for
+ * each of its `rows` rows the smallest stretch at which a bond may break, the volume of all neighbours and that of the
+ * neighbours whose bonds are broken. room: holds the rows. */
 static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -80,9 +81,10 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if column k of a row block must contain the bond number `used` of row l (0 to 7), the first bond of this
- * row that has no column yet. by_offset: true if all bonds of column k have the index distance room->offset[k]
- * (neighbour minus particle), false if a column takes any bond. particle[8]: particles of the rows. */
+/* Returns true if column k of a row block (eight rows stored together) must contain the bond number `used` of row l (0
+ * to 7), the first bond of this row that has no column yet. by_offset: true if all bonds of column k have the index
+ * distance room->offset[k] (neighbour minus particle), false if a column takes any bond. particle[8]: particles of the
+ * rows. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -90,8 +92,9 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-/* Stores the softening of the bonds of row block g (rows of eight particles, `rows` used) if one of them has begun
- * to soften, in the columns in which bond_row_block_fill_columns_from_rows has put the bonds. */
+/* Stores the softening of the bonds of row block g (eight rows stored together) if one of them has begun to soften;
+ * else only records that none has. buffer: holds the rows and the columns in which
+ * bond_row_block_fill_columns_from_rows has put their bonds; rows: number of rows in use. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
     bool begun = false;
@@ -136,9 +139,10 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buf
     bond_row_block_store_columns_or_stencil(b, buffer, g, p);
 }
 
-/* Makes room->stencil for row block g (rows of eight particles) from the columns in `room`. A stencil describes each
- * column by its index distance and the properties that its eight bonds share. Returns false if the row block must
- * store its columns: its particles are not consecutive, bonds are plastic or changed, or a column has unequal bonds. */
+/* Makes room->stencil for row block g (eight rows stored together) from its columns in `room`. A stencil describes each
+ * column by its index distance (neighbour minus particle) and the properties that its eight bonds share. Returns false
+ * if the row block must store its columns: its particles are not consecutive, bonds are plastic or changed, or a column
+ * has unequal bonds. */
 static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -160,7 +164,7 @@ void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_b
         bond_column_write_eight_bonds(b, b->column[g] + k, &buffer->column[k]);
 }
 
-/* Returns which of the particles i .. i + 7 are peridynamic, as bits 0 .. 7. */
+/* Returns which of the particles i .. i + 7 are peridynamic: bit l is set if particle i + l is. */
 static uint8_t peridynamic(const struct particles *p, int64_t i)
 {
     unsigned bits = 0;
@@ -207,8 +211,9 @@ int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds)
     return sum;
 }
 
-/* Fills a column with the bonds of particles i .. i + 7 to particles j .. j + 7, with their lengths and weights. bonds:
- * bit l: the bond of particle i + l exists; the others become padding. */
+/* Fills *column with the bonds from particle i + l to particle j + l, l = 0 .. 7: neighbours, inverse lengths and
+ * weights. bonds: bit l is set if the bond of particle i + l exists; the others become padding, with inverse length and
+ * weight 0. */
 static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds)
 {
     const struct bond_source *s = m->source;
@@ -221,7 +226,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
 }
 
 /* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or begin
- * to soften [1], INFINITY without bonds. bonds: neighbours of these eight particles; m->source, m->p: critical
+ * to soften [1]; INFINITY without bonds. bonds: neighbours of these eight particles; m->source, m->p: critical
  * stretches of the materials and relative strengths of the particles. */
 static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
                              int32_t i)
@@ -237,7 +242,7 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
 }
 
 /* Returns true if each of eight consecutive particles is bonded to all particles within its cutoff, as peridynamic
- * particles are. Material points are bonded to peridynamic particles only. bonds: neighbours and bonds of the eight
+ * particles are. (Material points are bonded to peridynamic particles only.) bonds: neighbours and bonds of the eight
  * particles. */
 static bool whole_families(const struct regular_bonds *bonds)
 {
@@ -246,9 +251,9 @@ static bool whole_families(const struct regular_bonds *bonds)
     return without == 0;
 }
 
-/* Fills row block g (rows of eight particles) from the bonds in buffer->regular, which follow from the map of
- * lattice sites. If the particles have bonds to all their neighbours, and a recent row block had equal bonds, its
- * stencil and its sums over bonds are used again. */
+/* Fills row block g (eight rows stored together) of b from the bonds in buffer->regular, which follow from the map of
+ * lattice sites. If the particles have bonds to all their neighbours, and a recent row block had equal bonds, the
+ * stencil of that one and its sums over bonds are used again. m: input of the rows. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
                                             const struct row_maker *m)
 {
@@ -272,9 +277,9 @@ void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_bu
     bond_row_block_store_columns_or_stencil(b, buffer, g, m->p);
 }
 
-/* Allocates working memory for row blocks (rows of eight particles each) whose rows have up to `capacity` bonds, for
- * the worst case. Little of it is ever touched, as the arrays are not cleared. map: map of lattice sites. Release it
- * with bond_row_block_buffer_free. */
+/* Allocates working memory for row blocks (eight rows stored together) whose rows have up to `capacity` bonds, for the
+ * worst case. Little of it is ever touched, as the arrays are not cleared. map: map from lattice sites to particles.
+ * Release it with bond_row_block_buffer_free. */
 void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map)
 {
     buffer->room = capacity;

@@ -6,7 +6,7 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Returns the bits of a as an integer: adjacent numbers of one sign then differ by 1. */
+/* Returns the bits of a as an integer. The integers of two adjacent floating-point numbers of one sign differ by 1. */
 static int64_t bits_of(real a)
 {
     int64_t bits;

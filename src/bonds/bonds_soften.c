@@ -6,10 +6,10 @@
 #include "base/team.h"
 #include "bonds_parts.h"
 
-/* Allocates b->soft.near if a material has a strength surface: a mark for each row block (bonds of eight particles) in
- * which a particle may have nearly reached its strength surface. Sets b->soft.gate, the stretch beyond which a row
- * block is marked [1]. A new row block is marked if one of its rows had no previous row, or one in a marked row block.
- * previous: previous bonds or NULL. */
+/* Allocates b->soft.near if a material has a strength surface (failure criterion in stress): a mark for each row block
+ * (eight rows stored together) in which a particle may have nearly reached its strength surface. Sets b->soft.gate, the
+ * stretch beyond which a row block is marked [1]. A new row block is marked if one of its rows had no previous row, or
+ * one in a marked row block. previous: previous bonds or NULL. */
 static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                        const struct particles *p)
 {
@@ -27,8 +27,8 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
     }
 }
 
-/* Allocates the strain rates b->soft.rate of rows if the strength of a material depends on the strain rate. Rows
- * that are rebuilt from `previous` (or NULL) keep their rate. */
+/* Allocates the strain rates of rows, b->soft.rate, if the strength of a material depends on the strain rate (limit).
+ * Rows that are rebuilt from the previous bonds `previous` (or NULL) keep their rate. */
 static void rates_make(struct bonds *b, const struct bonds *previous, const struct bond_limit *limit)
 {
     bool any = false;
@@ -97,8 +97,9 @@ void bond_row_set_softening_state(struct row *row, const struct row_maker *maker
     }
 }
 
-/* Copies the softening of the bond with entry q of the previous rows `old` to the bond of b in row `row` whose
- * neighbour is nbr, in state-based models together with its weight. Does nothing if b has no such bond. */
+/* Copies the softening of a bond from the previous bonds `old`, in state-based models together with its weight, to the
+ * bond of b from the particle of row `row` to particle nbr. q: index of the bond in the arrays of `old`. Does nothing
+ * if b has no such bond. */
 static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struct bonds *old, int64_t q)
 {
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
@@ -121,8 +122,9 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous_bonds, it.bond.entry);
 }
 
-/* Copies the softening of all bonds in row blocks (rows of eight particles each) where softening has begun: to
- * `packed` if `saving`, else from `packed`. packed[bonds of these row blocks, with padding]. */
+/* Copies the softening of all bonds in row blocks (eight rows stored together) where softening has begun: to `packed`
+ * if `saving`, else from `packed`. packed: eight entries for each column (the k-th bonds of eight rows) of these row
+ * blocks, padding included. */
 static void pack_softness(struct bonds *b, struct bond_softness *packed, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -160,8 +162,8 @@ status softening_save_or_load_bond_states(struct bonds *b, struct archive *a)
     return s;
 }
 
-/* Returns half of the energy that the bonds of row block g (bonds of eight particles) have dissipated by softening [J],
- * because each bond is in two rows. It is a term of reproducible_sum. context: the bonds (struct bonds). */
+/* Returns half of the energy that the bonds of row block g (eight rows stored together) have dissipated by softening
+ * [J]; half, because each bond is in two rows. It is a term of reproducible_sum. context: the bonds (struct bonds). */
 static real row_block_spent(const void *context, int64_t g)
 {
     const struct bonds *b = context;

@@ -36,16 +36,18 @@ void stencil_cache_free(struct stencil_cache *t)
     memory_free(t);
 }
 
-/* Returns true if two groups of eight consecutive particles have neighbours at the same index distances, and each of
- * the eight particles lacks the same ones. */
+/* Returns true if two sets of eight consecutive particles have neighbours at the same index distances (neighbour minus
+ * particle), and each particle of one set lacks the same neighbours as the corresponding particle of the other. a, b:
+ * bonds of both sets. */
 static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
 {
     return a->n == b->n && arrays_equal(a->offset, b->offset, a->n, sizeof *a->offset) &&
            arrays_equal(a->from, b->from, a->n, 1) && arrays_equal(a->to, b->to, a->n, 1);
 }
 
-/* Returns true if the array around[particles] has equal values at i .. i + 7 and j .. j + 7, and at all neighbours of
- * both at the index distances b->offset. Consecutive index distances are compared at once. */
+/* Returns true if the array around[particles] has equal values at i .. i + 7 and j .. j + 7, and at the neighbours of
+ * both sets of particles. b: bonds of both, whose index distances (neighbour minus particle) are equal. Consecutive
+ * index distances are compared at once. */
 static bool same_around(const real *around, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (memcmp(around + i, around + j, LANES * sizeof *around) != 0) return false;
@@ -75,8 +77,8 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
     t->next = (t->next + 1) % REMEMBERED;
 }
 
-/* Returns true if all data from which the weights of bonds are computed are equal around particles i .. i + 7 and
- * around j .. j + 7. b: index distances of their neighbours. */
+/* Returns true if all data of s from which the weights of bonds are computed are equal around particles i .. i + 7 and
+ * around j .. j + 7. b: bonds of both sets of particles, at equal index distances (neighbour minus particle). */
 static bool same_weights(const struct bond_source *s, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;

@@ -41,8 +41,9 @@ void stencil_free(struct stencil *stencil)
 
 /* ---- stencil of one row block ------------------------------------------------------------------------------------ */
 
-/* Stores the reference vector of the bonds from particles i .. i + 7 to j .. j + 7 in the stencil column `to`. Returns
- * false if the intact bonds do not all have the same vector to the last bit. */
+/* Stores the reference vector of the bonds from particle i + l to particle j + l, l = 0 .. 7, in the stencil column
+ * `to`, whose bits to->intact must be set. Returns false if the intact bonds do not all have the same vector to the
+ * last bit. */
 static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)
 {
     int one = 0, same = 1;
@@ -86,15 +87,15 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
 
 /* ---- all stencils ------------------------------------------------------------------------------------------------ */
 
-/* Returns true if two stencils are equal byte by byte. */
+/* Returns true if the stencils a and b (columns that many row blocks share) are equal byte by byte. */
 static bool stencils_equal(const struct stencil *a, const struct stencil *b)
 {
     return a->columns == b->columns && arrays_equal(a->column, b->column, a->columns, sizeof *a->column) &&
            arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
-/* Returns a hash of the stencil p from 0 to HASHES - 1, over its index distances and its first weight per column
- * (Fowler, Noll and Vo). */
+/* Returns a hash of the stencil p (columns that many row blocks share), from 0 to HASHES - 1, over its index distances
+ * and its first weight per column (Fowler, Noll and Vo). */
 static int hash_of(const struct stencil *p)
 {
     const uint64_t prime = UINT64_C(0x100000001b3);
@@ -109,8 +110,8 @@ static int hash_of(const struct stencil *p)
     return (int)((hash ^ hash >> 32) % HASHES);
 }
 
-/* Returns the stencil in the table `all` that equals `stencil`. If there is none, stores a copy and returns it, or NULL
- * if the table is full. */
+/* Returns the stencil in the table `all` that equals `stencil`; the table owns it. If there is none, stores a copy and
+ * returns that, or NULL if the table is full. */
 static const struct stencil *stencil_store(struct stencils *all, const struct stencil *stencil)
 {
     const int hash = hash_of(stencil);
@@ -151,7 +152,7 @@ bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t 
 /* ---- bond by bond ------------------------------------------------------------------------------------------------ */
 
 /* Reads neighbours, inverse lengths and weights of column k of a row block (the k-th bonds of eight particles) into
- * *copy, from the stencil if the row block stores no columns. */
+ * *copy, from the stencil if the row block stores no columns. row_block: index of the row block. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t k)
 {
     const int64_t column = b->column[row_block] + k;
@@ -169,9 +170,9 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
         copy->nbr[l] = copy->first + l, copy->inverse_length[l] = copy->w[l] == 0 ? 0 : of->inverse_length;
 }
 
-/* Returns false only if no bond of the row block leads to an image. Images follow all particles, and the columns of a
- * stencil ascend by their neighbours, up to the padding of less than eight lanes: no column leads to an image if the
- * last one ends two row blocks before the images. */
+/* Returns true if bonds of a row block (eight rows stored together) may lead to images; false only if none does. Images
+ * follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of less than eight
+ * lanes: no column leads to an image if the last one ends two row blocks before the images. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = bond_row_block_column_count(b, row_block);
@@ -204,7 +205,8 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
     bond_column_update_common_properties(b, column_number);
 }
 
-/* Writes the columns of a row block (rows of eight particles), which its stencil defines, to the column arrays. */
+/* Writes the columns of a row block (eight rows stored together), which so far only its stencil defines, to the column
+ * arrays of b. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

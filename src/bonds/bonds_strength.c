@@ -42,7 +42,8 @@ struct evaluation {
 /* A matrix of dim rows, row major. */
 typedef real matrix[DIM_MAX * DIM_MAX];
 
-/* Computes the inverse of a matrix of dim rows. Returns false if it is singular. */
+/* Computes the inverse of the matrix a of dim rows (2 or 3; known at compile time). Returns false if it is singular
+ * relative to the mean of its diagonal; `inverse` is then undefined. */
 static ALWAYS_INLINE bool square_matrix_invert(const matrix a, matrix inverse, const int dim)
 {
     real mean = 0, determinant;
@@ -63,7 +64,8 @@ static ALWAYS_INLINE bool square_matrix_invert(const matrix a, matrix inverse, c
     return true;
 }
 
-/* Computes the product a b of two matrices of dim rows, or a^T b if `turned`. */
+/* Computes the product a b, or a^T b if `turned`, of two matrices of dim rows. product: receives the result; must be
+ * neither a nor b. */
 static ALWAYS_INLINE void matrix_multiply(const matrix a, bool turned, const matrix b, matrix product, const int dim)
 {
     for (int i = 0; i < dim; i++)
@@ -80,16 +82,16 @@ struct moments {
     matrix M, L, Y;
 };
 
-/* Adds weight a b^T to the matrix m of dim rows; a, b: vectors [dim]. */
+/* Adds weight a b^T to the matrix m of dim rows. a[dim], b[dim]: vectors. */
 static ALWAYS_INLINE void moment_add(matrix m, real weight, const real *a, const real *b, const int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) m[i * dim + j] += weight * a[i] * b[j];
 }
 
-/* Computes *sum, the moment matrices of the bonds of a row with their reference and present vectors, from which the
- * strain of its particle follows (struct moments). Bonds that a pre-crack cuts are left out; bonds broken by load count
- * as lost stiffness. */
+/* Computes *sum, the moment matrices of the bonds of row `row` (bonds of one particle), from which the strain of the
+ * particle follows (struct moments). Bonds that a pre-crack cuts are left out; bonds broken by load count as lost
+ * stiffness. e: bonds and particles; dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -115,9 +117,10 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     }
 }
 
-/* Computes sum[8], the moment matrices of the bonds of each of the eight rows of row block g with their reference and
- * present vectors (struct moments). The row block must have a stencil: its bonds are intact and have not begun to
- * soften, and all bonds of a column have one index distance. */
+/* Computes sum[8], the moment matrices of the bonds of each of the eight rows of row block g (struct moments), from
+ * which the strains of its particles follow. The row block must have a stencil: its bonds are intact and have not begun
+ * to soften, and all bonds of a column have one index distance. e: bonds and particles; dim: number of dimensions,
+ * known at compile time. */
 static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -145,9 +148,9 @@ static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g,
     }
 }
 
-/* Computes the symmetric components strain[SYM_MAX] of the strain E of a particle [1] from the sums *sum over the bonds
- * of its row (moment matrices of reference and present bond vectors), which are overwritten. E is 0 if the bonds do not
- * span the space. dim: number of dimensions, a compile-time constant. */
+/* Computes the strain of a particle in symmetric components, strain[SYM_MAX] [1], from *sum, the moment matrices over
+ * the bonds of its row, which are overwritten. The strain is 0 if the bonds do not span the space. dim: number of
+ * dimensions, known at compile time. */
 static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, const int dim)
 {
     matrix inverse, F, R, back, E;
@@ -166,8 +169,8 @@ static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, cons
     }
 }
 
-/* Computes the strains of the rows of row block g (rows of eight particles) that are marked in wanted[8], into
- * e->strain[0]. dim: number of dimensions, a constant of the compiler. */
+/* Computes the strains of the rows of row block g (eight rows stored together) that are marked in wanted[8], into
+ * e->strain[0]. dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, const bool *wanted, const int dim)
 {
     struct moments sum[LANES];
@@ -180,8 +183,8 @@ static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, c
     }
 }
 
-/* Computes the strains of those of the eight rows of row block g that are marked in wanted[8], into e->strain[0]. Does
- * nothing if no row is marked. */
+/* Computes the strains of those of the eight rows of row block g (rows stored together) that are marked in wanted[8],
+ * into e->strain[0]. Does nothing if no row is marked. */
 static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted)
 {
     bool any = false;
@@ -192,9 +195,9 @@ static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted
 
 /* ---- means ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the row that holds the strain of particle or image j: the row of j, or for an image the row of the particle
- * that it mirrors, with the strain still to be reflected. sign[dim]: receives -1 for the axes to be reflected, else 1.
- * Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is clamped. */
+/* Returns the row (bonds of one particle) that holds the strain of particle or image j: the row of j, or for an image
+ * the row of the particle that it mirrors, whose strain is still to be reflected. sign[dim]: receives -1 for the axes
+ * to be reflected, else 1. Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is clamped. */
 static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
 {
     const struct particles *p = e->p;
@@ -208,9 +211,9 @@ static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
     return row >= 0 && e->b->whole[row] ? row : -1;
 }
 
-/* Marks the rows of the neighbours to which the intact bonds of a row lead, because their strains are needed for means:
- * sets their e->distance to `distance` where it is still 0. distance: 1 for a row whose strength surface is evaluated,
- * one more for each bond further away. Several threads may mark one row. */
+/* Marks the rows of the neighbours to which the intact bonds of row `row` lead, because their strains are needed for
+ * means: sets their e->distance to `distance` if it is still 0. distance: 1 for a row whose strength surface (failure
+ * criterion in stress) is evaluated, one more for each bond further away. Several threads may mark one row. */
 static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
 {
     for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
@@ -221,7 +224,7 @@ static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distanc
     }
 }
 
-/* Computes the mean of the strains of a row and of the rows of all neighbours to which its intact bonds lead, from
+/* Computes the mean of the strains of row `row` and of the rows of all neighbours to which its intact bonds lead, from
  * e->strain[0] into e->strain[1]. */
 static void row_average(struct evaluation *e, int64_t row)
 {
@@ -242,8 +245,9 @@ static void row_average(struct evaluation *e, int64_t row)
     for (int s = 0; s < count; s++) e->strain[1][row][s] = sum[s] / terms;
 }
 
-/* Returns the stress of the particle of a row over the stress on its strength surface [1]: 1 on the surface. The stress
- * follows from the strain e->strain[0] by linear elasticity. */
+/* Returns the stress of the particle of row `row`, divided by the stress in the same direction on its strength surface
+ * (failure criterion in stress) [1]: 1 on the surface. The stress follows from the strain e->strain[0] by linear
+ * elasticity. */
 static real row_share(const struct evaluation *e, int64_t row)
 {
     const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
@@ -256,15 +260,16 @@ static real row_share(const struct evaluation *e, int64_t row)
     return material_stress_to_strength_ratio(m, e->source->family.space, stress);
 }
 
-/* Returns the material of the particle of a row if it has a strength surface, else NULL. */
+/* Returns the material of the particle of row `row` if it has a strength surface (failure criterion in stress), else
+ * NULL. */
 static const struct material *row_material(const struct evaluation *e, int64_t row)
 {
     const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
     return material_has_strength_surface(m) ? m : NULL;
 }
 
-/* Returns the factor on the strength of the particle of a row, its relative strength in p->strength [1]: bonds begin to
- * soften at this multiple of the stress on the strength surface. 1 if particles have no such factors. */
+/* Returns the relative strength of the particle of row `row` [1]: its bonds begin to soften at this multiple of the
+ * stress on the strength surface. Returns 1 if particles have no such factors (p->strength is NULL). */
 static real row_strength(const struct evaluation *e, int64_t row)
 {
     return e->p->strength ? e->p->strength[e->b->particle[row]] : 1;
@@ -272,8 +277,8 @@ static real row_strength(const struct evaluation *e, int64_t row)
 
 /* ---- evaluation -------------------------------------------------------------------------------------------------- */
 
-/* Returns an evaluation of the strength surfaces of particles for the bonds b, with its arrays allocated. Release it
- * with evaluation_free. */
+/* Returns an evaluation of the strength surfaces (failure criteria in stress) of particles for the bonds b, with its
+ * arrays allocated. b, p and source are kept by reference. Release it with evaluation_free. */
 static struct evaluation evaluation_make(const struct bonds *b, const struct particles *p,
                                          const struct bond_source *source)
 {
@@ -293,10 +298,11 @@ static void evaluation_free(struct evaluation *e)
     memory_free(e->strain[0]), memory_free(e->strain[1]);
 }
 
-/* Returns true if a particle of row block g (the bonds of eight particles) may have reached its strength surface. */
+/* Returns true if a particle of row block g (eight rows stored together) may have nearly reached its strength surface
+ * (failure criterion in stress), or a bond of it has begun to soften. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Returns true if a row has an intact bond that can break and has not begun to soften. */
+/* Returns true if row `row` (bonds of one particle) has an intact bond that can break and has not begun to soften. */
 static bool row_can_start(const struct evaluation *e, int64_t row)
 {
     const int32_t i = e->b->particle[row];
@@ -307,9 +313,10 @@ static bool row_can_start(const struct evaluation *e, int64_t row)
     return false;
 }
 
-/* Computes the strains of those rows of row block g (bonds of eight particles) whose material has a strength surface
- * and in which a bond can still begin to soften. Sets e->distance to 1, and e->share, for those whose stress is at
- * least the fraction `least` of that on the strength surface [1]. Returns true if there is one. */
+/* Computes the strains of those rows of row block g (eight rows stored together) whose material has a strength surface
+ * (failure criterion in stress) and in which a bond can still begin to soften. For those whose stress is at least the
+ * fraction `least` of the stress on the surface [1], sets e->distance to 1 and e->share to this ratio. Returns true if
+ * there is such a row. */
 static bool row_block_find(struct evaluation *e, int64_t g, real least)
 {
     const struct bonds *b = e->b;
@@ -327,9 +334,9 @@ static bool row_block_find(struct evaluation *e, int64_t g, real least)
     return any;
 }
 
-/* Sets e->distance to 1, and e->share, for all rows in which a bond can still begin to soften and whose own strain, not
- * averaged over the family, is at least the fraction `least` of that on the strength surface [1]. Returns true if there
- * is one. */
+/* Sets e->distance to 1 and e->share for all rows in which a bond can still begin to soften and whose stress is at
+ * least the fraction `least` of that on the strength surface (failure criterion in stress) [1]. The stress follows from
+ * the row's own strain, not averaged over neighbours. Returns true if there is such a row. */
 static bool find_candidates(struct evaluation *e, real least)
 {
     bool any = false;
@@ -339,9 +346,10 @@ static bool find_candidates(struct evaluation *e, real least)
     return any;
 }
 
-/* Reduces e->share of all rows with e->distance 1 to the stress of their averaged strain over that on the strength
- * surface, if this is smaller. Strains are averaged over the families as many times as the material requires, at most
- * e->means times. Strains of all rows at most e->means bonds away are computed for these averages. */
+/* For all rows with e->distance 1, reduces e->share to the ratio of the stress of their averaged strain to that on the
+ * strength surface (failure criterion in stress), if this is smaller. Strains are averaged over the families
+ * (neighbourhoods) as many times as the material requires, at most e->means times. Strains of all rows at most e->means
+ * bonds away are computed for these averages. Call it after find_candidates. */
 static void evaluate_surfaces(struct evaluation *e)
 {
     const struct bonds *b = e->b;
@@ -390,8 +398,8 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
 /* ---- start ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the smallest onset of softening that bonds of particle or image j may have [1], the share LEAST_ONSET of its
- * strain at the tensile strength, if the stress of the particle has reached its strength surface; INFINITY if it has
- * not. */
+ * strain at the tensile strength, if the stress of the particle has reached its strength surface (failure criterion in
+ * stress); INFINITY if it has not. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
     const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);
@@ -402,8 +410,9 @@ static real start_of(const struct evaluation *e, int32_t j)
 }
 
 /* Returns the softening state of a bond of particle i whose softening begins because the stress has reached a strength
- * surface. The onset is the larger of its present stretch and s, where s is the smaller of `least` [1] and of the
- * stretch at which the bond would begin to soften by itself. */
+ * surface. least: lower limit of the onset from start_of [1]. The onset is the larger of the present stretch of the
+ * bond and s, where s is the smaller of `least` and of the stretch at which the bond would begin to soften by
+ * itself. */
 static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
 {
     const struct particles *p = e->p;
@@ -419,8 +428,9 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
     return (struct bond_softness){most, (float)onset, (float)end, 0};
 }
 
-/* Starts the softening of the bonds of row block g (rows of eight particles) that are intact, have not begun to
- * soften, and lead from or to a particle on its strength surface. */
+/* Starts the softening of the bonds of row block g (eight rows stored together) of b that are intact, have not begun to
+ * soften, and lead from or to a particle on its strength surface (failure criterion in stress). Material points with
+ * such bonds are marked for conversion. */
 static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -451,8 +461,8 @@ real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct 
     return most;
 }
 
-/* Marks in touched[row blocks] the row block of a row that is on its strength surface, and those of all neighbours
- * to which its bonds lead. Several threads may mark one row block. */
+/* Marks by 1 in touched[row blocks] the row block (eight rows stored together) of row `row`, whose particle is on its
+ * strength surface, and those of all neighbours to which its bonds lead. Several threads may mark one row block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

@@ -12,8 +12,8 @@
  * orders, and differ by round-off. */
 #define WHOLE 1e-12
 
-/* Returns the sum of the volumes of the neighbours of particle i times their weights in the family f [m^3]. map:
- * lattice sites; found[capacity]: working memory. */
+/* Returns the sum of the volumes of the neighbours of particle i, each times the weight of the bond to it in the family
+ * f [m^3]. map: map from lattice sites to particles; found[capacity]: working memory. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int capacity)
 {
@@ -27,8 +27,8 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
     return volume;
 }
 
-/* Computes volume[i .. i + 7]: for each of these eight particles the sum of the volumes of its neighbours, times
- * `weight`, the weight of every neighbour [m^3]. bonds: the neighbours, from the map of lattice sites. */
+/* Computes volume[i .. i + 7]: for each of these eight particles the sum of the volumes of its neighbours, each times
+ * `weight` [m^3]. bonds: the neighbours, from the map of lattice sites. */
 static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
                          int64_t i)
 {
@@ -39,8 +39,9 @@ static void volumes_near(real *volume, const struct particles *p, const struct r
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Sets those of the n family volumes volume[n] [m^3] that equal the volume `full` of a full family up to round-off
- * exactly to `full`. Bonds inside a body then have weight 1, which need not be stored (kernels/pd/bond_column.h). */
+/* Sets those of n family volumes, volume[n] [m^3], that equal the volume `full` of a full family (neighbourhood) up to
+ * round-off exactly to `full`. Bonds inside a body then have weight 1, which need not be stored
+ * (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)
 {
 #pragma omp parallel for schedule(static)
@@ -82,9 +83,9 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* Returns an upper bound of omega^2 m for particle i [N/m], where omega is its largest angular frequency and m its
- * mass: a bound of the largest eigenvalue of the stiffness matrix of its bonds in `row`, taken as springs. stiffness:
- * force per stretch of a bond of weight 1 [N]. */
+/* Returns an upper bound of omega^2 m for particle i [N/m], where omega is the largest angular frequency of its motion
+ * and m its mass: a bound of the largest eigenvalue of the stiffness matrix of its bonds in `row`, taken as springs.
+ * stiffness: force per stretch of a bond of weight 1 [N]. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -117,9 +118,9 @@ struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
 
-/* Adds the eight springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound of particles i .. i + 7.
- * inverse[8]: inverse lengths of the bonds [1/m]; w[8]: their weights [1], 0 for no spring; stiffness: force per
- * stretch of a bond of weight 1 [N]; dim: dimensions, a compile-time constant. */
+/* Adds the springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound for particles i .. i + 7.
+ * inverse[8]: inverse lengths of the bonds [1/m]; w[8]: weights of the bonds [1], 0 for no spring; stiffness: force per
+ * stretch of a bond of weight 1 [N]; dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                                      const real *inverse, const real *w, real stiffness, const int dim)
 {
@@ -133,9 +134,9 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
-/* Adds the eight springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound of particles i .. i + 7,
- * by the code compiled for the number of dimensions of p. inverse[8]: inverse lengths of the bonds [1/m]; w[8]: their
- * weights [1], 0 for no spring; stiffness: force per stretch of a bond of weight 1 [N]. */
+/* Adds the springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound for particles i .. i + 7, by
+ * the code compiled for the number of dimensions of p. inverse[8]: inverse lengths of the bonds [1/m]; w[8]: weights of
+ * the bonds [1], 0 for no spring; stiffness: force per stretch of a bond of weight 1 [N]. */
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                            const real *inverse, const real *w, real stiffness)
 {
@@ -152,8 +153,8 @@ static void bounds_add_any(struct eight_bounds *bound, const struct particles *p
     }
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from the sums
- * of their springs. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from *bounds,
+ * the sums over their springs. */
 static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
 {
     real largest = 0;
@@ -168,7 +169,7 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
 
 /* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2]. bonds: their
  * neighbours on the lattice; the weights of the bonds are computed here, and no rows are stored. pairs: stiffness by
- * pair of materials over that of material 0; stiffness: force per stretch of a bond of weight 1 [N]. */
+ * pair of materials, divided by that of material 0; stiffness: force per stretch of a bond of weight 1 [N]. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -183,8 +184,8 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles in row block g (rows of
- * eight particles) [1/s^2] from its stored bonds. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles in row block g (eight rows
+ * stored together) [1/s^2] from its stored bonds. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];
@@ -214,8 +215,8 @@ real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const str
 }
 
 /* Returns a table for bounds of frequencies: the stiffness of bonds for each pair of materials, divided by that of
- * material 0. In state-based models the entry of two materials is the mean of both, since each row of a bond responds
- * with its own modulus. Release the array `ratio` of the table with memory_free. */
+ * material 0 [1]. In state-based models the entry of two materials is the mean of both, since each row of a bond
+ * responds with its own modulus. The caller frees the array `ratio` of the table with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
     struct pair_table pairs = material_pair_table_make_of_micro_moduli(s);
@@ -229,8 +230,9 @@ static struct pair_table pairs_of_bound(const struct bond_source *s)
 }
 
 /* Returns an array [n] with 1 for the first particle of each class of particles with equal surroundings, else 0. The
- * other particles of a class have rows of equal stiffness and need not be examined. Returns NULL if there are no
- * classes, or if particles of a class may have unequal bonds. Release it with memory_free. */
+ * other particles of a class have rows of equal stiffness and need not be examined. w: classes, or NULL; map: states
+ * whether distances on the lattice are exactly equal. Returns NULL if there are no classes, or if particles of a class
+ * may have unequal bonds. The caller frees the array with memory_free. */
 static uint8_t *first_of_classes(const struct surface_weights *w, const struct site_map *map, int64_t n)
 {
     if (!w || !map->uniform) return NULL;

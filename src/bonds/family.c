@@ -8,9 +8,9 @@
 
 #define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the family */
 
-/* Returns the share of a neighbour's volume that counts [1], at distance r [m]. It falls linearly from 1 to 0 over one
- * spacing about the horizon. It is rounded to 1e-9: lattice distances that are equal except for round-off then have
- * equal weights. */
+/* Returns the share of the volume of a neighbour at distance r [m] that counts [1]. It falls linearly from 1 to 0 over
+ * one spacing about the horizon of the family f. It is rounded to 1e-9: lattice distances that are equal except for
+ * round-off then have equal weights. */
 static real ramp(const struct family *f, real r)
 {
     /* rounded, so that distances equal on paper have equal weights */
@@ -19,10 +19,11 @@ static real ramp(const struct family *f, real r)
     return share > 1 ? 1 : share < 0 ? 0 : share;
 }
 
-/* Returns the volume share beta of a neighbour at distance r [m] [1] (Seleson 2014); 1 if whole volumes are used. */
+/* Returns the share beta of the volume of a neighbour at distance r [m] that counts [1] (Seleson 2014); 1 if the family
+ * f uses whole volumes. */
 static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
 
-/* Returns the influence function omega of the family f at distance r [m] [1]. */
+/* Returns the influence function omega of the family f (neighbourhood of a particle) at distance r [m] [1]. */
 static real influence(const struct family *f, real r)
 {
     switch (f->influence) {
@@ -39,9 +40,10 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Returns the weight, but for constant factors, that a bond of length r [m] has in the elastic constants of a lattice:
- * omega r for energies of stretches, omega r^2 for those of elongations. Energies of displacements are isotropic with
- * any weights by direction; theirs are those of bonds without influence function. */
+/* Returns the weight that a bond of length r [m] has in the elastic constants of a lattice, up to a constant factor:
+ * omega r for energies of stretches, omega r^2 for those of elongations, with the influence function omega of the
+ * family f. Energies of displacements are isotropic with any weights by direction; the weights then are those of bonds
+ * without influence function, r. */
 static real stiffness_weight(const struct family *f, real r)
 {
     switch (f->energy) {
@@ -55,7 +57,8 @@ static real stiffness_weight(const struct family *f, real r)
 }
 
 /* Returns the distance r [m] with the round-off of positions removed: the lattice distance spacing sqrt(k) nearest to
- * it, if it is one up to round-off, else r. Bonds of equal length then have weights that are equal to the last bit. */
+ * r, with a whole number k, if r is one up to round-off, else r. Bonds of equal length then have weights that are equal
+ * to the last bit. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
@@ -84,8 +87,8 @@ struct lattice_sums {
     real axial[2], mixed[2]; /* sums of n1^4 and of n1^2 n2^2 times V beta stiffness_weight, by class of direction */
 };
 
-/* Adds the lattice point at xi[dim] [m] relative to the particle to the sums *s over a family, if it is within the
- * cutoff. */
+/* Adds the lattice point at xi[dim] [m] relative to a particle to the sums *s over its family f (neighbourhood). Does
+ * nothing if the point is outside the cutoff or is the particle itself. */
 static void sum_point(const struct family *f, const real *xi, int dim, struct lattice_sums *s)
 {
     real r = sqrt(dot(xi, xi, dim)), V = f->cell_volume;
@@ -101,7 +104,8 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     s->mixed[class] += dim > 1 ? weight * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
 
-/* Returns the sums over all lattice points of a full family f, on which the constants of the family depend. */
+/* Returns the sums over all lattice points within the cutoff of a particle inside a body, on which the constants of the
+ * family f (neighbourhood) depend. */
 static struct lattice_sums lattice_sums(const struct family *f)
 {
     struct lattice_sums s = {0};
@@ -117,9 +121,9 @@ static struct lattice_sums lattice_sums(const struct family *f)
     return s;
 }
 
-/* Computes the factors f->shell_weight of bonds nearer the axes and of bonds nearer the diagonals such that the
- * family is isotropic: sum k n1^4 = 3 sum k n1^2 n2^2 with k of stiffness_weight, i.e. C11 = C12 + 2 C44 with C12 =
- * C44. Their scale keeps sum r omega V unchanged. If there is no solution, the factors remain as they are. */
+/* Computes the two factors f->shell_weight, of bonds nearer the axes and of bonds nearer the diagonals, such that the
+ * family f is isotropic: sum k n1^4 = 3 sum k n1^2 n2^2 with k of stiffness_weight, i.e. C11 = C12 + 2 C44 with C12 =
+ * C44. Their scale keeps sum r omega V unchanged. If there is no solution, or in 1D, the factors remain as they are. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;
@@ -149,9 +153,9 @@ void family_make_on_lattice(struct family *f, enum space space, real spacing, re
     f->weighted = lattice_sums(f).weighted;
 }
 
-/* Returns the mean of the influence function over the horizon d of the family f, weighted with the energy of bonds
- * under uniform dilatation [1]: (n + 1)/d^(n + 1) times the integral of r^n omega(r) from 0 to d, in n dimensions. It
- * is infinite for (d/r)^2 in 1D. */
+/* Returns the mean of the influence function omega over the horizon d of the family f, weighted with the energy of
+ * bonds under uniform dilatation [1]: (n + 1)/d^(n + 1) times the integral of r^n omega(r) from 0 to d, in n
+ * dimensions. It is infinite for omega = (d/r)^2 in 1D. */
 static real influence_mean(const struct family *f)
 {
     const int n = space_dim(f->space);

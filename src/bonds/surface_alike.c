@@ -12,7 +12,7 @@
 enum { RADIUS = 2 };
 
 /* Returns `hash` after one more 64-bit `word` has been added to it: a step of the hash of Fowler, Noll and Vo, followed
- * by an exclusive or with its upper bits. */
+ * by an exclusive or with the upper bits of the result. */
 static uint64_t mixed(uint64_t hash, uint64_t word)
 {
     hash = (hash ^ word) * UINT64_C(0x100000001b3);
@@ -38,7 +38,8 @@ static void kinds_free(struct kinds *s)
     memory_free(s->colour);
 }
 
-/* Initialises the kinds of particles (a kind has equal surroundings): all particles near faces are of one kind. */
+/* Initialises the kinds s of the particles near faces b: all particles are of one kind at first. (Particles of one kind
+ * have equal surroundings.) Release s with kinds_free. */
 static void kinds_start(struct kinds *s, const struct near_faces *b)
 {
     *s = (struct kinds){.n = 1, .of = NEW("surface.kind", b->n, int32_t)};
@@ -47,9 +48,9 @@ static void kinds_start(struct kinds *s, const struct near_faces *b)
     for (int m = 0; m < 1 << b->offset.dim; m++) s->colour[m] = HASH_START;
 }
 
-/* Returns a hash of the kind of particle t and of the kinds of its neighbours (particles of one kind have equal
+/* Returns a hash of the kind of a particle and of the kinds of its neighbours (particles of one kind have equal
  * surroundings). It is a sum with one term for each neighbour: its kind and mirrors times factor[k], a random word for
- * its offset k. t: index among the particles near faces. */
+ * its lattice offset k. t: index of the particle among those near faces. */
 static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
@@ -66,8 +67,8 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
     return mixed(HASH_START, sum ^ sum >> 32);
 }
 
-/* Returns the hash of the surroundings (colour) of particle or image j, a neighbour, reflected by the axes in
- * `mirrors`. Returns 1 if there is no particle (j < 0), 2 if it is near no face. */
+/* Returns the hash of the surroundings (colour) of particle or image j, reflected by the axes in `mirrors` (bit d: axis
+ * d). Returns 1 if there is no particle (j < 0), 2 if it is near no face. */
 static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
@@ -76,9 +77,9 @@ static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, i
     return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
-/* Returns a hash (colour) of the surroundings of particle t, reflected by the axes in `mirrors` (bit d: axis d). It
+/* Returns a hash (colour) of the surroundings of a particle, reflected by the axes in `mirrors` (bit d: axis d). It
  * combines the present colours s->colour of the particle and its neighbours, and so describes surroundings that are
- * larger by one family. t: index among the particles near faces. */
+ * larger by one family (neighbourhood). t: index of the particle among those near faces. */
 static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
@@ -89,8 +90,8 @@ static uint64_t colour_around(const struct near_faces *b, const struct kinds *s,
     return hash;
 }
 
-/* Assigns n elements to kinds by their hashes, hash[n]: those with equal hashes are of one kind. Kinds are numbered in
- * the order of their first element. Sets s->n, s->of and s->first. */
+/* Assigns n elements to kinds by their hashes, hash[n]: those with equal hashes are of one kind. Kinds are numbered
+ * from 0 in the order of their first element. Sets s->n, s->of[n] (which must be allocated) and s->first. */
 static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 {
     int64_t room = 64;
@@ -108,9 +109,9 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
     memory_free(slot);
 }
 
-/* Divides the kinds of particles (particles of one kind have equal surroundings) by the kinds of their neighbours:
- * surroundings are then equal one family further out. colours: true to compute also the colours of the new kinds, the
- * hashes of their surroundings in all mirrors. */
+/* Divides the kinds s of particles (particles of one kind have equal surroundings) by the kinds of their neighbours:
+ * surroundings are then equal one family (neighbourhood) further out. b: particles near faces; colours: true to compute
+ * also the colours of the new kinds, the hashes of their surroundings in all mirrors. */
 static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;
@@ -132,9 +133,9 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
-/* Returns a reflection under which the surroundings of the particles of one kind have the smallest hash (colour) of all
- * reflections: the first such set of axes >= `from`, with bit d for axis d; -1 if there is none. The particles of a
- * kind have equal surroundings. */
+/* Returns a reflection under which the surroundings of the particles of kind number `kind` have the smallest hash
+ * (colour) of all reflections. (The particles of a kind have equal surroundings.) A reflection is a set of axes, with
+ * bit d for axis d. Returns the first such set >= `from`; -1 if there is none. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -148,7 +149,8 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
 
 /* Assigns kinds of particles to classes. A kind has equal surroundings; two kinds belong to one class if they are
  * mirror images of each other, i.e. if the smallest hashes of their mirrored surroundings are equal. of[kinds]:
- * receives the number of the class of each kind, from 0. Sets a->classes and a->member. */
+ * receives the number of the class of each kind, from 0. Sets a->classes, their number plus 1, and a->member, a
+ * particle of each class. */
 static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};
@@ -163,9 +165,10 @@ static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b,
     memory_free(least.first);
 }
 
-/* Divides the particles near faces into classes: surroundings of particles in one class are equal or mirror images of
- * each other. Numbers the classes from 1 in the order of their first particle. Finds for each particle the mirrors that
- * map it to its class, and for each class the mirrors under which its surroundings do not change. */
+/* Divides the particles near faces b into classes: surroundings of particles in one class are equal or mirror images of
+ * each other. Numbers the classes from 1 in the order of their first particle. Stores in a the class of each particle,
+ * the mirrors that map the particle to its class, and for each class the mirrors under which its surroundings do not
+ * change. s: kinds of the particles (equal, not mirrored surroundings), with colours. */
 static void classes_make(struct bond_classes *a, const struct near_faces *b, const struct kinds *s)
 {
     int32_t *of = NEW("surface.class", s->n, int32_t);
@@ -189,14 +192,16 @@ static void classes_make(struct bond_classes *a, const struct near_faces *b, con
 
 /* ---- groups of bonds --------------------------------------------------------------------------------------------- */
 
-/* Returns the root of element k in the union-find forest `parent`, with path halving. */
+/* Returns the root of element k in the union-find forest `parent` (parent[k] is the parent of element k; a root is its
+ * own parent). Shortens the path from k to the root. Element k must be in a tree. */
 static int64_t root_of(int64_t *parent, int64_t k)
 {
     while (parent[k] != k) k = parent[k] = parent[parent[k]];
     return k;
 }
 
-/* Joins the groups of two elements in the union-find forest `parent`; an element with parent -1 has no group yet. */
+/* Joins the trees of the elements `one` and `other` in the union-find forest `parent`; an element with parent -1 is in
+ * no tree yet, and becomes one of its own before. */
 static void groups_join(int64_t *parent, int64_t one, int64_t other)
 {
     if (parent[one] < 0) parent[one] = one;
@@ -208,18 +213,18 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
         parent[x] = y;
 }
 
-/* Returns the index of the bond from particle t (an index among those near faces) at offset k in tables [classes,
- * offsets] with one entry for equal bonds. The particles of a class have equal surroundings up to mirrors; the offset
- * of the bond is reflected by the mirrors that map the particle to its class. */
+/* Returns the index of a bond in tables [classes, offsets], which have one entry for equal bonds. The bond leads from
+ * particle t (an index among those near faces) to the neighbour at lattice offset number k. The particles of a class
+ * have equal surroundings up to mirrors; the offset is reflected by the mirrors that map the particle to its class. */
 static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the table entries of both directions of every bond whose factor may change, so that i-j and j-i get one factor.
- * The entries are [classes, offsets]; a class has particles with equal surroundings. first[n]: first particle of each
- * kind (particles with equal, not mirrored surroundings), which represents the others. parent: union-find forest of the
- * table entries. */
+/* Joins the table entries of both directions of every bond whose factor may change, so that the bonds i-j and j-i get
+ * one factor. The entries are [classes, offsets]; a class has particles with equal surroundings up to mirrors.
+ * first[n]: first particle of each of n kinds (particles with equal, not mirrored surroundings), which represents the
+ * others; parent: union-find forest of the table entries. */
 static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
                        int64_t *parent)
 {
@@ -235,8 +240,9 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
         }
 }
 
-/* Joins the table entries of bonds of a class that are mirror images of each other, so that they get one factor. A
- * class consists of particles with equal surroundings up to mirrors. parent: union-find forest of the entries. */
+/* Joins the table entries of bonds of one class that are mirror images of each other, so that they get one factor. A
+ * class consists of particles with equal surroundings up to mirrors. b: particles near faces, with the lattice offsets;
+ * parent: union-find forest of the entries. */
 static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;

@@ -8,8 +8,9 @@
 
 /* ---- offsets of a full family ------------------------------------------------------------------------------------ */
 
-/* Appends the offset at[dim] [spacings] to the list o if it is within the cutoff of the family f, with its length,
- * direction and weight. states: true if the weights are those of state-based models. */
+/* Appends the offset at[dim] [spacings] to the list o, with its length, direction and weight in the family f
+ * (neighbourhood), if it is within the cutoff. Sets its number in o->number, -1 if it is not. states: true if the
+ * weights are those of state-based models. */
 static void offset_add(struct offsets *o, const struct family *f, bool states, const int *at)
 {
     real xi[DIM_MAX], length2 = 0;
@@ -29,8 +30,9 @@ static void offset_add(struct offsets *o, const struct family *f, bool states, c
     o->weight[o->n] = o->share[o->n] * (states ? length : 1), o->n++;
 }
 
-/* Lists in o the offsets of all neighbours in a full family f, with their lengths and weights, and their mirror images.
- * states: true if the weights are those of state-based models. */
+/* Lists in o the lattice offsets of all neighbours in a full family f (neighbourhood inside a body), with their lengths
+ * and weights, and the mirror image of each offset for each set of axes. states: true if the weights are those of
+ * state-based models. */
 static void offsets_make(struct offsets *o, const struct family *f, bool states)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), side = 2 * reach + 1;
@@ -67,8 +69,8 @@ static void offsets_free(struct offsets *o)
     memory_free(o->mirrored);
 }
 
-/* Returns the index in the list o of the offset from particle i to j; -1 if they are not a whole number of spacings
- * apart, or too far. spacing: lattice spacing [m]. */
+/* Returns the index in the list o of the lattice offset from particle i to particle j; -1 if they are not a whole
+ * number of spacings apart along each axis, or too far apart. spacing: lattice spacing [m]. */
 static int offset_between(const struct offsets *o, const struct particles *p, real spacing, int64_t i, int64_t j)
 {
     int place = 0;
@@ -107,7 +109,8 @@ struct search {
     struct regular_bonds regular; /* regardless of pre-cracks */
 };
 
-/* Allocates the working memory of a neighbour search over the map of lattice sites. Release it with search_free. */
+/* Allocates the working memory of a neighbour search in `search`. b: particles near faces, with the data of bonds; map:
+ * map from lattice sites to particles, kept by reference. Release it with search_free. */
 static void search_make(struct search *search, const struct near_faces *b, const struct site_map *map)
 {
     const int room = bonds_neighbour_count_bound(b->source);
@@ -122,17 +125,18 @@ static void search_free(struct search *search)
     memory_free(search->found);
 }
 
-/* Prepares the neighbour search of the particles first .. first + 7. Finds their families from the map of lattice
- * sites if it is regular there. */
+/* Prepares `search` for the particles first .. first + 7. Finds their neighbours from the map of lattice sites if the
+ * particles are on a regular part of the lattice (search->eight is then true). */
 static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
 {
     search->first = first;
     search->eight = regular_bonds_find_ignoring_cracks(search->map, b->source, b->p, first, &search->regular);
 }
 
-/* Finds the neighbours of particle i among the sites in search->regular, which a map of lattice sites gave for eight
- * particles that contain i (search_turn). near: true if a pre-crack may separate some of them, which are then left out.
- * Stores the neighbours by offset in to[offsets] unless `to` is NULL. Returns their number. */
+/* Finds the neighbours of particle i among those that a map of lattice sites gave for eight particles that contain i
+ * (search->regular, set by search_turn). near: true if a pre-crack may separate some of them from i, which are then
+ * left out. to[offsets]: receives the neighbours by lattice offset; other entries are unchanged; NULL: neighbours are
+ * only counted. Returns the number of neighbours. */
 static int regular_neighbours(const struct near_faces *b, const struct search *search, int64_t i, bool near,
                               int32_t *to)
 {
@@ -152,9 +156,9 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
 }
 
 /* Finds the neighbours of particle i that no pre-crack separates from it. i must be one of the eight particles for
- * which `search` was prepared last (search_turn). Stores the neighbours by offset in to[offsets], -1 for offsets
- * without a neighbour; if `to` is NULL, only counts them. Returns their number, or -1 if a neighbour is not on the
- * lattice of the particle. */
+ * which `search` was prepared last (search_turn). to[offsets]: receives the neighbours by lattice offset, -1 for
+ * offsets without a neighbour; NULL: neighbours are only counted. Returns their number, or -1 if a neighbour is not on
+ * the lattice of the particle. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
@@ -174,8 +178,8 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Sets b->whole[i] to 1 for particles that have neighbours at all offsets within the cutoff. Returns false if a
- * particle is not on the lattice. */
+/* Sets b->whole[i] to 1 for particles i that have neighbours at all lattice offsets within the cutoff, else to 0. map:
+ * map from lattice sites to particles. Returns false if a particle is not on the lattice. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
     bool lattice = true;
@@ -196,7 +200,8 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Sets near[i] to 1 if i is a particle of the body, not an image. Several threads may set the same entry. */
+/* Sets near[i] to 1 if i is a particle of the body, not an image; near[particles]: marks. Several threads may set the
+ * same entry. */
 static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
 {
     if (i >= b->p->n) return;
@@ -204,8 +209,9 @@ static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
     near[i] = 1;
 }
 
-/* Sets near[i] to 1 for the particles near faces: those without a neighbour at some offset within the cutoff, and
- * their neighbours. Images are examined too, because particles of the body may be their neighbours. */
+/* Sets near[i] to 1 for the particles i near faces: those without a neighbour at some lattice offset within the cutoff,
+ * and their neighbours. Images are examined too, because particles of the body may be their neighbours.
+ * near[particles]: 0 before; b: particles, after whole_mark; map: map from lattice sites to particles. */
 static void near_mark(uint8_t *near, const struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
@@ -237,8 +243,8 @@ static void near_mark(uint8_t *near, const struct near_faces *b, const struct si
     }
 }
 
-/* Lists the neighbours of all particles near faces in b->neighbour[n offsets]. Returns false if one is not on the
- * lattice. */
+/* Lists the neighbours of all particles near faces in b->neighbour[b->n, offsets]. map: map from lattice sites to
+ * particles. Returns false if a particle is not on the lattice. */
 static bool neighbours_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
@@ -265,7 +271,8 @@ static bool neighbours_list(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Lists the particles near faces in b->particle, with their neighbours. Returns false if one is not on the lattice. */
+/* Lists the particles near faces in b->particle, and their neighbours by lattice offset in b->neighbour. map: map from
+ * lattice sites to particles. Returns false if a particle is not on the lattice. */
 static bool near_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
@@ -283,7 +290,8 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
 }
 
 /* Finds the first pair of neighbours whose distance along some axis is not a whole number of spacings, and which no
- * pre-crack separates. apart[2]: receives both particles, -1 if there is none. */
+ * pre-crack separates. map: map from lattice sites to particles; apart[2]: receives both particles, -1 if there is no
+ * such pair. */
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;

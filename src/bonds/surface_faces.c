@@ -33,15 +33,16 @@ struct raw_faces {
     real (*area)[DIM_MAX];
 };
 
-/* Returns true if particle t (an index among those near faces) has a face at the positive (up = 1) or negative (up =
- * 0) end of an axis, because it has no neighbour there. */
+/* Returns true if a particle has a face at one end of an axis, because it has no neighbour there. t: index of the
+ * particle among those near faces; axis: 0 to dim - 1; up: 1 for the end in positive direction, 0 for that in negative
+ * direction. */
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
     return near_faces_neighbour_at_offset(b, t, b->offset.axis[axis][up]) < 0;
 }
 
-/* Returns the face of particle j: its position and its area vector. For an image it is the face of the particle that is
- * mirrored, reflected. The size of the face is 0 if the particle is near no face. */
+/* Returns the face of particle or image j: its position and its area vector. For an image it is the face of the
+ * particle that is mirrored, reflected. The size of the face is 0 if the particle is near no face. */
 static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
@@ -58,8 +59,8 @@ static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
     return f;
 }
 
-/* Returns the weight of a neighbour at offset number k [1]: 1 - r/(reach + 1), but at least 0, with its distance r and
- * the largest component `reach` of an offset [spacings]. */
+/* Returns the weight of a neighbour at lattice offset number k in means over faces [1]: 1 - r/(reach + 1), but at least
+ * 0, with the distance r of the neighbour and the largest component `reach` of an offset [spacings]. */
 static real nearness(const struct offsets *o, int k) { return fmax(1 - o->length[k] / (o->reach + 1), 0); }
 
 /* Mean over the faces whose normals are less than 90 degrees from that of a particle: normal, and variance of their
@@ -68,8 +69,8 @@ struct mean_face {
     real normal[DIM_MAX], variance;
 };
 
-/* Adds a face, times `weight`, to the sum of area vectors area[dim] and to sums[13]: size (1), first (3) and second
- * (9) moments of the position of the face relative to from[dim] [spacings]. */
+/* Adds a face f, times `weight`, to sums over faces: its area vector to area[dim], and to sums[13] its size (1 number)
+ * and the first (3) and second (9) moments of its position relative to from[dim] [spacings]. */
 static void mean_add(const struct exposed_face *f, const real *from, real weight, int dim, real *area, real *sums)
 {
     real x[DIM_MAX];
@@ -81,9 +82,9 @@ static void mean_add(const struct exposed_face *f, const real *from, real weight
     }
 }
 
-/* Returns the mean over the faces near particle t whose normals are less than 90 degrees from its own: their normal,
- * and the variance of their positions along this normal [spacings^2], 0 for a plane face. raw: faces on the lattice; t:
- * index among the particles near faces. */
+/* Returns the mean over the faces near a particle whose normals are less than 90 degrees from that of its own face:
+ * their normal, and the variance of their positions along this normal [spacings^2], 0 for a plane face. raw: faces on
+ * the lattice; t: index of the particle among those near faces. */
 static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
     const struct near_faces *b = raw->body;
@@ -114,10 +115,10 @@ struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
 
-/* Computes how the lattice face of particle t is smoothed: the matrix that projects its area onto the mean normal N of
- * the faces nearby, and its contribution to the mean of N (x) N. Without a face the matrix is the identity and the
- * contribution 0. On the lattice faces are steps; where these scatter too much about a plane, they are smoothed
- * less. */
+/* Computes how the lattice face of a particle is smoothed, in *to: the matrix that projects the area of the face onto
+ * the mean normal N of the faces nearby, and its contribution to the mean of N (x) N. Without a face the matrix is the
+ * identity and the contribution 0. On the lattice inclined faces are steps; where these scatter too much about a plane,
+ * they are smoothed less. t: index of the particle among those near faces. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -138,7 +139,7 @@ static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t 
 }
 
 /* Returns the sum of the weights of all faces on an infinite plane, as seen from a particle of its first layer [1]. The
- * weight of a face falls linearly to 0 with its distance. */
+ * weight of a face falls linearly to 0 with its distance. o: lattice offsets within the cutoff. */
 static real plane_of_faces(const struct offsets *o)
 {
     real sum = 1;
@@ -154,8 +155,8 @@ struct smooth_faces {
     struct smooth *smooth; /* [n] */
 };
 
-/* Computes the smoothed faces (struct smooth) of all particles that have faces. s->at: receives for each particle near
- * faces its index among these, as not every particle near faces has one. */
+/* Computes the smoothed faces (struct smooth) of all particles that have faces. s->at[particles near faces]: receives
+ * the index of the smoothed face of each particle, -1 if it has none. raw: faces on the lattice. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
     const struct near_faces *b = raw->body;
@@ -171,9 +172,9 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
         if (s->at[t] >= 0) smooth_make(&s->smooth[s->at[t]], raw, t);
 }
 
-/* Computes f->normal2[t]: the mean of N (x) N over the faces near particle t with unit normals N, weighted by nearness.
- * Where fewer faces are near than at a plane face, the mean is reduced, except in models with rotations (`rotates`).
- * plane: sum of the weights at a plane face. t: index among the particles near faces. */
+/* Computes f->normal2[t], the mean of N (x) N over the faces near a particle with unit normals N, weighted by nearness.
+ * If fewer faces are near than at a plane face, the mean is reduced, except in models with rotations (`rotates`). s:
+ * smoothed faces; plane: sum of the weights at a plane face; t: index of the particle among those near faces. */
 static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
                            real plane, bool rotates, int64_t t)
 {
@@ -196,11 +197,11 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
         for (int c = 0; c < dim; c++) f->normal2[t][a][c] = trace > 1e-12 ? near * sum[a][c] / trace : 0;
 }
 
-/* Distributes the face of particle t at one end of an axis over the layers of particles behind it, as targets for the
+/* Distributes the face of a particle at one end of an axis over the layers of particles behind it, as targets for the
  * moments of their bonds. f->area receives the area, extrapolated from the middles of the layers to the face. f->dipole
  * receives weights of sum 0 that describe the change from layer to layer: 1, -1 on the first two layers, or with
- * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face. up: 1 for the end
- * in positive direction, else 0. */
+ * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face. smooth: smoothing
+ * of the face; t: index of the particle among those near faces; up: 1 for the end in positive direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
                         int64_t t, int axis, int up, bool rotates)
 {
@@ -223,8 +224,9 @@ static void face_spread(struct surface_fit_targets *f, const struct near_faces *
         for (int k = 0; k < 2; k++) f->dipole[b->place[chain[k].particle]] += first[k];
 }
 
-/* Returns the number of layers of particles along an axis through particle t, from face to face of the body; at most
- * `most`. */
+/* Returns the number of layers of particles along an axis through a particle, from face to face of the body, at most
+ * `most`; `most` also if the line contains particles that are near no face. t: index of the particle among those near
+ * faces. */
 static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;

@@ -30,7 +30,8 @@ struct components {
     int n, rank, axis[FOURTHS][4];
 };
 
-/* Lists in c the components of symmetric tensors of rank `rank` in dim dimensions: all ascending sequences of axes. */
+/* Lists in c the independent components of symmetric tensors of rank `rank` (up to 4) in dim dimensions: all ascending
+ * sequences of axes. */
 static void components_make(struct components *c, int rank, int dim)
 {
     int axis[4] = {0};
@@ -44,7 +45,7 @@ static void components_make(struct components *c, int rank, int dim)
     }
 }
 
-/* Returns the index in c of the tensor component with the axes any[rank], in any order. */
+/* Returns the index in c of the tensor component with the axes any[rank], in any order; -1 if c does not contain it. */
 static int component_of(const struct components *c, const int *any)
 {
     int axis[4];
@@ -59,7 +60,8 @@ static int component_of(const struct components *c, const int *any)
     return -1;
 }
 
-/* Returns component k of the tensor product n (x) n .. of a unit vector n[dim]. */
+/* Returns component k of c of the tensor product n (x) n (x) .. of a unit vector n[dim], with as many factors as the
+ * rank. */
 static real component_value(const struct components *c, int k, const real *n)
 {
     real value = 1;
@@ -80,16 +82,16 @@ struct moments {
     real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };
 
-/* Returns component abcd of the fourth moment M of a full family (the sum of w r nnnn over its bonds), divided by
- * M_1111. */
+/* Returns component abcd of the fourth moment M of a full family (the sum of w r nnnn over its bonds with weight w,
+ * length r and direction n), divided by M_1111 [1]. a, b, c, d: axes, from 0. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
 /* Computes the basis in which deviations of moment tensors are measured by the stresses that they cause: orthonormal
- * symmetric strain tensors B_k; their stresses M:B_k, with the fourth moment M of a full family; and the coefficients
- * by which products of B_k with a moment tensor follow from the components of that tensor. */
+ * symmetric strain tensors B_k; their stresses M:B_k, with the fourth moment M of a full family (m->full); and the
+ * coefficients by which products of B_k with a moment tensor follow from the components of that tensor. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -111,8 +113,9 @@ static void strains_make(struct moments *m)
                     }
 }
 
-/* Computes the moments of the bond at each offset, the third w nnn and the fourth w r nnnn (direction n, weight w,
- * length r), and the fourth moment M of a full family, all divided by M_1111. Then computes the basis of strains. */
+/* Computes in m the moments of the bond at each lattice offset of o, the third w nnn and the fourth w r nnnn (direction
+ * n, weight w, length r), and the fourth moment M of a full family, all divided by M_1111. Then computes the basis of
+ * strains. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
     real sum[FOURTHS] = {0};
@@ -136,10 +139,10 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* Returns the constant alpha [1] of models without particle rotations: near a face the fourth moments of the bonds are
- * to be (1 + alpha dipole) M. M is the fourth moment of a full family; the dipole is 1 in the first layer of particles
- * and -1 in the second. alpha is the value for a plane face along which the body is stretched; in an isotropic family
- * the value for shear along the face is equal. */
+/* Returns the constant alpha of models without particle rotations [1]: near a face the fourth moments of the bonds are
+ * to be (1 + alpha dipole) M, where M is the fourth moment of a full family and the dipole is 1 in the first layer of
+ * particles and -1 in the second. alpha is the value for a plane face along which the body is stretched; in an
+ * isotropic family the value for shear along the face is equal. o: lattice offsets with their weights. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -155,8 +158,8 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
-/* Inverts the symmetric positive definite matrix a of n rows in place by Gauss-Jordan elimination. capacity: numbers
- * from the start of one row to that of the next. */
+/* Inverts the symmetric positive definite matrix a with n rows in place by Gauss-Jordan elimination. capacity: distance
+ * from the start of one row in memory to that of the next [numbers]. */
 static void invert(real *a, int n, int capacity)
 {
     for (int k = 0; k < n; k++) {
@@ -174,10 +177,10 @@ static void invert(real *a, int n, int capacity)
     }
 }
 
-/* Computes the weights P = (1 + STIFF Q)^-1 of the basis strains B_k in the least-squares fit of bonds near faces. Q_kl
- * = (M:B_k) : N (x) N : (M:B_l) is the product of the tractions that two strains cause on faces nearby; strains without
- * such tractions have the weight 1. M: fourth moment of a full family; STIFF: a constant; normal2: mean of N (x) N over
- * the faces nearby, with unit normals N. */
+/* Computes the weights P = (1 + STIFF Q)^-1 of the basis strains B_k in the least-squares fit of bonds near faces,
+ * P[k][l] over the strains of m. Q_kl = (M:B_k) : N (x) N : (M:B_l) is the product of the tractions that two strains
+ * cause on faces nearby; strains without such tractions have the weight 1. M: fourth moment of a full family; STIFF: a
+ * constant; normal2: mean of N (x) N over the faces nearby, with unit normals N. */
 static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
 {
     const int dim = m->dim;
@@ -192,9 +195,9 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
     invert(&P[0][0], m->strains, STRAINS);
 }
 
-/* Adds the matrix sum_k A_k^T P A_k to the matrix `to` of n rows. by: the matrices A_k, k = 0 .. rows - 1, each of
- * STRAINS rows, of which the first `strains` are used, and n columns; capacity: numbers from the start of one row to
- * the next, in A_k and `to`; P: symmetric matrix. */
+/* Adds sum_k A_k^T P A_k to the matrix `to` with n rows. by: the matrices A_k, k = 0 .. rows - 1, each of STRAINS rows,
+ * of which the first `strains` are used, and n columns; capacity: distance from the start of one row to that of the
+ * next in A_k and `to` [numbers]; P: symmetric matrix. */
 static void quadratic(const real *by, int rows, int strains, int n, int capacity, real (*P)[STRAINS], real *to)
 {
     for (int k = 0; k < rows; k++)
@@ -214,8 +217,10 @@ struct class_goal {
     real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
 };
 
-/* Adds face area, dipole and N (x) N (N: unit normal of faces nearby) of particle t, reflected across the axes in
- * `mirrors` (one bit each) and times `share`, to the goal of its class (particles with equal surroundings). */
+/* Adds face area, dipole (difference between the first layers behind a face) and N (x) N (N: unit normal of faces
+ * nearby) of a particle, reflected across the axes in `mirrors` (one bit each) and times `share`, to *to, the goal of
+ * its class of particles with equal surroundings. f: these values for all particles; t: index of the particle among
+ * those near faces. */
 static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
 {
@@ -227,8 +232,9 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
     }
 }
 
-/* Computes goal[classes]: the means of face area, dipole and product of face normals N (x) N over the particles of
- * each class (particles with equal surroundings). */
+/* Computes goal[classes], 0 before: the means of face area, dipole (difference between the first layers behind a face)
+ * and product of face normals N (x) N over the particles of each class (particles with equal surroundings). b:
+ * particles near faces; f: values of each particle; a: classes. */
 static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {
@@ -241,10 +247,10 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
-/* Prepares the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form that
- * weighs deviations of their third and fourth moments, and the target of these moments, less the moments of bonds whose
- * factors are fixed. goal: means of the face properties over the particles of the class; alpha: coefficient by which
- * the dipole raises the target of the fourth moments. */
+/* Prepares c, the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form
+ * that weighs deviations of their third and fourth moments, and the target of these moments, less the moments of bonds
+ * whose factors are fixed. goal: means of the face properties over the particles of the class; alpha: coefficient by
+ * which the dipole raises the target of the fourth moments [1]; class: its number, from 1. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -270,9 +276,9 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Returns the sum of m . Q m over those bonds of a class (particles with equal surroundings) whose factors on their
- * weights are fitted. m: moments of a bond, the tensors w nnn and w r nnnn (direction n, weight w, length r); Q:
- * quadratic form that weighs deviations of the moments of the class. */
+/* Returns the sum of x . Q x over those bonds of a class (particles with equal surroundings) whose factors on their
+ * weights are fitted. x: moments of a bond, the tensors w nnn and w r nnnn (direction n, weight w, length r), from m;
+ * Q: quadratic form that weighs deviations of the moments of the class; class: its number, from 1. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
@@ -290,9 +296,9 @@ static real class_squares(const struct surface_fit_problem *q, const struct mome
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* Lists for each group of bonds that share one factor its entries in tables [classes, offsets] (q->first, q->entry).
- * bonds[groups]: receives the number of bonds of each group. An entry stands for one bond of each particle of its
- * class, and a bond has two entries, one for each of its particles. */
+/* Lists for each set of bonds that share one factor its entries in tables [classes, offsets], in q->first and q->entry.
+ * bonds[sets]: 0 before, receives the number of bonds of each set. An entry stands for one bond of each particle of its
+ * class (particles with equal surroundings), and a bond has two entries, one for each of its particles. */
 static void group_entries(struct surface_fit_problem *q, real *bonds)
 {
     const struct bond_classes *a = q->alike;
@@ -312,8 +318,9 @@ static void group_entries(struct surface_fit_problem *q, real *bonds)
     memory_free(next);
 }
 
-/* Computes q->prior, the weight in the least-squares fit with which the factor f of each group of bonds is held near 1,
- * as prior (f - 1)^2. Then inverts the quadratic forms of all classes (particles with equal surroundings). */
+/* Computes q->prior[sets], the weight in the least-squares fit with which the factor f of each set of bonds is held
+ * near 1, as prior (f - 1)^2. Then inverts the quadratic forms of all classes (particles with equal surroundings). m:
+ * moments of the bonds. */
 static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 {
     const struct bond_classes *a = q->alike;
@@ -332,8 +339,8 @@ static void prior_make(struct surface_fit_problem *q, const struct moments *m)
     memory_free(squares);
 }
 
-/* Returns true if particle t is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
- * within its cutoff, but separated from it. */
+/* Returns true if a particle is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
+ * within its cutoff, but separated from it. t: index of the particle among those near faces. */
 static bool at_crack_end(const struct near_faces *b, int64_t t)
 {
     const struct offsets *o = &b->offset;
@@ -360,7 +367,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     return false;
 }
 
-/* Returns the number of neighbours of particle t, an index among those near faces. */
+/* Returns the number of neighbours of a particle within the cutoff. t: index of the particle among those near faces. */
 static int neighbours(const struct near_faces *b, int64_t t)
 {
     int n = 0;
@@ -368,7 +375,7 @@ static int neighbours(const struct near_faces *b, int64_t t)
     return n;
 }
 
-/* Returns true if the critical stretch of bonds between any two materials is finite, so that they may break. */
+/* Returns true if bonds between any two materials have a finite critical stretch in `limit`, so that they may break. */
 static bool may_break(const struct bond_limit *limit)
 {
     bool breaks = false;
@@ -376,8 +383,9 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors on the weights of the bonds of a class (particles with equal surroundings), by equal lower and
- * upper bounds: at 1 if `one`, else at the factor of the volume method (Le & Bobaru 2018). */
+/* Fixes the factors on the weights of the bonds of class number `class` (particles with equal surroundings), by equal
+ * lower and upper bounds: at 1 if `one`, else at the factor of the volume method (Le & Bobaru 2018), between LEAST and
+ * MOST. */
 static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;
@@ -392,8 +400,8 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     }
 }
 
-/* Fixes the factors on the weights of bonds at ends of cracks and in thin parts, which have too few layers of
- * particles: to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle rotations.
+/* Fixes the factors on the weights of bonds at ends of cracks and in thin parts, which have too few layers of particles
+ * (f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle rotations.
  * Bonds at ends of cracks also get the factor 1 if bonds may break: they break next, and the critical stretch is
  * calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated last, so
  * that a bond between both does not depend on the order of its particles. */
@@ -408,8 +416,9 @@ static void plain_parts(struct surface_fit_problem *q, const struct near_faces *
         if (f->thin[a->member[class]]) class_fix(q, b, class, rotates);
 }
 
-/* Sets the bounds q->low, q->high of the factors of all groups (bonds with one factor): LEAST and MOST, or equal
- * bounds at ends of cracks and in thin parts, where the factor is fixed. rotates: true for a model with rotations. */
+/* Allocates and sets the bounds q->low[sets] and q->high[sets] of the factors of all sets of bonds that share one
+ * factor: LEAST and MOST, or equal bounds at ends of cracks and in thin parts, where the factor is fixed. f: states
+ * which particles are in thin parts; rotates: true for a model with particle rotations. */
 static void bounds_make(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

@@ -60,9 +60,9 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes value[offsets]: the scalar product of the moments of each bond of a class (particles with equal
- * surroundings) and the vector by[thirds + fourths]. The moments of a bond are tensors of rank 3 and 4 formed of its
- * direction; thirds, fourths: numbers of their components, compile-time constants. changes[offsets/2]: pairs of
+/* Computes value[offsets]: for each bond of a class (particles with equal surroundings) the scalar product of the
+ * moments of the bond and the vector by[thirds + fourths]. The moments of a bond are tensors of rank 3 and 4 formed of
+ * its direction; thirds, fourths: numbers of their components, known at compile time. changes[offsets/2]: pairs of
  * opposite bonds with the mark 0 are skipped; NULL if none is. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
@@ -82,9 +82,9 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
 
 /* Subtracts from to[thirds + fourths] the sum of x times the moments over the bonds of a class (particles with equal
  * surroundings). The moments of a bond are tensors of rank 3 and 4 formed of its direction; thirds, fourths: numbers of
- * their components, compile-time constants. x[groups]: a number for each group of bonds that share a factor;
- * group[offsets]: group of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark 0 are
- * skipped, since their x is 0; NULL if none is. */
+ * their components, known at compile time. x[sets]: a number for each set of bonds that share a factor; group[offsets]:
+ * set of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped, since their x is
+ * 0; NULL if none is. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -100,9 +100,9 @@ static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const u
     for (int m = 0; m < thirds + fourths; m++) to[m] -= sum[m];
 }
 
-/* Computes the vector to = Q^-1 `of` of a class (particles with equal surroundings). Q is the quadratic form that
- * weighs deviations of the moments of its bonds; c holds its inverse. thirds, fourths: numbers of components of the
- * third and fourth moments, compile-time constants. */
+/* Computes the vector to = Q^-1 `of` of a class (particles with equal surroundings), both [thirds + fourths]. Q is the
+ * quadratic form that weighs deviations of the moments of the bonds; c holds its inverse. thirds, fourths: numbers of
+ * components of the third and fourth moments, known at compile time. */
 static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of, real *to, const int thirds,
                                       const int fourths)
 {
@@ -113,8 +113,8 @@ static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of,
         for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * of[thirds + y];
 }
 
-/* Returns the marks [offsets/2] of the pairs of opposite bonds of one class (particles with equal surroundings), a
- * part of the array changes[classes, offsets/2]; NULL if `changes` is NULL. */
+/* Returns the part of the array changes[classes, offsets/2] that belongs to class number `class` (particles with equal
+ * surroundings): the marks of its pairs of opposite bonds. Returns NULL if `changes` is NULL. */
 static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_t *changes, int32_t class)
 {
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
@@ -140,9 +140,10 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 }
 
 /* Computes the vector to[classes, moments] = Q^-1 by - sum m x, plus the targets of the moments if `goals`. For each
- * class (particles with equal surroundings) the sum is over its bonds: m are the moments of a bond, x[groups] is a
- * number for each group of bonds with one factor, Q is the quadratic form of the class. by: [classes, moments];
- * changes: pairs of opposite bonds with the mark 0 are skipped, since their x is 0; NULL if none is. */
+ * class (particles with equal surroundings) the sum is over its bonds: m are the moments of a bond, x[sets] has a
+ * number for each set of bonds that share a factor, Q is the quadratic form of the class. by[classes, moments]: a
+ * vector; changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped, since their x is 0; NULL if
+ * none is. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {
@@ -164,7 +165,7 @@ static void all_sum(const struct descent *d, const uint8_t *changes, const real 
     }
 }
 
-/* Returns the sum of d->value over all entries (class of particles, offset of the bond) that belong to group g, a group
+/* Returns the sum of d->value over all entries (class of particles, lattice offset of the bond) that belong to g, a set
  * of bonds that share one factor. */
 static real group_sum(const struct descent *d, int64_t g)
 {
@@ -175,9 +176,9 @@ static real group_sum(const struct descent *d, int64_t g)
 }
 
 /* Evaluates the dual of the least-squares problem that fits the weights of bonds near faces. x[classes, moments]: its
- * unknowns, one multiplier for each bond moment of a class of particles with equal surroundings. d->factor[groups]
- * receives the factors on the weights of the bonds that follow from x, within their bounds. residual[classes, moments]
- * receives the residual, which is 0 at the solution. */
+ * unknowns, one multiplier for each bond moment of a class of particles with equal surroundings. d->factor[sets]:
+ * receives the factors on the weights of the bonds that follow from x, within their bounds, one for each set of bonds
+ * that share a factor. residual[classes, moments]: receives the residual, which is 0 at the solution. */
 static void residual_make(struct descent *d, const real *x, real *residual)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -189,9 +190,9 @@ static void residual_make(struct descent *d, const real *x, real *residual)
     d->products++;
 }
 
-/* Computes d->image = A d->direction, where A is the matrix of the linear system for one Newton step of the
- * multipliers. A contains only bonds whose factors are between their bounds (d->between); the matrix itself is not
- * stored. */
+/* Computes d->image = A d->direction, both [classes, moments], where A is the matrix of the linear system for one
+ * Newton step of the multipliers. A contains only bonds whose factors are between their bounds (d->between); the matrix
+ * itself is not stored. */
 static void image_make(struct descent *d)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -204,8 +205,8 @@ static void image_make(struct descent *d)
 
 /* ---- preconditioner ---------------------------------------------------------------------------------------------- */
 
-/* Replaces the lower triangle of a symmetric positive definite matrix a of n rows, stored by columns, by its Cholesky
- * factor with inverted diagonal. */
+/* Replaces the lower triangle of the symmetric positive definite matrix a with n rows, stored by columns without gaps,
+ * by its Cholesky factor with inverted diagonal. */
 static void cholesky(real *a, int n)
 {
     real *column = a;
@@ -218,9 +219,9 @@ static void cholesky(real *a, int n)
     }
 }
 
-/* Solves A x = b for TOGETHER systems of n rows at once by vector instructions. a: lower triangles of the Cholesky
- * factors of the matrices A, stored by columns, with inverted diagonals. x: right-hand sides b, overwritten by the
- * solutions. */
+/* Solves A x = b for TOGETHER systems of n unknowns at once by vector instructions. a: lower triangles of the Cholesky
+ * factors of the matrices A, stored by columns, with inverted diagonals; x[n]: right-hand sides b of all systems,
+ * overwritten by the solutions. */
 static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER])
 {
     const real(*column)[TOGETHER] = a;
@@ -241,8 +242,8 @@ static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER]
     }
 }
 
-/* Stores in d->images, for each bond of a class (particles with equal surroundings), how many bonds of the class share
- * its factor: the bond itself and its mirror images. */
+/* Stores in d->images, for each bond of class number `class` (particles with equal surroundings), how many bonds of the
+ * class share its factor: the bond itself and its mirror images. */
 static void images_count(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -252,18 +253,18 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of the bond at offset k in the diagonal block that the preconditioner has for a class (particles
- * with equal surroundings): n/prior, or 0 if the factor of the bond is at a bound or fixed. n: number of bonds of the
- * class that share this factor, which are mirror images of each other. The weight is exact for multipliers with the
- * symmetry of the class. */
+/* Returns the weight of the bond at lattice offset number k in the diagonal block that the preconditioner has for class
+ * number `class` (particles with equal surroundings): n/prior, or 0 if the factor of the bond is at a bound or fixed.
+ * n: number of bonds of the class that share this factor, which are mirror images of each other. The weight is exact
+ * for multipliers with the symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
     const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
     return group < 0 || !d->between[group] ? 0 : d->images[at] / d->fit->prior[group];
 }
 
-/* Computes the Cholesky factor of the block of a class (particles with equal surroundings) in the matrix of the linear
- * system, for the preconditioner. */
+/* Computes the Cholesky factor of the diagonal block of class number `class` (particles with equal surroundings) in the
+ * matrix of the linear system, for the preconditioner, and stores it in d->block. */
 static void block_make(const struct descent *d, int32_t class)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -291,8 +292,8 @@ static void block_make(const struct descent *d, int32_t class)
     for (int at = 0; at < width * (width + 1) / 2; at++) all[at][class % TOGETHER] = block[at];
 }
 
-/* Returns true if, for a bond of a class (particles with equal surroundings), the factor on its weight has reached or
- * left one of its bounds since the last linear system was set up. */
+/* Returns true if the factor of a bond of class number `class` (particles with equal surroundings) has reached or left
+ * one of its bounds since the last linear system was set up, so that the block of the class must be recomputed. */
 static bool class_turned(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -302,8 +303,8 @@ static bool class_turned(const struct descent *d, int32_t class)
     return false;
 }
 
-/* Marks in d->changes the pairs of opposite bonds of a class (particles with equal surroundings) that the linear system
- * contains: the factor of one of both is between its bounds. */
+/* Marks in d->changes the pairs of opposite bonds of class number `class` (particles with equal surroundings) that the
+ * linear system contains: 1 if the factor of one of both is between its bounds, else 0. */
 static void class_mark(struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -334,8 +335,8 @@ static void system_make(struct descent *d)
     d->systems++;
 }
 
-/* Computes d->weighed = B^-1 d->left, where d->left is the residual of the linear system and B its preconditioner,
- * which has the blocks of the classes (particles with equal surroundings) on its diagonal. */
+/* Computes d->weighed = B^-1 d->left, both [classes, moments], where d->left is the residual of the linear system and B
+ * its preconditioner, which has the blocks of the classes (particles with equal surroundings) on its diagonal. */
 static void left_weigh(struct descent *d)
 {
     const int32_t classes = d->fit->alike->classes;
@@ -379,7 +380,8 @@ static void step_solve(struct descent *d, real share)
 
 /* Moves the multipliers of the dual problem along d->step, and updates the factors of bonds and the residual. The
  * residual is the gradient of a convex function. If the slope of this function at the end of the step is positive and
- * more than STEEP times the negative slope at the start, the step is shortened and tried again. */
+ * more than STEEP times the absolute slope at the start, the step is shortened and tried again, at most SHORTENINGS
+ * times. */
 static void step_take(struct descent *d)
 {
     const real slope = inner(d->n, d->residual, d->step);
@@ -395,8 +397,9 @@ static void step_take(struct descent *d)
     array_copy(d->residual, d->next_residual, d->n, sizeof(real));
 }
 
-/* Makes Newton steps until the residual d->residual is below CLOSE times its first value, or until d->most products
- * with the matrix are used up. Returns the norm of the residual over that of the first one [1]. */
+/* Makes Newton steps until the norm of the residual d->residual is at most CLOSE times its first value, or until
+ * d->most products with the matrix are used up. Returns the norm of the last residual, divided by that of the first one
+ * [1]; more than CLOSE if the steps have not converged. */
 static real descend(struct descent *d)
 {
     residual_make(d, d->multiplier, d->residual);
