@@ -13,7 +13,7 @@ struct boxed {
     int32_t item;
 };
 
-/* Orders boxes by the coordinate of their middle, then by number, for array_sort. */
+/* Compares two boxes (struct boxed) for array_sort: by the coordinate of their middle, then by number. */
 static int boxed_order(const void *a, const void *b)
 {
     const struct boxed *p = a, *q = b;
@@ -45,9 +45,9 @@ static int widest_spread(const struct boxed *list, int n, const struct bounds *b
     return widest;
 }
 
-/* Builds node `at` of the tree from the boxes list[n], and recursively its children, each from half of the list,
- * sorted by their middles along the axis of widest spread. nodes: number of nodes so far, increased. box: all boxes;
- * dim: dimensions. */
+/* Builds node number `at` of the tree t from the boxes list[n], and recursively its children, each from half of the
+ * list, sorted by the middles along the axis of widest spread. *nodes: number of nodes so far, increased; box: all
+ * boxes, which list[k].item refers to; dim: number of dimensions. */
 static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct boxed *list, int n,
                         const struct bounds *box, int dim)
 {
@@ -86,8 +86,8 @@ void box_tree_free(struct box_tree *t)
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Appends node number `node` of the tree to the list of nodes that the search q still has to visit, with a lower bound
- * of the distance of its box from the search point q->X. */
+/* Appends node number `node` of the tree q->tree to the list of nodes that the search q still has to visit, with a
+ * lower bound of the distance of its box from the search point q->X [m]. */
 static void box_wait(struct box_search *q, int32_t node)
 {
     const struct bounds *box = &q->tree->node[node].box;

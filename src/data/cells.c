@@ -8,8 +8,8 @@
 
 /* ---- reference search -------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the cell that contains X[dim] [m]; positions outside the box of the cells belong to the nearest
- * cell. */
+/* Returns the index of the search cell of c that contains X[dim] [m]; positions outside the box of the cells belong to
+ * the nearest cell. */
 static int64_t cells_cell_of(const struct cells *c, const real *X)
 {
     int64_t index = 0;
@@ -27,9 +27,9 @@ static int64_t cells_cell_of(const struct cells *c, const real *X)
  * than larger cells would. */
 enum { CELLS_ACROSS = 3 };
 
-/* Sets origin, width and number of the search cells of c, with CELLS_ACROSS cells along `edge`, the largest search
- * radius [m]. If there would be more cells than particles, as in a box far larger than its particles, uses larger
- * cells. */
+/* Computes origin, width and number of the search cells of c, with CELLS_ACROSS cells along `edge`, the largest search
+ * radius [m]. Uses larger cells if there would otherwise be more cells than about four per particle of p, as in a box
+ * far larger than its particles. */
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -74,7 +74,7 @@ void cells_free(struct cells *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Sorts the n indices `found` in ascending order by insertion. It is fast because only the images at the end of the
+/* Sorts the indices found[n] in ascending order by insertion, which is fast because only the images at the end of the
  * list are out of order. */
 static void sort_ascending(int32_t *found, int n)
 {
@@ -99,8 +99,8 @@ struct search {
 };
 
 /* Appends to s->found the particles within the search radius in the consecutive cells first .. last of a row along x.
- * Counts them in s->n, also those that exceed the capacity s->room. dim: number of dimensions, known at compile
- * time. */
+ * Counts in s->n also those that exceed the capacity s->room, which are not stored. dim: number of dimensions, known at
+ * compile time. */
 static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
 {
     const int32_t *order = s->c->order;
@@ -117,8 +117,8 @@ static inline void near_in_row(struct search *s, const struct particles *p, int6
     }
 }
 
-/* Returns a lower bound of the distance of X[dim] from the layer of cells with index k along axis d [m]; 0 if X is in
- * it. It is slightly smaller than the distance, so that round-off excludes no cell. */
+/* Returns a lower bound of the distance of X[dim] from the layer of cells with index k, from 0, along axis d [m]; 0 if
+ * X is in this layer. The bound is slightly smaller than the distance, so that round-off excludes no cell. */
 static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 {
     const real low = c->origin[d] + (real)k * c->width;
@@ -137,9 +137,9 @@ static inline void cells_within(const struct cells *c, const real *X, int d, rea
     if (*high >= c->count[d]) *high = c->count[d] - 1;
 }
 
-/* Lists the particles in all cells within the radius of s->X in s->found, in ascending order unless s->any_order. dim:
- * number of dimensions, known at compile time. Returns the number of particles found, which may exceed the capacity
- * s->room of the list. */
+/* Lists the particles within s->radius of s->X in s->found, in ascending order unless s->any_order. dim: number of
+ * dimensions, known at compile time. Returns the number of particles found; if it exceeds the capacity s->room, the
+ * list is incomplete. */
 static inline int near(struct search *s, const struct particles *p, const int dim)
 {
     const struct cells *c = s->c;
@@ -163,8 +163,8 @@ static inline int near(struct search *s, const struct particles *p, const int di
     return s->n;
 }
 
-/* Lists the particles within the radius of s->X in s->found: calls the copy of `near` that is compiled for the number
- * of dimensions. Returns the number of particles found, which may exceed the capacity s->room of the list. */
+/* Lists the particles within s->radius of s->X in s->found, by the copy of `near` that is compiled for the number of
+ * dimensions. Returns the number of particles found; if it exceeds the capacity s->room, the list is incomplete. */
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {
@@ -223,9 +223,9 @@ int cells_neighbour_count_bound(const struct cells *c, real radius)
     return (int)most;
 }
 
-/* Lists in near->at the particles and images within `radius` of particle i in the reference configuration [m], and
- * stores their number in near->n. The list grows as needed. itself: true to include particle i; any_order: true if
- * the list need not be sorted. */
+/* Lists in near->at the particles and images of p whose reference position is within `radius` [m] of that of particle
+ * i, and stores their number in near->n. The list grows as needed. c: search cells; itself: true to include particle i;
+ * any_order: true if the list need not be sorted. */
 static void cells_find(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
                        real radius, bool itself, bool any_order)
 {

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "data/region.h"
 
-/* Returns the distance of X[dim] from a plane of symmetry [m], positive on the body's side. */
+/* Returns the distance of X[dim] [m] from the plane of symmetry m [m], positive on the side of the body. */
 static real inner_height(const struct mirror_plane *m, const real *X)
 {
     return (real)-m->outside * (X[m->axis] - m->at);
@@ -20,8 +20,8 @@ bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror_planes,
     return false;
 }
 
-/* Computes X, the intersection of the segment a-b with the plane of symmetry m. Its coordinate normal to the plane is
- * exact. */
+/* Computes X[DIM_MAX], the intersection of the segment from a to b with the plane of symmetry m [m]. The coordinate of
+ * X normal to the plane is exact. The ends must be on different sides. */
 static void plane_intersection(const struct mirror_plane *m, const real *a, const real *b, real *X)
 {
     const real share = inner_height(m, a) / (inner_height(m, a) - inner_height(m, b));
@@ -30,7 +30,8 @@ static void plane_intersection(const struct mirror_plane *m, const real *a, cons
 }
 
 /* Clips the crack c to the body's side of the plane of symmetry m. A polygon may gain one corner, for which c->corner
- * must have capacity. tolerance: distance up to which a corner beyond the plane counts as inside [m]. */
+ * must have capacity; a crack beyond the plane keeps no corner (c->n is 0). tolerance: distance up to which a corner
+ * beyond the plane counts as inside [m]. */
 static void crack_clip(struct crack *c, const struct mirror_plane *m, real tolerance)
 {
     real(*corner)[DIM_MAX] = memory_new("crack.clip", c->n + 1, sizeof *corner);
@@ -46,8 +47,8 @@ static void crack_clip(struct crack *c, const struct mirror_plane *m, real toler
     memory_free(corner);
 }
 
-/* Appends a copy of crack c, with capacity for `more` further corners, to the list `to` and returns the copy. of: index
- * of the scene's crack from which c originates. */
+/* Appends a copy of crack c to the list `to`, with capacity for `more` further corners, and returns the copy, which the
+ * list owns. of: index of the scene's crack from which c originates. */
 static struct crack *crack_add(struct crack_list *to, const struct crack *c, int of, int more)
 {
     GROW("crack.images", to->crack, to->n + 1);

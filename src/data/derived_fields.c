@@ -20,7 +20,7 @@ real tensor_determinant(const real s[6])
 }
 
 /* Rotates the axes p and q of the symmetric matrix a such that a[p][q] becomes 0: one Jacobi rotation (Golub & Van
- * Loan, section 8.5). v: matrix whose rows are the axes found so far; its rows p and q are rotated as well. */
+ * Loan, section 8.5). v: matrix whose rows are the axes found so far; rows p and q of it are rotated as well. */
 static void axes_turn(real a[3][3], real v[3][3], int p, int q)
 {
     if (a[p][q] == 0) return;

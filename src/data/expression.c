@@ -14,7 +14,7 @@ static real ramp_of(real a) { return a <= 0 ? 0 : a >= 1 ? 1 : a; }
  * smoothly. */
 static real pulse_at(real a) { return a > 0 && a < 1 ? square(sin(pi * a)) : 0; }
 
-/* Returns the value of the operation `op` with its only operand a. */
+/* Returns the value of the operation `op` of an expression with its only operand a. */
 static real one_operand(enum expression_op op, real a)
 {
     switch (op) {
@@ -85,8 +85,8 @@ real expression_op_apply(enum expression_op op, real a, real b)
     }
 }
 
-/* Returns the value of a step without operands: a number, the time t [s], or a coordinate of X[dim] [m]. The coordinate
- * is 0 if X is NULL or has no such component. */
+/* Returns the value of a step of an expression that has no operands: a number, the time t [s], or a coordinate of the
+ * position X[dim] [m]. The coordinate is 0 if X is NULL or has no such component. */
 static real leaf(const struct expression_step *step, const real *X, int dim, real t)
 {
     if (step->op == EXPRESSION_NUMBER) return step->value;

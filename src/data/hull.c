@@ -15,7 +15,8 @@ struct piece {
     int turn;
 };
 
-/* Orders pieces, which are faces or edges, by their sorted corners, then by the face from which they originate. */
+/* Compares two pieces (faces or edges) for array_sort: by their sorted corners, then by the face from which they
+ * originate. */
 static int piece_order(const void *a, const void *b)
 {
     const struct piece *p = a, *q = b;
@@ -24,13 +25,14 @@ static int piece_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Returns true if two pieces, which are faces or edges, have the same corners. */
+/* Returns true if the pieces p and q (faces or edges) have the same corners, in whatever orientation. */
 static bool piece_same(const struct piece *p, const struct piece *q)
 {
     return memcmp(p->corner, q->corner, sizeof p->corner) == 0;
 }
 
-/* Sorts the first n corners of a face or edge in ascending order. Each exchange reverses its orientation p->turn. */
+/* Sorts the first n corners of the piece p (a face or edge) in ascending order. Each exchange of two corners reverses
+ * the orientation p->turn. */
 static void piece_sort(struct piece *p, int n)
 {
     for (int round = 1; round < n; round++)
@@ -41,15 +43,15 @@ static void piece_sort(struct piece *p, int n)
         }
 }
 
-/* Returns true if a face of the surface s has two equal corners. face[dim]: indices of its corners. */
+/* Returns true if a face of the surface s has two equal corners and thus no area. face[dim]: indices of its corners. */
 static bool face_degenerate(const struct hull *s, const int32_t *face)
 {
     return face[0] == face[1] || (s->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
 }
 
-/* Cancels faces that coincide: of several faces with the same corners one remains, in the orientation that is more
- * frequent, or none if both orientations are equally frequent, as where two elements meet. Removes faces with two
- * equal corners. Counts in s->dropped the removed faces, except pairs of opposite orientation. */
+/* Cancels faces of the surface s that coincide: of several faces with the same corners one remains, in the orientation
+ * that is more frequent, or none if both orientations are equally frequent, as where two elements meet. Removes faces
+ * with two equal corners. Counts in s->dropped the removed faces, except pairs of opposite orientation. */
 static void faces_cancel(struct hull *s)
 {
     struct piece *piece = NEW("hull.pieces", s->faces, struct piece);
@@ -77,8 +79,8 @@ static void faces_cancel(struct hull *s)
 
 /* ---- open edges and components ----------------------------------------------------------------------------------- */
 
-/* Lists the edges of all faces (in 2D the end points of the segments) in side[faces * dim], sorted by their corners.
- * Returns their number. */
+/* Lists the edges of all faces of the surface s (in 2D the end points of the segments) in side[faces dim], sorted by
+ * their corners. Returns their number. */
 static int64_t sides_make(const struct hull *s, struct piece *side)
 {
     int64_t n = 0;
@@ -94,8 +96,9 @@ static int64_t sides_make(const struct hull *s, struct piece *side)
     return n;
 }
 
-/* Counts in s->open_edges the edges (2D: end points) that adjacent faces do not traverse equally often in both
- * directions, so that the surface has a hole there. Stores the middle of the first such edge in s->open_at. */
+/* Counts in s->open_edges the edges (in 2D end points) of the surface s that adjacent faces do not traverse equally
+ * often in both directions, so that the surface has a hole there. Stores the middle of the first such edge in
+ * s->open_at [m]. */
 static void find_open(struct hull *s)
 {
     struct piece *side = NEW("hull.pieces", s->faces * s->dim, struct piece);
@@ -111,15 +114,16 @@ static void find_open(struct hull *s)
     memory_free(side);
 }
 
-/* Returns the lowest corner that is known to be connected with `corner` (union-find). up[corners]: for each corner a
- * lower connected one, or itself; paths to the lowest corner are shortened. */
+/* Returns the lowest corner that is known to be connected with `corner`, the root of its tree in a union-find forest.
+ * up[corners]: for each corner a lower connected one, or the corner itself; paths to the lowest corner are
+ * shortened. */
 static int32_t shell_root(int32_t *up, int32_t corner)
 {
     while (up[corner] != corner) corner = up[corner] = up[up[corner]];
     return corner;
 }
 
-/* Returns the number of connected components of the surface. */
+/* Returns the number of connected components of the surface s; corners of no face are not counted. */
 static int64_t count_shells(const struct hull *s)
 {
     int32_t *up = NEW("hull.shells", s->corners, int32_t);
@@ -141,8 +145,8 @@ static int64_t count_shells(const struct hull *s)
 
 /* ---- measures ------------------------------------------------------------------------------------------------- */
 
-/* Computes the area vector of face k, its normal times its area [m^2]; in 2D, where a face is a segment, its normal
- * times its length [m]. */
+/* Computes the area vector of face k, from 0, of the surface s: the normal of the face times its area [m^2]; in 2D,
+ * where a face is a segment, the normal times the length [m]. */
 void hull_compute_face_area_vector(const struct hull *s, int64_t k, real area_vector[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];
@@ -158,8 +162,8 @@ void hull_compute_face_area_vector(const struct hull *s, int64_t k, real area_ve
 }
 
 /* Returns the volume of the body inside the surface s [m^dim] by Gauss's theorem: the sum of (X - X0) . area/dim over
- * all faces, with a point X of the face and its area vector. X0 is a corner of the surface, which preserves digits far
- * from the origin. */
+ * all faces, with a point X of the face and the area vector of the face. X0 is a corner of the surface, which preserves
+ * digits far from the origin. Negative if the faces point inwards. */
 static real volume_of(const struct hull *s)
 {
     real sum = 0;
@@ -189,8 +193,8 @@ static void faces_reverse(struct hull *s)
     }
 }
 
-/* Initialises the surface *s with its corners and faces; s takes ownership of both arrays. corner[corners]:
- * positions [m]; face[faces]: indices of dim corners each. */
+/* Initialises the surface *s with its corners and faces; s takes ownership of both arrays. dim: number of dimensions;
+ * corner[corners]: positions [m]; face[faces]: indices of dim corners each. */
 static void hull_take(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                       int32_t (*face)[DIM_MAX])
 {

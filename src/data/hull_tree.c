@@ -20,7 +20,8 @@ struct leaflet {
     int32_t face;
 };
 
-/* Orders faces by the coordinate of their middles along an axis, then by number. */
+/* Compares two faces a and b: by the coordinate of their middles along `axis`, then by number. Returns a negative
+ * number, 0 or a positive number. */
 static int leaflet_order(const struct leaflet *a, const struct leaflet *b, int axis)
 {
     const real x = a->middle[axis], y = b->middle[axis];
@@ -30,9 +31,9 @@ static int order_x(const void *a, const void *b) { return leaflet_order(a, b, 0)
 static int order_y(const void *a, const void *b) { return leaflet_order(a, b, 1); }
 static int order_z(const void *a, const void *b) { return leaflet_order(a, b, 2); }
 
-/* Computes the box, the dipole moment (sum of the area vectors) and the area-weighted centre of node n of the tree from
- * its faces. leaf[]: faces of the whole surface in the order of the tree; those of the node are leaf[n->first] and the
- * following n->count - 1. */
+/* Computes the box, the dipole moment (sum of the area vectors) and the area-weighted centre of node n of the tree of
+ * surface s from the faces of the node. leaf[]: faces of the whole surface in the order of the tree; those of the node
+ * are leaf[n->first] and the following n->count - 1. */
 static void node_measure(const struct hull *s, struct hull_node *n, const struct leaflet *leaf)
 {
     real weight = 0;
@@ -54,9 +55,9 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < s->dim; d++) n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
 }
 
-/* Divides node number `at` of the tree at the median face along the longest edge of its box, and recursively its
- * children, down to nodes of at most LEAF faces. leaf[]: faces of the whole surface, which are sorted into the order of
- * the tree. */
+/* Divides node number `at` of the tree of surface s at the median face along the longest edge of its box, and
+ * recursively its children, down to nodes of at most LEAF faces. leaf[]: faces of the whole surface, which are sorted
+ * into the order of the tree. */
 static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
 {
     static int (*const order[])(const void *, const void *) = {order_x, order_y, order_z};
@@ -110,8 +111,8 @@ struct angle_sum {
     int turns;
 };
 
-/* Adds the angle of the complex number (x, y), which need not be normalised, to the sum. The angle of 0 is 0. Without
- * branches, which signs that alternate would make slow. */
+/* Adds the angle of the complex number x + i y, which need not be normalised, to *sum. The angle of 0 is 0. The code
+ * has no branches, which would be slow for signs that alternate. */
 static inline void angle_sum_add(struct angle_sum *sum, real x, real y)
 {
     const real a = sum->x, b = sum->y, u = a * x - b * y, v = a * y + b * x, size = fabs(u) + fabs(v);
@@ -123,8 +124,9 @@ static inline void angle_sum_add(struct angle_sum *sum, real x, real y)
     sum->turns += forward - backward;
 }
 
-/* Adds the contribution of a face to the winding number of the surface at X: in 3D half the solid angle of the triangle
- * (van Oosterom & Strackee 1983, eq. 8); in 2D the angle of the segment. face[dim]: indices of its corners. */
+/* Adds the contribution of a face of surface s to the winding number at X[dim], times 2 pi, to *sum: in 3D half the
+ * solid angle of the triangle (van Oosterom & Strackee 1983, eq. 8); in 2D the angle of the segment. face[dim]: indices
+ * of the corners of the face. */
 static void face_winding(const struct hull *s, const int32_t *face, const real *X, struct angle_sum *sum)
 {
     real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
@@ -143,8 +145,9 @@ static void face_winding(const struct hull *s, const int32_t *face, const real *
     angle_sum_add(sum, below, triple);
 }
 
-/* Adds the winding number at X of the dipole of node n to *sum and returns true, if X is farther from the centre of the
- * node than FAR times the node's radius (Barill et al. 2018, first order). Else returns false and adds nothing. */
+/* Adds the winding number at X[dim] of the faces of node n, replaced by their dipole, to *sum and returns true, if X is
+ * farther from the centre of the node than FAR times the node's radius (Barill et al. 2018, first order). Else returns
+ * false and adds nothing. */
 static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
 {
     real r2 = 0, radius2 = 0, along = 0;
@@ -196,7 +199,7 @@ struct hull_samples hull_sample_winding_numbers(const struct hull *s)
 
 /* ---- distance ------------------------------------------------------------------------------------------------- */
 
-/* Computes the point `nearest` [dim] of the segment a-b that is nearest to X. */
+/* Computes nearest[dim], the point of the segment from a[dim] to b[dim] that is nearest to X[dim] [m]. */
 static void segment_nearest(const real *a, const real *b, const real *X, int dim, real *nearest)
 {
     real along = 0, length2 = 0;
@@ -205,7 +208,7 @@ static void segment_nearest(const real *a, const real *b, const real *X, int dim
     for (int d = 0; d < dim; d++) nearest[d] = a[d] + share * (b[d] - a[d]);
 }
 
-/* Returns the squared distance between the points a and b [dim]. */
+/* Returns the squared distance between the points a[dim] and b[dim] [m^2]. */
 static real apart2(const real *a, const real *b, int dim)
 {
     real sum = 0;
@@ -213,9 +216,9 @@ static real apart2(const real *a, const real *b, int dim)
     return sum;
 }
 
-/* Computes the point `nearest` of a triangle that is nearest to X: the foot of X on the triangle's plane if it is
- * inside the triangle, else the nearest point of the edges. corner[3]: pointers to the corners; area: its area
- * vector. */
+/* Computes nearest[3], the point of a triangle that is nearest to X[3] [m]: the foot of X on the triangle's plane if it
+ * is inside the triangle, else the nearest point of the edges. corner[3]: pointers to the corners; area[3]: area vector
+ * of the triangle [m^2]. */
 static void triangle_nearest(const real *corner[DIM_MAX], const real *area, const real *X, real *nearest)
 {
     const real area2 = dot(area, area, 3);
@@ -241,7 +244,7 @@ static void triangle_nearest(const real *corner[DIM_MAX], const real *area, cons
     }
 }
 
-/* Computes the point `nearest` of face k of the surface that is nearest to X. */
+/* Computes nearest[dim], the point of face k, from 0, of the surface s that is nearest to X[dim] [m]. */
 static void face_nearest(const struct hull *s, int64_t k, const real *X, real *nearest)
 {
     const real *corner[DIM_MAX];
@@ -255,7 +258,7 @@ static void face_nearest(const struct hull *s, int64_t k, const real *X, real *n
     triangle_nearest(corner, area, X, nearest);
 }
 
-/* Returns the squared distance of X[dim] from the bounding box of a node of the tree [m^2]; 0 inside. */
+/* Returns the squared distance of X[dim] from the bounding box of node n of a tree of faces [m^2]; 0 inside the box. */
 static real box_apart2(const struct hull_node *n, const real *X, int dim)
 {
     real sum = 0;
@@ -263,8 +266,9 @@ static real box_apart2(const struct hull_node *n, const real *X, int dim)
     return sum;
 }
 
-/* Searches for the face nearest to X whose squared distance is below *r2 [m^2]. If there is one, stores its squared
- * distance in *r2 and its nearest point in nearest[dim], and returns its number; else returns 0 and changes nothing. */
+/* Searches for the face of surface s that is nearest to X[dim], among faces whose squared distance is below *r2 [m^2].
+ * If there is one, stores its squared distance in *r2 and its nearest point in nearest[dim], and returns its number;
+ * else returns 0 and changes nothing. */
 static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, real *r2)
 {
     int32_t wait[DEEPEST], found = 0;
@@ -287,7 +291,8 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
     return found;
 }
 
-/* Lists in face[NEAR_MOST] the faces at most `reach` [m] from X. Returns their number; -1 if there are more. */
+/* Lists in face[NEAR_MOST] the numbers of the faces of surface s at most `reach` [m] from X[dim]. Returns how many
+ * there are; -1 if there are more than NEAR_MOST. */
 static int faces_within(const struct hull *s, const real *X, real reach, int32_t *face)
 {
     int32_t wait[DEEPEST];
@@ -308,8 +313,8 @@ static int faces_within(const struct hull *s, const real *X, real reach, int32_t
     return n;
 }
 
-/* Returns true if all corners of face `other` are behind the plane of face `face`, or on it. area: area vector of
- * `face` [dim] [m^(dim - 1)]. */
+/* Returns true if all corners of face number `other` of surface s are behind the plane of face number `face`, or on it
+ * up to round-off. area[dim]: area vector of `face` [m^(dim - 1)]. */
 static bool face_is_behind(const struct hull *s, int32_t other, int32_t face, const real *area)
 {
     real above = -INFINITY, size2 = 0;
@@ -358,9 +363,9 @@ bool hull_point_is_within_distance(const struct hull *s, const real *X, real max
     return (hull_outside(s, X) ? distance : -distance) <= max_distance;
 }
 
-/* As hull_outside, for a point X at the distance `distance` > 0 [m] from the surface. Points along a line follow each
- * other: no face is between X and the last point of this thread if the balls around both that contain no face overlap,
- * and X is on the same side of a closed surface. */
+/* Returns true if X[dim] is outside the closed surface s, as hull_outside does, but faster for points that follow each
+ * other along a line. distance: distance of X from the surface, > 0 [m]. If the balls without faces around X and around
+ * the last point of this thread overlap, both points are on the same side, and the last result is used again. */
 static bool hull_outside_by_last_point(const struct hull *s, const real *X, real distance)
 {
     static _Thread_local struct {

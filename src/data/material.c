@@ -12,10 +12,10 @@ real bond_based_poisson_ratio(enum space space)
     return poisson[space];
 }
 
-/* Returns the micro-modulus c of bonds, computed such that bonds and continuum have equal energy densities under a
- * uniform expansion by the strain s. For bonds the energy density is 1/4 c s^2 family_sum. For the continuum it is 1/2
- * E s^2 (1D), 2 k s^2 (2D) or 9/2 k s^2 (3D), with the bulk modulus k of the space. family_sum: sum of length times
- * volume over the bonds of a full family [m^4]. */
+/* Returns the micro-modulus c of bonds (force per stretch and squared volume) [N/m^6] of material m, such that bonds
+ * and continuum have equal energy densities under a uniform expansion by the strain s. For bonds the energy density is
+ * 1/4 c s^2 family_sum. For the continuum it is 1/2 E s^2 (1D), 2 k s^2 (2D) or 9/2 k s^2 (3D), with the bulk modulus k
+ * of the space. family_sum: sum of length times volume over the bonds of a full family [m^4]. */
 real material_micro_modulus_of_discrete_family(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
@@ -23,9 +23,10 @@ real material_micro_modulus_of_discrete_family(const struct material *m, enum sp
     return factor[space_dim(space)] * m->bulk / family_sum;
 }
 
-/* Returns the micro-modulus c at which bonds and continuum have equal energy densities under a uniform expansion, with
- * the integral over the horizon in place of a sum over neighbours. horizon [m]; section: cross-section in 1D [m^2],
- * thickness in 2D [m]. */
+/* Returns the micro-modulus c of bonds (force per stretch and squared volume) [N/m^6] of material m at which bonds and
+ * continuum have equal energy densities under a uniform expansion, with the integral over the horizon in place of a sum
+ * over neighbours. horizon: length of the longest bonds [m]; section: cross-section in 1D [m^2], thickness in 2D [m],
+ * not used in 3D. */
 real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {
@@ -38,8 +39,9 @@ real material_micro_modulus_of_continuum(const struct material *m, enum space sp
     }
 }
 
-/* Returns the critical stretch s_c of bond-based models [1]: at s_c the energy of all bonds across a unit area
- * equals G_c (Silling & Askari 2005). horizon: of the bonds [m]. The thickness of a plate cancels. */
+/* Returns the critical stretch s_c of material m in bond-based models [1]: at s_c the energy of all bonds across a unit
+ * area equals the energy release rate G_c (Silling & Askari 2005). horizon: length of the longest bonds [m]. The
+ * thickness of a plate cancels. */
 static real critical_bond(const struct material *m, enum space space, real horizon)
 {
     real ratio = m->energy_release_rate / (m->bulk * horizon);
@@ -62,8 +64,8 @@ real material_critical_stretch(const struct material *m, enum space space, real 
     return sqrt(m->energy_release_rate / (horizon * stiffness));
 }
 
-/* Returns Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2 with a^2 = 1 - v^2/c^2 (Freund 1990), positive for
- * speeds v below the Rayleigh speed. longitudinal, shear: wave speeds c of a_d and a_s [m/s]. */
+/* Returns Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2 [1] at the speed v [m/s], with a^2 = 1 - v^2/c^2 (Freund
+ * 1990); positive for speeds below the Rayleigh speed. longitudinal, shear: wave speeds c in a_d and a_s [m/s]. */
 static real rayleigh_function(real v, real longitudinal, real shear)
 {
     real d2 = 1 - square(v / longitudinal), s2 = 1 - square(v / shear);
@@ -114,8 +116,8 @@ void material_compute_derived_constants(struct material *m, enum space space)
     m->rayleigh_speed = rayleigh_speed(m->wave_speed, m->shear_speed);
 }
 
-/* Fills the n x n matrix of an isotropic stiffness or compliance, with n symmetric components. diagonal, off:
- * entries of normal components, on and off the diagonal; shear: diagonal entry of shear components. */
+/* Fills matrix[n][n] with an isotropic stiffness or compliance, with n symmetric components in dim dimensions.
+ * diagonal, off: entries of normal components, on and off the diagonal; shear: diagonal entry of shear components. */
 static void isotropic_matrix(int dim, real diagonal, real off, real shear, real *matrix)
 {
     int n = symmetric_component_count(dim);

@@ -165,7 +165,7 @@ struct place {
     int32_t id, index;
 };
 
-/* Orders sort keys of particles by layer, row, position along x, id and index, for array_sort. */
+/* Compares two sort keys of particles (struct place) for array_sort: by layer, row, position along x, id and index. */
 static int compare_places(const void *left, const void *right)
 {
     const struct place *a = left, *b = right;
@@ -211,9 +211,9 @@ real particles_bounding_box_longest_edge(const struct particles *p)
     return longest;
 }
 
-/* Computes place[p->n], the sort keys of all particles. Rows and layers have the width `spacing` [m]. The borders
- * between rows are a quarter of the spacing below the particles of the first row: no row of a lattice is near a
- * border, so that round-off cannot split it. */
+/* Computes place[p->n], the sort keys of all particles of p, from their reference positions. Rows and layers have the
+ * width `spacing` [m]. The borders between rows are a quarter of the spacing below the particles of the first row: no
+ * row of a lattice is near a border, so that round-off cannot split it. */
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
     real low[DIM_MAX] = {0}, high;
@@ -235,7 +235,7 @@ static void permute(char *array, size_t size, const struct place *place, int64_t
     array_copy(array, scratch, n, size);
 }
 
-/* Returns true if the n sort keys `place` are in ascending order. */
+/* Returns true if the sort keys place[n] are in ascending order and no two are equal. */
 static bool in_order(const struct place *place, int64_t n)
 {
     bool sorted = true;
@@ -272,7 +272,7 @@ static bool eight_alike(const struct particles *p, int64_t i)
     return eight_bytes_are_equal(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
-/* Appends the `more` indices i .. i + more - 1 to list[*n], and increases *n by their number. */
+/* Appends the indices i .. i + more - 1 to the list, behind its first *n entries, and increases *n by `more`. */
 static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
 {
     for (int l = 0; l < more; l++) list[*n + l] = (int32_t)i + l;
@@ -292,7 +292,7 @@ void particles_rebuild_lists_by_kind(struct particles *p)
     }
 }
 
-/* Returns true if a particle is marked for conversion from material point to peridynamic particle: it lost a bond,
+/* Returns true if a particle of p is marked for conversion from material point to peridynamic particle: it lost a bond,
  * has a high stress, or is near another body. Eight particles are tested at a time; entries behind the last particle
  * are images, which never have these flags. */
 bool particles_any_is_flagged_for_conversion(const struct particles *p)

@@ -7,7 +7,7 @@
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance between the points a and b [dim]. */
+/* Returns the distance between the points a[dim] and b[dim] [m]. */
 static real distance_to(const real *a, const real *b, int dim)
 {
     real sum = 0;
@@ -15,7 +15,8 @@ static real distance_to(const real *a, const real *b, int dim)
     return sqrt(sum);
 }
 
-/* Computes the unit vector from a to b [dim] and returns their distance. A distance of 0 gives the vector 0. */
+/* Computes the unit vector `unit` from a[dim] to b[dim] [m] and returns the distance between both [m]. A distance of 0
+ * gives the vector 0. */
 static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
 {
     real length = distance_to(a, b, dim), divisor = length > 0 ? length : INFINITY;
@@ -47,8 +48,8 @@ bool region_compute_bounding_box_if_finite(const struct region *r, int dim, real
     return bounded;
 }
 
-/* Returns the volume of the region inside the box `lower` .. `upper` [m^dim], estimated as the share of sample
- * points that are inside. The points are a Kronecker sequence with the increments g^-1, g^-2, .., where g is the
+/* Returns the volume of the part of region r inside the box lower[dim] .. upper[dim] [m^dim], estimated as the share of
+ * sample points that are inside. The points are a Kronecker sequence with the increments g^-1, g^-2, .., where g is the
  * root of g^(dim+1) = g + 1 (Roberts 2018). */
 real region_volume_within_box(const struct region *r, int dim, const real *lower, const real *upper)
 {
@@ -119,8 +120,8 @@ real time_function_value(const struct time_function *f, real t)
     }
 }
 
-/* Returns the integral of the table f over the times 0 .. t [s], summed over its intervals. The table is constant
- * before its first and after its last entry. */
+/* Returns the integral of the table f over the times 0 .. t [s times the unit of the values]. The table is linear
+ * between its entries, and constant before its first and after its last entry. */
 static real table_integral(const struct time_function *f, real t)
 {
     real sum = 0, from = 0;
@@ -207,8 +208,8 @@ void crack_area_vector(const struct crack *c, real area[DIM_MAX])
     }
 }
 
-/* Computes the unit normal of the plane of a polygonal crack in 3D, and the length to which tolerances refer: the
- * largest distance of a corner from the first one. Returns false if the crack has no area. */
+/* Computes *plane for a polygonal crack c in 3D: the unit normal of its plane, and the length to which tolerances
+ * refer, the largest distance of a corner from the first one [m]. Returns false if the crack has no area. */
 static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
 {
     real area[DIM_MAX], zero[DIM_MAX] = {0};
@@ -218,9 +219,9 @@ static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
     return direction(zero, area, 3, plane->normal) > 0;
 }
 
-/* Computes the unit normal of a crack, a point (1D), line (2D) or plane (3D), and the length to which tolerances refer.
- * a, b: end points of a bond (dim components [m]), whose length is used in 1D. Returns false if the crack has no
- * extent. */
+/* Computes *plane for a crack c, a point (1D), line (2D) or plane (3D): its unit normal, and the length to which
+ * tolerances refer [m]. a[dim], b[dim]: end points of a bond [m], whose length is used in 1D. Returns false if the
+ * crack has no extent or too few corners. */
 static bool crack_plane(const struct crack *c, const real *a, const real *b, int dim, struct crack_plane *plane)
 {
     real along[DIM_MAX];
@@ -239,8 +240,9 @@ static bool crack_plane(const struct crack *c, const real *a, const real *b, int
     }
 }
 
-/* Returns true if point P of the crack's plane is inside the polygon of the crack or on its edge, up to a relative
- * tolerance of 1e-9. The polygon must be convex, since P must be on the inner side of every edge. */
+/* Returns true if the point P[3] of the crack's plane is inside the polygon of crack c or on its edge, up to a relative
+ * tolerance of 1e-9. The polygon must be convex, since P must be on the inner side of every edge. plane: plane of the
+ * crack (polygon_plane). */
 static bool polygon_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     for (int k = 0; k < c->n; k++) {
@@ -254,8 +256,8 @@ static bool polygon_holds(const struct crack *c, const struct crack_plane *plane
     return true;
 }
 
-/* Returns true if point P of the crack's line is inside the segment of the crack or at one of its ends, up to a
- * relative tolerance of 1e-9. */
+/* Returns true if the point P[2] of the crack's line is inside the segment of crack c or at one of its ends, up to a
+ * relative tolerance of 1e-9. plane: line of the crack (crack_plane). */
 static bool segment_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     real along[DIM_MAX];
@@ -264,7 +266,8 @@ static bool segment_holds(const struct crack *c, const struct crack_plane *plane
     return place >= -touch * plane->length && place <= (1 + touch) * plane->length;
 }
 
-/* Returns the distance of X[dim] from the crack's plane along its normal [m], negative on the other side. */
+/* Returns the distance of X[dim] from the line or plane of crack c along its normal [m], negative on the other side.
+ * plane: as computed by crack_plane. */
 static real region_height(const struct crack *c, const struct crack_plane *plane, const real *X, int dim)
 {
     real sum = 0;
@@ -272,8 +275,8 @@ static real region_height(const struct crack *c, const struct crack_plane *plane
     return sum;
 }
 
-/* Returns true if the bounding boxes of a crack and of the bond a-b (dim components [m]) are so far apart that the bond
- * certainly does not touch the crack. */
+/* Returns true if the bounding boxes of the crack c and of the bond from a[dim] to b[dim] [m] are so far apart that the
+ * bond certainly does not touch the crack. Always false in 1D. */
 static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
 {
     real low[DIM_MAX], high[DIM_MAX], size = 0;
@@ -327,8 +330,8 @@ bool crack_may_cut_bonds_near(const struct crack *c, const real *X, real bond_le
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* Returns velocity, displacement and strain of the wave w at X[dim] [m] at time 0. c: wave speed of the material
- * [m/s]. */
+/* Returns velocity [m/s], displacement [m] and strain [1] of the wave pulse w at X[dim] [m] at time 0. c: wave speed of
+ * the material [m/s]. */
 struct wave_state wave_pulse_initial_state(const struct wave_pulse *w, const real *X, real c, int dim)
 {
     const real root_of_pi = 1.77245385090551602730, radius = 0.25 * w->width;

@@ -51,9 +51,9 @@ static struct region_run region_run(const struct region *r, int j)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if at least one solid of a run has a level of at most `most` [m] at X[dim]. A run is a sequence of
- * solids that are all added or all subtracted. The level of a solid is <= 0 inside (solid_level_set_value); whether the
- * run is subtracted makes no difference here. s: first solid of the run. */
+/* Returns true if at least one solid of a run has a level (<= 0 inside, solid_level_set_value) of at most `most` [m] at
+ * X[dim]. A run is a sequence of solids that are all added or all subtracted; which of both makes no difference here.
+ * s: first solid of the run; run: number of solids, and a tree of their boxes. */
 static bool run_within(const struct solid *s, const struct region_run *run, const real *X, int dim, real most)
 {
     struct box_search near;
@@ -65,8 +65,8 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
     return within;
 }
 
-/* Returns the smallest level at X[dim] over the solids of the run (solids that are all added or all subtracted) [m].
- * The level of a solid is <= 0 inside (solid_level_set_value). s: first solid of the run. */
+/* Returns the smallest level (<= 0 inside, solid_level_set_value) at X[dim] over the solids of a run, which are all
+ * added or all subtracted [m]. s: first solid of the run; run: number of solids, and a tree of their boxes. */
 static real run_level(const struct solid *s, const struct region_run *run, const real *X, int dim)
 {
     struct box_search near;
@@ -78,9 +78,9 @@ static real run_level(const struct solid *s, const struct region_run *run, const
     return nearest;
 }
 
-/* Returns the signed distance of X[dim] from the nearest solid of the run (solids that are all added or all
- * subtracted) [m], negative inside, and stores the outward normal of that solid in normal[dim]. If several solids
- * are equally near, the first one counts. s: first solid of the run. */
+/* Returns the signed distance of X[dim] from the nearest solid of a run, whose solids are all added or all subtracted
+ * [m], negative inside. normal[dim]: receives the outward normal of that solid. If several solids are equally near, the
+ * first one counts. s: first solid of the run; run: number of solids, and a tree of their boxes. */
 static real run_distance(const struct solid *s, const struct region_run *run, const real *X, int dim, real *normal)
 {
     struct box_search near;
@@ -108,7 +108,7 @@ static real number_before(real x)
     return fabs(before) < DBL_MIN ? -DBL_MIN : before;
 }
 
-/* Returns true if X[dim] is in the region extended by `tolerance` [m]. The surface of a subtracted solid belongs to
+/* Returns true if X[dim] is in the region r extended by `tolerance` [m]. The surface of a subtracted solid belongs to
  * the region, and extending the region shrinks the hole: only points deeper than the tolerance in a subtracted solid
  * are outside. An empty region contains all points. */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance)

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Returns the quantile of the standard normal distribution for the probability `probability`, by algorithm AS 241
+/* Returns the quantile of the standard normal distribution for `probability`, 0 < probability < 1, by algorithm AS 241
  * (PPND7) of Wichura 1988, with seven digits. */
 real normal_distribution_quantile(real probability)
 {
@@ -26,8 +26,8 @@ real normal_distribution_quantile(real probability)
     return q < 0 ? -x : x;
 }
 
-/* Returns a number of the standard normal distribution that depends on `hash` alone: the quantile of its leading 53
- * bits. */
+/* Returns a number of the standard normal distribution that depends on `hash` alone: the quantile of a probability
+ * formed of its leading 53 bits. */
 static real noise_of(uint64_t hash) { return normal_distribution_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
 /* Number of lattice nodes along each axis that contribute to the field at a point. The lattice has the spacing

@@ -90,19 +90,19 @@ struct directions {
 
 /* Returns the force of a softening bond at the stretch s, divided by its stiffness, its weight and s_0 [1], where s is
  * in units of s_0, the stretch at which softening begins. The force equals s up to s = 1, then follows the softening
- * curve, and is 0 where the curve has ended. */
+ * curve of a, and is 0 where the curve has ended. */
 static real bond_tension(const struct directions *a, real s)
 {
     if (s <= 1) return s;
     return a->reach > 0 ? softening_curve_value(a->curve, (s - 1) / a->reach) : 0;
 }
 
-/* Returns the secant stiffness of a softening bond at the stretch s over its initial stiffness [1], where s is in units
- * of s_0, the stretch at which softening begins. */
+/* Returns the secant stiffness of a softening bond at the stretch s, divided by its initial stiffness [1], where s is
+ * in units of s_0, the stretch at which softening begins. a: softening curve. */
 static real bond_share(const struct directions *a, real s) { return s <= 1 ? 1 : bond_tension(a, s) / s; }
 
-/* Returns cos^2 of the angle between the axis of tension and direction number k of the quadrature over directions
- * [1]. */
+/* Returns cos^2 of the angle between the axis of tension and direction number k, 0 to DIRECTIONS - 1, of the quadrature
+ * over all directions of bonds in the space of a [1]. */
 static real direction_along(const struct directions *a, int k)
 {
     const real at = (k + 0.5) / DIRECTIONS;

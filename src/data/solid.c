@@ -8,7 +8,7 @@
 /* ---- boxes, balls, half-spaces ----------------------------------------------------------------------------------- */
 
 /* Returns the signed distance of the point at[dim] from a box about the origin with half edges half[dim], negative
- * inside [m], and the outward normal in normal[dim]. */
+ * inside [m]. normal[dim]: receives the outward normal of the nearest point of the surface. */
 static real box_surface(const real *at, const real *half, int dim, real *normal)
 {
     real out2 = 0, nearest = -INFINITY, beyond[DIM_MAX];
@@ -24,8 +24,8 @@ static real box_surface(const real *at, const real *half, int dim, real *normal)
     return out > 0 ? out : nearest;
 }
 
-/* Returns the signed distance of X[dim] from a box parallel to the axes, negative inside [m], and the outward normal in
- * normal[dim]. */
+/* Returns the signed distance of X[dim] from the box s (s->from to s->to, parallel to the axes), negative inside [m].
+ * normal[dim]: receives the outward normal. */
 static real box_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     real at[DIM_MAX], half[DIM_MAX];
@@ -36,8 +36,8 @@ static real box_from(const struct solid *s, const real *X, int dim, real *normal
     return box_surface(at, half, dim, normal);
 }
 
-/* Returns the level of a box at X[dim] [m], which is <= 0 inside: the largest of the signed distances of X from the
- * planes of its faces. */
+/* Returns the level of the box s at X[dim], <= 0 inside: the largest of the signed distances of X from the planes of
+ * its faces [m]. */
 static real box_level(const struct solid *s, const real *X, int dim)
 {
     real far = -INFINITY;
@@ -45,7 +45,8 @@ static real box_level(const struct solid *s, const real *X, int dim)
     return far;
 }
 
-/* Returns the support of a box in direction along[dim]: the maximum of X . along over its points X. */
+/* Returns the support of the box s in the direction along[dim]: the maximum of X . along over the points X of the
+ * box. */
 static real box_support(const struct solid *s, const real *along, int dim)
 {
     real sum = 0;
@@ -54,8 +55,8 @@ static real box_support(const struct solid *s, const real *along, int dim)
     return sum;
 }
 
-/* Returns the distance of X[dim] from the centre of the solid [m], and the unit vector from the centre to X in
- * normal[dim]; along x if X is the centre. */
+/* Returns the distance of X[dim] from s->centre [m]. normal[dim]: receives the unit vector from the centre to X; the x
+ * axis if X is the centre. */
 static real centre_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     real r2 = 0;
@@ -65,20 +66,22 @@ static real centre_from(const struct solid *s, const real *X, int dim, real *nor
     return r;
 }
 
-/* Returns the signed distance of X[dim] from a ball, negative inside [m], and the outward normal in normal[dim]. */
+/* Returns the signed distance of X[dim] from the ball s, negative inside [m]. normal[dim]: receives the outward
+ * normal. */
 static real ball_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     return centre_from(s, X, dim, normal) - s->radius;
 }
 
-/* Returns the support of a ball in direction along[dim]: the maximum of X . along over its points X. */
+/* Returns the support of the ball s in the direction along[dim]: the maximum of X . along over the points X of the
+ * ball. */
 static real ball_support(const struct solid *s, const real *along, int dim)
 {
     return dot(s->centre, along, dim) + s->radius * sqrt(dot(along, along, dim));
 }
 
-/* Returns the signed distance of X[dim] from the solid between the radii s->inner and s->radius, negative inside [m],
- * and the outward normal in normal[dim]. */
+/* Returns the signed distance of X[dim] from the ring or shell between the radii s->inner and s->radius about
+ * s->centre, negative inside [m]. normal[dim]: receives the outward normal of the solid. */
 static real ring_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     const real r = centre_from(s, X, dim, normal), out = r - s->radius, in = s->inner - r;
@@ -86,8 +89,8 @@ static real ring_from(const struct solid *s, const real *X, int dim, real *norma
     return real_max(out, in);
 }
 
-/* Returns the signed distance of X[dim] from a half-space, negative inside [m], and the outward normal in
- * normal[dim]. */
+/* Returns the signed distance of X[dim] from the half-space s, negative inside [m]. normal[dim]: receives the outward
+ * normal. s->normal must have a length. */
 static real half_space_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim));
@@ -99,8 +102,8 @@ static real half_space_from(const struct solid *s, const real *X, int dim, real 
     return above;
 }
 
-/* Returns the level of a half-space at X[dim] [m], which is <= 0 inside: the signed distance of X from its face.
- * Returns INFINITY if the normal of the half-space has no length. */
+/* Returns the level of the half-space s at X[dim], <= 0 inside: the signed distance of X from its face [m]; INFINITY if
+ * the normal of the half-space has no length. */
 static real half_space_level(const struct solid *s, const real *X, int dim)
 {
     real length = sqrt(dot(s->normal, s->normal, dim)), above = 0;
@@ -108,8 +111,8 @@ static real half_space_level(const struct solid *s, const real *X, int dim)
     return length > 0 ? above / length : INFINITY;
 }
 
-/* Returns the support of a half-space in direction along[dim]: the maximum of X . along over its points X. If
- * `along` does not have the direction of the outward normal, up to round-off, the support is INFINITY. */
+/* Returns the support of the half-space s in the direction along[dim]: the maximum of X . along over the points X of s;
+ * INFINITY if `along` does not have the direction of the outward normal, up to round-off. */
 static real half_space_support(const struct solid *s, const real *along, int dim)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim)), size = sqrt(dot(along, along, dim));
@@ -120,8 +123,8 @@ static real half_space_support(const struct solid *s, const real *along, int dim
 
 /* ---- bodies of revolution ---------------------------------------------------------------------------------------- */
 
-/* Returns the cylindrical coordinates of X relative to the middle of the axis s->from .. s->to: position along the
- * axis, distance from it, and the unit vectors of both directions. */
+/* Returns the cylindrical coordinates of X[3] relative to the middle of the axis s->from .. s->to: position along the
+ * axis and distance from it [m], and the unit vectors of both directions. */
 static struct axis_place axis_place_of(const struct solid *s, const real *X)
 {
     struct axis_place p = {0};
@@ -148,16 +151,16 @@ static struct axis_place axis_place_of(const struct solid *s, const real *X)
     return p;
 }
 
-/* Computes normal[3] from in_plane[2], the components of a normal along the axis of the solid and away from that
- * axis. */
+/* Computes normal[3] in the axes of space from in_plane[2], its components along the axis of a solid and away from that
+ * axis. p: cylindrical coordinates of the point, with the unit vectors of both directions. */
 static void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal)
 {
     for (int d = 0; d < DIM_MAX; d++) normal[d] = in_plane[0] * p->axis[d] + in_plane[1] * p->out[d];
 }
 
-/* Returns the signed distance of X[3] from a cylinder or tube [m], negative inside, and stores its outward normal in
- * normal[3]. In the half-plane through axis and X the solid is a box from the radius `inner` to s->radius; for a
- * cylinder, `inner` is -s->radius. */
+/* Returns the signed distance of X[3] from a cylinder or tube s, negative inside [m]. normal[3]: receives the outward
+ * normal. In the half-plane through axis and X the solid is a box from the radius `inner` to s->radius; for a cylinder,
+ * `inner` is -s->radius. */
 static real pipe_from(const struct solid *s, const real *X, real inner, real *normal)
 {
     const struct axis_place p = axis_place_of(s, X);
@@ -169,22 +172,24 @@ static real pipe_from(const struct solid *s, const real *X, real inner, real *no
     return distance;
 }
 
-/* Returns the signed distance of X[3] from a cylinder, negative inside [m], and the outward normal in normal[3]. */
+/* Returns the signed distance of X[3] from the cylinder s, negative inside [m]. normal[3]: receives the outward
+ * normal. */
 static real cylinder_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
     return pipe_from(s, X, -s->radius, normal);
 }
 
-/* Returns the signed distance of X[3] from a tube with the radii s->inner and s->radius, negative inside [m], and the
- * outward normal in normal[3]. */
+/* Returns the signed distance of X[3] from the tube s with the radii s->inner and s->radius, negative inside [m].
+ * normal[3]: receives the outward normal. */
 static real tube_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
     return pipe_from(s, X, s->inner, normal);
 }
 
-/* Computes the unit vector from a to b [dim] and returns their distance. A distance of 0 gives the vector 0. */
+/* Computes the unit vector `unit` from a[dim] to b[dim] [m] and returns the distance between both [m]. A distance of 0
+ * gives the vector 0. */
 static real solid_direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
 {
     real sum = 0;
@@ -194,8 +199,8 @@ static real solid_direction(const real *a, const real *b, int dim, real unit[DIM
     return length;
 }
 
-/* Returns the level of a cylinder at X[dim] [m], which is <= 0 inside: the larger of the signed distances of X from its
- * mantle and from the planes of its ends. */
+/* Returns the level of the cylinder s at X[dim], <= 0 inside: the larger of the signed distances of X from its mantle
+ * and from the planes of its ends [m]. */
 static real cylinder_level(const struct solid *s, const real *X, int dim)
 {
     real axis[DIM_MAX], arm[DIM_MAX], length = solid_direction(s->from, s->to, dim, axis);
@@ -205,8 +210,8 @@ static real cylinder_level(const struct solid *s, const real *X, int dim)
     return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
 }
 
-/* Returns the support of a disc in direction along[3]: the maximum of X . along over its points X. The disc has its
- * middle at `centre` and is normal to the axis of the solid s. radius: of the disc [m]. */
+/* Returns the support of a disc in the direction along[3]: the maximum of X . along over its points X. The disc has its
+ * middle at centre[3] [m], has `radius` [m] and is normal to the axis of the solid s. */
 static real end_support(const struct solid *s, const real *centre, real radius, const real *along)
 {
     real axis[DIM_MAX];
@@ -221,8 +226,9 @@ static real cylinder_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->radius, along));
 }
 
-/* Returns the signed distance of X[3] from a cone, negative inside [m], and the outward normal in normal[3]. Both
- * follow from its section in the plane through axis and X: a trapezoid, or a triangle if the cone ends in a point. */
+/* Returns the signed distance of X[3] from the cone s, negative inside [m]. normal[3]: receives the outward normal.
+ * Both follow from the section of the cone in the plane through axis and X: a trapezoid, or a triangle if the cone ends
+ * in a point. */
 static real cone_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -246,8 +252,8 @@ static real cone_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->inner, along));
 }
 
-/* Returns the signed distance of X[3] from a torus, negative inside [m], and the outward normal in normal[3]. The torus
- * has a round section of radius s->inner along the circle of radius s->radius about the axis s->normal. */
+/* Returns the signed distance of X[3] from the torus s, negative inside [m]. normal[3]: receives the outward normal.
+ * The torus has a round section of radius s->inner along the circle of radius s->radius about the axis s->normal. */
 static real torus_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     struct solid line = {0};
@@ -272,7 +278,8 @@ static real torus_support(const struct solid *s, const real *along, int dim)
 
 /* ---- polygons, ellipsoids, extrusions, groups -------------------------------------------------------------------- */
 
-/* Returns the signed distance of X[2] from a polygon, negative inside [m], and the outward normal in normal[2]. */
+/* Returns the signed distance of X[2] from the polygon s->polygon, negative inside [m]. normal[2]: receives the outward
+ * normal. */
 static real polygon_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -299,8 +306,8 @@ static void plane_axes(const struct solid *s, int axes[2])
     axes[1] = s->axis == 2 ? 1 : 2;
 }
 
-/* Returns the signed distance of X[3] from an extrusion of a plane region along an axis, negative inside [m], and the
- * outward normal in normal[3]. */
+/* Returns the signed distance of X[3] from the extrusion s of the plane region s->region along the axis s->axis,
+ * negative inside [m]. normal[3]: receives the outward normal. */
 static real extrusion_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     int axes[2];
@@ -317,8 +324,8 @@ static real extrusion_from(const struct solid *s, const real *X, int dim, real *
     return outside > 0 ? outside : real_max(across, along);
 }
 
-/* Returns the level of X[3] for an extrusion [m], <= 0 inside: the larger of the level of its plane region and the
- * signed distance from its ends. */
+/* Returns the level of the extrusion s at X[3], <= 0 inside: the larger of the level of its plane region and the signed
+ * distance from its ends [m]. */
 static real extrusion_level(const struct solid *s, const real *X, int dim)
 {
     int axes[2];
@@ -328,7 +335,7 @@ static real extrusion_level(const struct solid *s, const real *X, int dim)
     return real_max(region_level_set_value(&s->region, flat, 2), real_max(s->begin - X[s->axis], X[s->axis] - s->end));
 }
 
-/* Returns true if the level of X[3] for an extrusion, <= 0 inside, is at most `most` [m]. */
+/* Returns true if the level of the extrusion s at X[3], <= 0 inside, is at most `most` [m]. */
 static bool extrusion_within(const struct solid *s, const real *X, int dim, real most)
 {
     int axes[2];
@@ -380,8 +387,8 @@ static real hull_reach(const struct solid *s, const real *along, int dim)
     return hull_support_function(s->hull, along) + s->radius * sqrt(dot(along, along, dim));
 }
 
-/* Returns true if the signed distance of X[3] from the solid bounded by a surface, extended by s->radius, is at most
- * `most` [m]. */
+/* Returns true if the signed distance of X[3] from the solid s bounded by the surface s->hull, extended by s->radius
+ * [m], is at most `most` [m]. */
 static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
 {
     (void)dim;
@@ -401,8 +408,8 @@ static real voxels_level(const struct solid *s, const real *X, int dim)
     return voxel_part_signed_distance(s->voxels, X, NULL);
 }
 
-/* Returns the support in direction along[dim] of the box of the whole voxel image: the maximum of X . along over its
- * points X. */
+/* Returns the support in the direction along[dim] of the box of the whole voxel image to which s belongs: the maximum
+ * of X . along over the points X of the box. */
 static real voxels_reach(const struct solid *s, const real *along, int dim)
 {
     const struct voxels *v = s->voxels->of;

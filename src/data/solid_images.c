@@ -21,7 +21,8 @@ static void sine_cosine(real angle, real *sine, real *cosine)
     *sine = sines[at], *cosine = cosines[at];
 }
 
-/* Computes the rotation matrix R about the axis of motion m by an angle [rad] (Rodrigues' formula); in 2D about z. */
+/* Computes the rotation matrix R about the axis of motion m by `angle` [rad] (Rodrigues' formula); in 2D (dim = 2)
+ * about z. */
 static void solid_rotation(const struct solid_motion *m, real angle, int dim, real R[DIM_MAX][DIM_MAX])
 {
     real k[DIM_MAX] = {0, 0, 1}, s, c;
@@ -43,7 +44,7 @@ static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_M
 }
 
 /* Returns the placement of a copy of a solid that results from the placement `from` by rotation or reflection with the
- * matrix R about the point about[dim] [m]. */
+ * matrix R about the point about[dim] [m]. A placement has a rotation and a shift. */
 static struct placement image_turned(const struct placement *from, real R[DIM_MAX][DIM_MAX], const real *about, int dim)
 {
     struct placement to = {0};
@@ -56,7 +57,8 @@ static struct placement image_turned(const struct placement *from, real R[DIM_MA
     return to;
 }
 
-/* Returns the placement of copy number k of a solid that the motion m makes from the placement `from`. */
+/* Returns the placement (rotation and shift) of copy number k, from 0, of a solid that the motion m makes from the
+ * placement `from`. dim: number of dimensions. */
 static struct placement image_made(const struct placement *from, const struct solid_motion *m, int k, int dim)
 {
     struct placement to = *from;
@@ -77,7 +79,8 @@ static struct placement image_made(const struct placement *from, const struct so
     return stays ? to : image_turned(from, R, m->about, dim);
 }
 
-/* Returns the number of copies that the motion m makes of one solid. */
+/* Returns the number of copies that the motion m makes of one solid, the original included if it is kept. It is a real
+ * number, as counts of scenes may exceed the integers. dim: number of dimensions. */
 static real motion_count(const struct solid_motion *m, int dim)
 {
     real count = 1;
@@ -88,8 +91,8 @@ static real motion_count(const struct solid_motion *m, int dim)
 
 /* ---- one copy ---------------------------------------------------------------------------------------------------- */
 
-/* Rotates the vector b[dim] back to the coordinates in which the solid was described: to = turn^T b, with the rotation
- * `turn` of the placement i. */
+/* Rotates the vector b[dim] back to the coordinates in which a solid was described: to[dim] = turn^T b, with the
+ * rotation `turn` of the placement i of a copy of the solid. */
 static void turn_back(const struct placement *i, const real *b, int dim, real *to)
 {
     for (int c = 0; c < dim; c++) {
@@ -98,8 +101,8 @@ static void turn_back(const struct placement *i, const real *b, int dim, real *t
     }
 }
 
-/* Returns the support in direction along[dim] of one copy of a solid, with placement i: the maximum of X . along
- * over its points X. */
+/* Returns the support in the direction along[dim] of the copy of solid s with placement i (rotation and shift): the
+ * maximum of X . along over the points X of the copy. */
 static real image_support(const struct solid *s, const struct placement *i, const real *along, int dim)
 {
     real own[DIM_MAX] = {0};
@@ -107,8 +110,8 @@ static real image_support(const struct solid *s, const struct placement *i, cons
     return solid_types[s->kind].support(s, own, dim) + dot(i->shift, along, dim);
 }
 
-/* Computes the position to[dim] of X[dim] in the coordinates in which the solid was described: to = turn^T (X - shift)
- * with the placement i of a copy. */
+/* Computes to[dim], the position X[dim] in the coordinates in which a solid was described [m]: to = turn^T (X - shift)
+ * with the placement i (rotation `turn` and shift) of a copy of the solid. */
 static void place_back(const struct placement *i, const real *X, int dim, real *to)
 {
     real off[DIM_MAX];
@@ -116,8 +119,8 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* Returns the largest amount [m] by which the level of solid s at a point can be below the distance of the point from
- * the bounding box of s. (The level of a solid is <= 0 inside, see solid_level_set_value.) It is 0 for most solids, the
+/* Returns the largest amount by which the level of solid s at a point can be below the distance of the point from the
+ * bounding box of s [m]. (The level of a solid is <= 0 inside, see solid_level_set_value.) It is 0 for most solids, the
  * size of a voxel for voxel images, whose levels refer to voxel centres, and INFINITY for a surface with holes, for
  * which points far from it can count as inside. */
 static real box_slack(const struct solid *s, int dim)
@@ -129,8 +132,9 @@ static real box_slack(const struct solid *s, int dim)
     return slack;
 }
 
-/* Computes the bounding box of the copy of a solid with placement i, or of all its copies if i is NULL, enlarged by
- * more than round-off and by box_slack, so that no point with a level <= 0 is outside. */
+/* Computes *box, the bounding box of the copy of solid s with placement i (rotation and shift), or of all its copies if
+ * i is NULL, enlarged by more than round-off and by box_slack, so that no point with a level <= 0 is outside. dim:
+ * number of dimensions. */
 static void placement_box(const struct solid *s, const struct placement *i, int dim, struct bounds *box)
 {
     const real slack = box_slack(s, s->kind == SOLID_EXTRUSION ? 2 : dim);
@@ -177,8 +181,8 @@ bool solid_apply_motion_if_not_too_many_copies(struct solid *s, const struct sol
 
 /* ---- all copies -------------------------------------------------------------------------------------------------- */
 
-/* Returns the signed distance of X[dim] from the nearest copy of the solid, negative inside [m], and its outward normal
- * in normal[dim]. If several copies are equally near, the first one counts. */
+/* Returns the signed distance of X[dim] from the nearest copy of the solid s, negative inside [m]. normal[dim]:
+ * receives the outward normal of this copy. If several copies are equally near, the first one counts. */
 real solid_signed_distance(const struct solid *s, const real *X, int dim, real *normal)
 {
     real nearest = INFINITY, own[DIM_MAX], at[DIM_MAX];
@@ -201,8 +205,8 @@ real solid_signed_distance(const struct solid *s, const real *X, int dim, real *
     return nearest;
 }
 
-/* Returns the level of solid s at X[dim] [m], without its motions and copies: X is in the coordinates in which the
- * solid was described. The level is <= 0 inside the solid. */
+/* Returns the level of the undisplaced solid s at X[dim], <= 0 inside [m]. X is in the coordinates in which the solid
+ * was described; motions and copies of the solid do not count. */
 static real image_level(const struct solid *s, const real *X, int dim)
 {
     const struct solid_type *type = &solid_types[s->kind];
@@ -223,8 +227,8 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim)
     return nearest;
 }
 
-/* Returns true if the level of solid s at X[dim] is at most `most` [m], without its motions and copies: X is in the
- * coordinates in which the solid was described. The level is <= 0 inside the solid. */
+/* Returns true if the level of the undisplaced solid s at X[dim], <= 0 inside, is at most `most` [m]. X is in the
+ * coordinates in which the solid was described; motions and copies of the solid do not count. */
 static bool image_within(const struct solid *s, const real *X, int dim, real most)
 {
     const struct solid_type *type = &solid_types[s->kind];

@@ -24,8 +24,8 @@ struct nearest {
     bool at_corner;
 };
 
-/* Updates n, the point of the outline nearest to X[2] so far, with the edge a-b of a polygon if this is nearer. sense:
- * 1 if the corners are in counter-clockwise order, else -1. */
+/* Updates n, the nearest point of a polygon's outline to X[2] so far, with the edge from a[2] to b[2] if this is
+ * nearer. sense: 1 if the corners of the polygon are in counter-clockwise order, else -1. */
 static void edge_nearest(struct nearest *n, const real *a, const real *b, real sense, const real *X)
 {
     real along[2], arm[2], foot[2];
@@ -42,8 +42,8 @@ static void edge_nearest(struct nearest *n, const real *a, const real *b, real s
         r2, {foot[0], foot[1]}, {sense * along[1] / length, -sense * along[0] / length}, within != share};
 }
 
-/* Returns true if the polygon is convex at a round corner. b: its arc; corner: its sharp position; sense: 1 if the
- * corners are in counter-clockwise order, else -1. */
+/* Returns true if a polygon is convex at a rounded corner. b: arc of the corner; corner[2]: position of the corner
+ * before rounding; sense: 1 if the corners are in counter-clockwise order, else -1. */
 static bool bend_convex(const struct bend *b, const real *corner, real sense)
 {
     real in[2], out[2];
@@ -63,8 +63,8 @@ static bool bend_contains(const struct bend *b, const real *arm)
     return turn != 0 && turn * cross2(from, arm) >= 0 && turn * cross2(arm, to) >= 0;
 }
 
-/* Updates n, the point of the outline nearest to X[2] so far, with the arc that rounds corner k of the polygon p if
- * this is nearer. */
+/* Updates n, the nearest point of the outline of polygon p to X[2] so far, with the arc that rounds corner k if this is
+ * nearer. */
 static void bend_nearest(struct nearest *n, const struct polygon *p, int k, const real *X)
 {
     real arm[2];
@@ -79,8 +79,8 @@ static void bend_nearest(struct nearest *n, const struct polygon *p, int k, cons
                           false};
 }
 
-/* Returns true if X[2] is between corner k and the arc that rounds it. Only in this region do the polygons with sharp
- * and with round corners differ. */
+/* Returns true if X[2] is between corner k of the polygon p and the arc that rounds it. Only in this region do the
+ * polygons with sharp and with round corners differ. */
 static bool bend_cuts(const struct polygon *p, int k, const real *X)
 {
     real arm[2];
@@ -100,7 +100,7 @@ static bool bend_cuts(const struct polygon *p, int k, const real *X)
     return true;
 }
 
-/* Returns true if the ray from X[2] in the direction of +x crosses the edge a-b. */
+/* Returns true if the ray from X[2] in the direction of +x crosses the edge from a[2] to b[2]. */
 static bool edge_crossed(const real *a, const real *b, const real *X)
 {
     if ((a[1] > X[1]) == (b[1] > X[1])) return false;
@@ -145,7 +145,7 @@ real polygon_support_function(const struct polygon *p, const real *direction)
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the edges a-b and c-d have a common point. */
+/* Returns true if the edges from a[2] to b[2] and from c[2] to d[2] have a common point. */
 static bool edges_meet(const real *a, const real *b, const real *c, const real *d)
 {
     real ab[2], cd[2], ac[2], ad[2], ca[2], cb[2];
@@ -160,8 +160,8 @@ static bool edges_meet(const real *a, const real *b, const real *c, const real *
     return left * right <= 0 && under * over <= 0;
 }
 
-/* Checks the edges of a polygon: adjacent edges must have a length and must not fold back on each other, others must
- * not meet. Returns the fault, or POLYGON_FINE. *corner: receives the corner at which the faulty edge begins. */
+/* Checks the edges of the polygon p: adjacent edges must have a length and must not fold back on each other, others
+ * must not meet. *corner: receives the corner at which the faulty edge begins. Returns the fault, or POLYGON_FINE. */
 static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
 {
     real(*c)[2] = p->corner, one[2], two[2];
@@ -183,7 +183,8 @@ static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
     return POLYGON_FINE;
 }
 
-/* Computes the arc that rounds corner k. Returns the length by which it shortens both edges at the corner [m]. */
+/* Computes p->bend[k], the arc that rounds corner k of the polygon p. Returns the length by which the arc shortens both
+ * edges at the corner [m]. The edges must not be collinear. */
 static real bend_make(struct polygon *p, int k)
 {
     const real *at = p->corner[k], *before = p->corner[(k + p->n - 1) % p->n], *after = p->corner[(k + 1) % p->n];
@@ -203,7 +204,7 @@ static real bend_make(struct polygon *p, int k)
     return take;
 }
 
-/* Returns true if the edges at corner k are collinear, so that the corner cannot be rounded. */
+/* Returns true if the edges at corner k of the polygon p are collinear, so that the corner cannot be rounded. */
 static bool is_straight(const struct polygon *p, int k)
 {
     real in[2], out[2];
@@ -212,8 +213,8 @@ static bool is_straight(const struct polygon *p, int k)
     return fabs(cross2(in, out)) <= 1e-9 * sqrt(dot(in, in, 2) * dot(out, out, 2));
 }
 
-/* Computes the arcs of all corners. Returns POLYGON_TIGHT if two arcs overlap on an edge, and stores the corner at
- * which this edge begins in *corner; else POLYGON_FINE. */
+/* Computes the arcs of all corners of the polygon p in p->bend, which is allocated. Returns POLYGON_TIGHT if two arcs
+ * overlap on an edge, and stores the corner at which this edge begins in *corner; else POLYGON_FINE. */
 static enum polygon_fault bends_make(struct polygon *p, int *corner)
 {
     p->bend = NEW("solids.bend", p->n, struct bend);

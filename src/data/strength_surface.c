@@ -3,8 +3,8 @@
 
 #include "data/material.h"
 
-/* Returns the Drucker-Prager surface with the coefficient g1 [1] that passes through the tensile strength `tension`
- * [Pa]. */
+/* Returns the Drucker-Prager surface with the coefficient g1 of the mean stress [1] that passes through the tensile
+ * strength `tension` [Pa]. */
 static struct strength_surface surface_through(real tension, real g1)
 {
     return (struct strength_surface){tension * (1 / sqrt(3) + g1), g1};
@@ -41,16 +41,16 @@ real strength_surface_strength_along(const struct strength_surface *s, const rea
 }
 
 /* Sets stress[2], the principal stress normal to the plane, from stress[0] and stress[1] [Pa]: 0 in plane stress, nu
- * (stress[0] + stress[1]) in plane strain. */
+ * (stress[0] + stress[1]) in plane strain, with Poisson's ratio nu of material m. Unchanged in other spaces. */
 static void complete_state(const struct material *m, enum space space, real *stress)
 {
     if (space == SPACE_PLANE_STRESS) stress[2] = 0;
     if (space == SPACE_PLANE_STRAIN) stress[2] = m->poisson * (stress[0] + stress[1]);
 }
 
-/* Returns the largest principal strain of a stress state of fixed direction when it reaches the strength surface of
- * material m, for the elasticity of the space [1]. Returns INFINITY if it never does. stress[3]: principal stresses
- * that give the direction; in a plane, the one normal to it is computed and stored. */
+/* Returns the largest principal strain that a stress state of fixed direction has when it reaches the strength surface
+ * (failure criterion in stress) of material m, for the elasticity of the space [1]; INFINITY if it never does.
+ * stress[3]: principal stresses that give the direction; in a plane, the one normal to it is computed and stored. */
 static real largest_strain(const struct material *m, enum space space, real *stress)
 {
     const int dim = space_dim(space);

@@ -46,8 +46,8 @@ static bool solid_convex_near(const struct solid *s, const real *X, real reach)
     return solid_convex(s);
 }
 
-/* Extends the box from[], to[] by the box s if their union is a box, and returns true. Else returns false and
- * changes nothing. */
+/* Extends the box from[] .. to[] [m] by the box s if the union of both is a box, and returns true. Else returns false
+ * and changes nothing. */
 static bool box_joins(real *from, real *to, const struct solid *s)
 {
     int axis = -1;
@@ -83,8 +83,8 @@ bool region_may_have_voids(const struct region *r)
 /* ---- along a line ------------------------------------------------------------------------------------------------ */
 
 /* Returns a lower bound of the signed distance of X[dim] from the surface of body number `body`, negative inside [m];
- * -INFINITY if the body has no shape, since then nothing is outside it. A position beyond a plane of symmetry counts as
- * its mirror image. */
+ * -INFINITY if the body has no shape, since then nothing is outside it. v: shapes of the bodies. A position beyond a
+ * plane of symmetry counts as its mirror image. */
 static real void_level(const struct voids *v, int body, const real *X)
 {
     real at[DIM_MAX] = {0}, level = INFINITY;
@@ -104,15 +104,15 @@ struct void_line {
     real along[DIM_MAX], length;
 };
 
-/* Computes the point X[dim] of the segment l at the distance `at` [m] from its start. */
+/* Computes X[v->dim], the point of the segment l at the distance `at` from its start [m]. */
 static void line_place(const struct voids *v, const struct void_line *l, real at, real *X)
 {
     for (int d = 0; d < v->dim; d++) X[d] = l->from[d] + at * l->along[d];
 }
 
 /* Returns the length of the first part of the segment l that is inside body number `body` [m]; l->length if all of it
- * is. Steps along the segment by the lower bound of the distance from the surface, so that no surface is skipped
- * (sphere tracing). */
+ * is. v: shapes of the bodies. Steps along the segment by the lower bound of the distance from the surface, so that no
+ * surface is skipped (sphere tracing). */
 static real line_inside(const struct voids *v, int body, const struct void_line *l)
 {
     real at = 0;
@@ -126,8 +126,8 @@ static real line_inside(const struct voids *v, int body, const struct void_line 
     return l->length;
 }
 
-/* Computes normal[dim], the direction in which the distance from body number `body` increases fastest, at the distance
- * `at` [m] from the start of the segment l, by central differences. It is not normalised. */
+/* Computes normal[v->dim], the direction in which the distance from body number `body` increases fastest, at the
+ * distance `at` [m] from the start of the segment l, by central differences. It is not normalised. */
 static void line_normal(const struct voids *v, int body, const struct void_line *l, real at, real *normal)
 {
     const real step = 1e-4 * v->spacing;
@@ -201,10 +201,11 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns the solids of its body that contain particle i, but for a seam, and are convex near it, as one bit each. Two
- * particles at most `reach` [m] apart have no void between them if they have a bit in common. Returns ALONE instead if
- * the particle is in such a solid and no other solid of the body is within `reach`. Returns 0 if a subtracted or
- * intersected solid is that near, or if the body has more than SOLIDS_MOST solids. */
+/* Returns a bit for each solid of the body of particle i that contains the particle, but for a seam, and is convex near
+ * it. Two particles at most `reach` [m] apart have no void between them if they have a bit in common. Returns ALONE
+ * instead if the particle is in such a solid and no other solid of the body is within `reach`. Returns 0 if a
+ * subtracted or intersected solid is that near, or if the body has more than SOLIDS_MOST solids. v: shapes of the
+ * bodies. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     real X[DIM_MAX] = {0};

@@ -15,8 +15,8 @@ void voxels_free(struct voxels *v)
     *v = (struct voxels){0};
 }
 
-/* Returns the index along axis d of the voxel that contains X[dim], limited to -1 .. n where n is the number of voxels,
- * so that it fits an integer. */
+/* Returns the index along axis d of the voxel of v that contains X[dim] [m], limited to -1 .. n, where n is the number
+ * of voxels, so that it fits an integer. */
 static int64_t voxel_along(const struct voxels *v, const real *X, int d)
 {
     const real at = floor((X[d] - v->from[d]) / v->size[d] + BORDER);
@@ -36,9 +36,9 @@ int voxels_grey_value(const struct voxels *v, const real *X)
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
-/* Replaces the n entries of f along one line, `stride` apart, by squared distances: f[p] = min over q of (size (p -
- * q))^2 + f[q]. This is the lower envelope of parabolas (Felzenszwalb & Huttenlocher 2012). size: edge of a voxel
- * along the line [m]; room[3 n + 1]: working memory. */
+/* Replaces n entries of f along one line, `stride` apart, by squared distances [m^2]: f[p] = min over q of (size (p -
+ * q))^2 + f[q]. This is the lower envelope of parabolas (Felzenszwalb & Huttenlocher 2012). size: edge of a voxel along
+ * the line [m]; room[3 n + 1]: working memory. */
 static void line_distances(float *f, int64_t n, int64_t stride, real size, real *room)
 {
     real *border = room, *value = room + n + 1, *foot = value + n;
@@ -63,8 +63,8 @@ static void line_distances(float *f, int64_t n, int64_t stride, real size, real 
     }
 }
 
-/* Stores in n[3] the numbers of voxels along each axis of the padded grid: the image with one more voxel on each
- * side. Returns their product. */
+/* Stores in n[3] the numbers of voxels along each axis of the padded grid of v: the image with one more voxel on each
+ * side. Returns their product, the number of voxels of this grid. */
 static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
 {
     int64_t all = 1;
@@ -72,8 +72,8 @@ static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
     return all;
 }
 
-/* Computes the squared distance of each voxel of the padded grid from the nearest voxel with f = 0, in f [m^2], axis by
- * axis. On entry f is 0 or infinite. The padded grid is the image with one more voxel on each side. */
+/* Computes in f [m^2] the squared distance of each voxel of the padded grid (the image v with one more voxel on each
+ * side) from the nearest voxel with f = 0, axis by axis. On entry f is 0 or infinite. */
 static void grid_distances(const struct voxels *v, float *f)
 {
     int64_t n[DIM_MAX], stride = 1, all = padded(v, n);
@@ -91,7 +91,8 @@ static void grid_distances(const struct voxels *v, float *f)
     }
 }
 
-/* Returns true if a grey value is in one of the ranges of p. */
+/* Returns true if the grey value `grey` is in one of the ranges of p, so that its voxels belong to this part of the
+ * image. */
 static bool grey_in(const struct voxel_part *p, int grey)
 {
     bool in = false;
@@ -144,7 +145,7 @@ static int64_t level_index(const struct voxels *v, const real *X, int direction,
     return at;
 }
 
-/* Returns the distance of X[dim] from the box of the image [m]; 0 inside. */
+/* Returns the distance of X[dim] from the box of the image v [m]; 0 inside the box. */
 static real box_beyond(const struct voxels *v, const real *X)
 {
     real sum = 0;
