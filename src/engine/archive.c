@@ -58,8 +58,8 @@ static status kernels_archive(struct warnings *to, struct archive *a)
 }
 
 /* Saves which mesh cells are hollow to the archive a. Hollow cells are inside a body and have no particles, because
- * coarse cells replace them. They are restored before the rest of the checkpoint (restore.c). Returns FAILED if the
- * archive cannot be written. */
+ * coarse cells replace them. h: marks of these cells; h->absent is NULL if there are none. They are restored before the
+ * rest of the checkpoint (restore.c). Returns FAILED if the archive cannot be written. */
 static status hollow_save(const struct cells_without_particles *h, struct archive *a)
 {
     int64_t n = h->absent ? h->box.n : 0;
@@ -67,8 +67,8 @@ static status hollow_save(const struct cells_without_particles *h, struct archiv
     return n > 0 ? a->exchange(a, "hollow/absent", h->absent, (size_t)n) : OK;
 }
 
-/* Saves time, step number, number of steps and time step of a run to the archive a if a->saving is true, else restores
- * them from it. Returns FAILED if the archive cannot be written or lacks one of them. */
+/* Saves time, step number, number of steps and time step of the clock c of a run to the archive a if a->saving, else
+ * restores them. Returns FAILED if the archive cannot be read or written or lacks one of them. */
 static status clock_archive(struct run_clock *c, struct archive *a)
 {
     ARCHIVE_VALUE(a, "engine/t", c->t);
@@ -90,7 +90,7 @@ static status body_save(struct cells_without_particles *hollow, struct particles
 
 /* Restores the particles and bonds of run e from the archive a, and rebuilds from them what is not stored: lists of
  * particles, coupling, mesh and coarse cells. Returns FAILED, with a message, if an entry is missing or a particle has
- * an impossible state. */
+ * an impossible state; e then is incomplete and can only be freed. */
 static status body_restore(struct run *e, struct archive *a)
 {
     TRY(particles_save_or_load(&e->part, e->optional, a));

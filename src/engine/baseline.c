@@ -8,8 +8,8 @@
 #include "step/report.h"
 #include "step/step.h"
 
-/* Returns true if the scene requires a reference run, which is made with material points alone: it has a PULSE probe
- * and does not itself consist of material points alone. */
+/* Returns true if scene s requires a reference run, which is made with material points alone: it has a PULSE probe and
+ * its method is not material points alone. */
 static bool wanted(const struct scene *s)
 {
     for (int k = 0; k < s->probes; k++)

@@ -27,9 +27,9 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Computes the critical stretch of bonds for each pair of materials, from the fracture energy of the weaker material or
- * of an interface between bodies; INFINITY in static problems, in which no bond breaks. Allocates the table
- * tables->pair_stretch [materials][materials], to which *source then refers. */
+/* Computes the critical stretch of bonds for each pair of materials of scene s, from the fracture energy of the weaker
+ * material or of an interface between bodies; INFINITY in static problems, in which no bond breaks. Allocates the table
+ * tables->pair_stretch [materials][materials], to which source->limit then refers. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
@@ -49,7 +49,8 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
     if (scene_is_single_equilibrium(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
 }
 
-/* Sets the softening law of bonds for each pair of materials in *tables and *source. A bond between two materials
+/* Sets the softening law of bonds for each pair of materials of scene s: in tables->pair_softening
+ * [materials][materials], which is allocated, and in source->limit, which refers to it. A bond between two materials
  * softens like that material which begins to soften at the smaller stretch. Does nothing if no material softens. */
 static void make_softening(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
@@ -72,10 +73,11 @@ static void make_softening(const struct scene *s, struct material_tables *tables
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
 }
 
-/* Computes the yield stretch s_y = sigma_y/E and the hardening H_b/k_e = H/E of bonds for each pair of materials in
- * *tables and *source, with yield stress sigma_y, Young's modulus E and plastic modulus H of that material which yields
- * first. (H_b: hardening modulus, k_e: elastic stiffness of a bond.) A bar of one material then has the uniaxial
- * stress-strain curve of that material. Does nothing if no material yields. */
+/* Computes the yield stretch s_y = sigma_y/E and the hardening H_b/k_e = H/E of bonds for each pair of materials of
+ * scene s, with yield stress sigma_y, Young's modulus E and plastic modulus H of that material which yields first.
+ * (H_b: hardening modulus, k_e: elastic stiffness of a bond.) A bar of one material then has the uniaxial stress-strain
+ * curve of that material. The tables [materials][materials] are allocated in *tables; *source refers to them. Does
+ * nothing if no material yields. */
 static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -96,8 +98,9 @@ static void make_yields(const struct scene *s, struct material_tables *tables, s
     source->yield = (struct bond_yield){tables->pair_yield, tables->pair_hardening, s->materials};
 }
 
-/* Computes the moduli of state-based models for each material (A and B of kernels/pd/state_laws.h) and stores them in
- * *tables; sets the options of these models in *source. Does nothing for bond-based models. */
+/* Computes the moduli of state-based models for each material of scene s (A and B of kernels/pd/state_laws.h) in
+ * tables->modulus, which is allocated, and sets the options of these models in *source. Does nothing for bond-based
+ * models. */
 static void make_states(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     if (s->model == MODEL_BOND) return;
@@ -148,8 +151,9 @@ static void make_materials(const struct scene *s, struct material_tables *tables
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Lists the planes of symmetry of the scene for the bonds, and creates the mirror images of pre-cracks, which cut bonds
- * across these planes. Both are owned by *tables; *source refers to them. */
+/* Lists the planes of symmetry of scene s for the bonds, and creates the mirror images of pre-cracks, which cut bonds
+ * across these planes. Both are owned by *tables; *source refers to them. loads: state on which side of each plane the
+ * body is. */
 static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
                          struct bond_source *source)
 {
@@ -205,9 +209,9 @@ static status make_bonds(struct run *e, struct predecessor *before)
 
 #define DAMPING_SHARE_MOST (1.0 / 16) /* largest share that is stable, see interface_zone.h */
 
-/* Returns the fraction [1] of the relative velocity across the interface between peridynamic particles and material
- * points that is damped in a step, at most DAMPING_SHARE_MOST. c: wave speed [m/s]; dt: time step [s]; h: spacing of
- * the grid [m]. */
+/* Returns the fraction of the relative velocity across the interface between peridynamic particles and material points
+ * that is damped in a step [1], at most DAMPING_SHARE_MOST. s: scene, with the strength of the damping; c: wave speed
+ * [m/s]; dt: time step [s]; h: spacing of the grid [m]. */
 static real interface_damping_share(const struct scene *s, real c, real dt, real h)
 {
     return real_min(s->interface_damping * c * dt / h, DAMPING_SHARE_MOST);
@@ -234,7 +238,7 @@ static int law_arrays(const struct law *law)
            (law_heats_material(law) ? WITH_TEMPERATURE : 0);
 }
 
-/* Returns the set of optional arrays of particles that the scene s requires, as a sum of WITH_*. */
+/* Returns the set of optional arrays of particles that scene s requires, as a sum of WITH_*. */
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
@@ -250,8 +254,8 @@ static int optional_arrays(const struct scene *s)
     return optional;
 }
 
-/* Returns the force law of bonds in the peridynamic model of scene s; bonds that yield have precedence over
- * softening. */
+/* Returns the force law of bonds in the peridynamic model of scene s. source: states whether bonds yield or soften; if
+ * both, they yield. */
 static enum pd_model law_of(const struct scene *s, const struct bond_source *source)
 {
     if (s->model == MODEL_OSPD) return PD_OSPD;
@@ -270,7 +274,8 @@ static status make_time(struct run *e, const struct predecessor *before)
     return OK;
 }
 
-/* Initialises contact c with the contact law of scene s. source and rigid are kept by reference and must outlive c. */
+/* Initialises contact c with the contact law of scene s. source, rigid: data of bonds and rigid bodies, kept by
+ * reference; they must outlive c. Release c with contact_free. */
 static void make_contact(struct contact *c, const struct scene *s, const struct bond_source *source,
                          struct rigid_set *rigid)
 {
@@ -320,8 +325,9 @@ static status make_probes(struct run *e)
     return scene_prepend_location(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
-/* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run e, and computes the time step. before: run that
- * e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them does not suit the scene. */
+/* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run e, and computes the time step. Call it after
+ * make_particles. before: run that e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them does
+ * not suit the scene. */
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;

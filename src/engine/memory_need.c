@@ -12,7 +12,7 @@
 #define EXACT_MOST 6000.0 /* [spacings] in longer bodies positions may be rounded (fill.c), and bonds are stored */
 
 /* Returns the fraction of the box with the corners from[dim] and to[dim] [m] that is inside the region `shape`,
- * estimated from evenly spaced sample points. */
+ * estimated from evenly spaced sample points [1]; never 0, even if no point is inside. */
 static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
 {
     enum { ACROSS = 24 };
@@ -27,9 +27,9 @@ static real share_filled(const struct region *shape, const real *from, const rea
     return real_max(inside, 1) / all;
 }
 
-/* Estimates the number of particles of bodies that are filled with lattices; bodies from files are left out. boxes:
- * true to fill the bounding boxes of the bodies, false to fill their shapes. Stores the longest edge of these boxes
- * [spacings] in *longest. */
+/* Returns an estimate of the number of particles of the bodies of scene s that are filled with lattices; bodies from
+ * files and unbounded shapes are left out. boxes: true to fill the bounding boxes of the bodies, false to fill their
+ * shapes. *longest: receives the longest edge of these boxes [spacings]. */
 static real particles_expected(const struct scene *s, bool boxes, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
@@ -46,17 +46,17 @@ static real particles_expected(const struct scene *s, bool boxes, real *longest)
     return n;
 }
 
-/* Returns the number of particles p of a run, or its estimate if they are not created yet. Stores the longest edge of a
- * box around a body [spacings] in *longest. */
+/* Returns the number of particles of a run of scene s: that of p, or an estimate if they are not created yet (p->n is
+ * 0). *longest: receives the longest edge of a box around a body [spacings]. */
 static real particles_now(const struct scene *s, const struct particles *p, real *longest)
 {
     const real expected = particles_expected(s, false, longest);
     return p->n > 0 ? (real)p->n : expected;
 }
 
-/* Estimates the memory of n particles and their bonds [byte]. families: true if each particle has bonds to all
- * neighbours within the horizon, false for about one bond each; longest: longest edge of a box around a body
- * [spacings]. */
+/* Returns an estimate of the memory of n particles and their bonds in scene s [byte]. source: data of bonds; longest:
+ * longest edge of a box around a body [spacings]; families: true if each particle has bonds to all neighbours within
+ * the horizon, false for about one bond each. */
 static real memory_of(const struct scene *s, const struct bond_source *source, real n, real longest, bool families)
 {
     const real bonds = families ? source->family.full / source->family.cell_volume : 1;

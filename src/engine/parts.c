@@ -12,8 +12,8 @@ static const struct part *const parts[] = {&part_grid,        &part_frame,    &p
                                            &part_diagnostics, &part_probing,  &part_damping, &part_viscosity,
                                            &part_stability,   &part_report,   NULL};
 
-/* Returns the address of that pointer in run e which points to the structure of the part p (contact, mesh, probes and
- * so on). p->at is the offset of this pointer in struct run. */
+/* Returns the address of the pointer in run e to the structure of the part p (contact, mesh, probes and so on). p->at
+ * is the offset of this pointer in struct run. */
 static void **part_place(struct run *e, const struct part *p) { return (void **)((char *)e + p->at); }
 
 void run_parts_make(struct run *e)

@@ -55,8 +55,8 @@ static void nodes_take(struct run *e, struct run *old)
     bonded_points_update_strain(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
-/* Moves from run `old` to run e the state that the state functions of struct part do not transfer: motion of nodes,
- * output files, timers and warnings. */
+/* Moves from run `old` to run e, which replaces it, the state that the state functions of struct part do not transfer:
+ * motion of nodes, output files, timers and warnings. `old` keeps none of it. */
 static void rest_take(struct run *e, struct run *old)
 {
     nodes_take(e, old);

@@ -8,8 +8,8 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-/* Stores position and radius of the integration contours of all SIF probes (stress-intensity factors) in the reference
- * frame f, whose cells inside these contours are not made coarser. seen: view of the run for probes. */
+/* Stores position and radius of the integration contours of all SIF probes (stress-intensity factors) of p in f->ring.
+ * Cells of the reference frame f inside these contours are not made coarser. seen: view of the run for probes. */
 static void rings_find(struct reference_frame *f, struct probes *p, const struct observed_run *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
@@ -18,9 +18,9 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
         f->rings += probes_locate_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
-/* Adapts the levels of the mesh cells of run e (0: finest; the edge doubles with each level) to cracks and stress. If
- * cells that become finer lack particles, the run is first replaced by a run that has these particles. Returns FAILED,
- * with a message, if that is not possible. */
+/* Adapts the coarsening levels of the mesh cells of run e (0: finest; the edge doubles with each level) to cracks and
+ * stress. If cells that become finer lack particles, the run is first replaced by a run that has these particles.
+ * Returns FAILED or REFUSED, with a message, if that is not possible; OK otherwise, also if nothing has changed. */
 static status refine(struct run *e)
 {
     if (!mesh_levels_may_change_before_step(&e->frame->levels, e->clock.step)) return OK;
@@ -40,8 +40,8 @@ status engine_adapt_refinement_and_step(struct run *e)
     return step(e);
 }
 
-/* Runs the scene of e to its end: as one equilibrium, in load steps or in time, as its solver requires. Returns FAILED
- * if a step fails, INTERRUPTED if a signal ends the run early. */
+/* Runs the scene of e to its end: as one equilibrium, in load steps or in time, as its solver requires. Returns OK;
+ * FAILED, with a message, if a step fails; INTERRUPTED if a signal ends the run early. */
 static status run_to_end(struct run *e)
 {
     if (scene_is_single_equilibrium(e->scene)) return engine_solve_single_equilibrium(e);

@@ -19,8 +19,8 @@
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 
-/* Writes name, method, status, numbers of steps and particles, and times of the run e to the JSON object j. s, message:
- * status of the run and its error message. */
+/* Writes name, method, status, numbers of steps and particles, and times of run e to the JSON object j. s: status with
+ * which the run has ended; message: its error message, "" without one. */
 static void put_run(struct json *j, const struct run *e, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
@@ -49,16 +49,16 @@ static void put_warnings(struct json *j, const struct warnings *w)
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the run reports fragments: bodies have bonds, some of which are broken or cut by pre-cracks, and the
- * problem is not static. */
+/* Returns true if a run of `scene` reports fragments: all particles are peridynamic, some bonds are broken or cut by
+ * pre-cracks, and the problem is not static. diagnostics: number of broken bonds. */
 static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
     return scene->method == METHOD_PD && !scene_is_single_equilibrium(scene) &&
            (diagnostics->bonds_broken > 0 || scene->cracks > 0);
 }
 
-/* Writes the JSON object "fragments": number and largest mass of the fragments, and particles without any bond, which
- * are counted separately. */
+/* Writes the JSON object "fragments" to j: number and largest mass of the fragments f, and number and mass of the
+ * particles without any bond, which are counted separately. */
 static void put_fragments(struct json *j, const struct fragments *f)
 {
     json_open(j, "fragments", '{');
@@ -88,8 +88,8 @@ static void fragments_print(FILE *file, const struct particles *part, const stru
     }
 }
 
-/* Writes fragments.csv, a table of the fragments f, into the folder of the run. Returns FAILED, with a message, if
- * memory is exhausted or the file cannot be written. */
+/* Writes fragments.csv, a table of the fragments f, into the folder of the run. part: particles of the run; report: its
+ * output. Returns FAILED, with a message, if memory is exhausted or the file cannot be written. */
 static status fragments_write(const struct particles *part, const struct run_report *report, const struct fragments *f)
 {
     char *text = NULL;
@@ -107,7 +107,7 @@ static status fragments_write(const struct particles *part, const struct run_rep
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
 /* Writes the results that depend on the machine to the JSON object j: processor, commit, threads, kernels, times and
- * memory. steps: number of steps of the run; threads: number of threads; spent: times of the run [s]. */
+ * memory. r: counts of the run; steps: number of its steps; threads: number of threads; spent: times of the run [s]. */
 static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads,
                         const struct run_seconds *spent)
 {
@@ -135,8 +135,8 @@ static void put_timers(struct json *j, const struct timers *timers)
     json_close(j, '}');
 }
 
-/* Prints the contents of summary.json to `file`. fragments: fragments at the end of run e; s, message: status of the
- * run and its error message; threads: number of threads. */
+/* Prints the contents of summary.json to `file`. e: the run; fragments: its fragments at the end; s: status with which
+ * the run has ended; message: its error message, "" without one; threads: number of threads. */
 static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
                           const char *message, int threads)
 {

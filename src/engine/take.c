@@ -4,8 +4,8 @@
 
 /* Finds the particles and mirror images of a replaced run in the new run. p, loads: particles and loads of the new run;
  * q, images: particles and loads of the replaced run. In both runs particles are in ascending order of id. Returns an
- * allocated array of q->n_all entries, first for the particles, then for the mirror images of the replaced run: the
- * index in the new run, -1 if the new run lacks the particle or image. The caller releases it with memory_free. */
+ * array [q->n_all], first for the particles, then for the mirror images of the replaced run: the index in the new run,
+ * -1 if the new run lacks the particle or image. The caller frees it with memory_free. */
 static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct particles *q,
                             const struct loads *images)
 {

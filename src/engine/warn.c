@@ -25,9 +25,9 @@ static bool spins(const struct scene *s)
     return any;
 }
 
-/* Adds a warning to *to if bodies rotate on the grid and velocities are transferred by FLIP, which does not conserve
- * their angular momentum. The figures in the warning were measured with a plate that rotates freely, with edges at 30
- * m/s and cells of two spacings. */
+/* Adds a warning to *to if bodies of scene s rotate on the grid and velocities are transferred by FLIP, which does not
+ * conserve their angular momentum. grid: with groups of points that rotate together, momentum is conserved. The figures
+ * in the warning were measured with a plate that rotates freely, with edges at 30 m/s and cells of two spacings. */
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
     if (scene_is_dynamic(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
@@ -55,9 +55,9 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
             coupling_name[kind]);
 }
 
-/* Adds warnings to *to about quadratic and cubic shape functions if a boundary prescribes the motion of points on a
- * grid, and about cells with a single point. on_grid: true if the shape functions of material points are those of a
- * regular grid at their present positions, false if those of a mesh at their reference positions. */
+/* Adds warnings to *to about quadratic and cubic shape functions of scene s if a boundary prescribes the motion of
+ * points on a grid, and about cells with a single point. on_grid: true if the shape functions of material points are
+ * those of a regular grid at their present positions, false if those of a mesh at their reference positions. */
 static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *to)
 {
     bool driven = false;
@@ -98,7 +98,8 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                             s->method == METHOD_PD ? ", in which pre-cracks are cut bonds" : "");
 }
 
-/* Adds warnings to *to about materials whose points convert at a stress above the one at which bonds break. */
+/* Adds warnings to *to about materials of scene s whose points convert at a stress above the one at which bonds break.
+ * tables: stresses of conversion of the materials. */
 static void warn_of_materials(const struct scene *s, const struct material_tables *tables, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {
@@ -115,8 +116,8 @@ static void warn_of_materials(const struct scene *s, const struct material_table
     }
 }
 
-/* Returns true if `region` contains a particle of the run. Also returns true if the run has cells whose particles are
- * not created (hollow cells), because these cells may be in the region. */
+/* Returns true if `region` contains a particle of `part`. Also returns true if the run has cells whose particles are
+ * not created (hollow cells of `frame`), because these cells may be in the region. */
 static bool region_is_met(const struct reference_frame *frame, const struct particles *part,
                           const struct region *region)
 {
@@ -129,7 +130,8 @@ static bool region_is_met(const struct reference_frame *frame, const struct part
     return any;
 }
 
-/* Adds warnings to *to about SIF probes if a material yields: stress-intensity factors have no meaning there. */
+/* Adds warnings to *to about SIF probes of scene s if a material yields: stress-intensity factors have no meaning
+ * there. */
 static void warn_of_probes(const struct scene *s, struct warnings *to)
 {
     bool yields = false;
@@ -142,7 +144,8 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
                                 s->probe[k].name);
 }
 
-/* Adds warnings to *to about columns of particle lists that are not read, or for which a default is used. */
+/* Adds warnings to *to about columns of particle lists that the bodies of scene s do not read, or for which a default
+ * is used. */
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -150,7 +153,8 @@ static void warn_of_lists(const struct scene *s, struct warnings *to)
 }
 
 /* Adds a warning to *to if plastic strain is requested for frames although no material yields. asked: fields that the
- * scene requests for frames (bits ASK_...). */
+ * scene requests for frames (bits ASK_...); p, b: particles and bonds, which have plastic arrays if a material
+ * yields. */
 static void warn_of_fields(unsigned asked, const struct particles *p, const struct bonds *b, struct warnings *to)
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
@@ -158,7 +162,8 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
         warnings_add_if_new(to, "output.fields: no material has a yield_stress, so frames will have no plastic_strain");
 }
 
-/* Adds warnings to *to about regions for which the scene requests frames of their own but which contain no particle. */
+/* Adds warnings to *to about regions for which scene s requests frames of their own but which contain no particle of p.
+ * frame: its hollow cells may contain particles that are not created; no region is then reported. */
 static void warn_of_regions(const struct scene *s, const struct reference_frame *frame, const struct particles *p,
                             struct warnings *to)
 {
@@ -170,7 +175,8 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
                                 s->series[k].name);
 }
 
-/* Adds warnings to *to about boundaries with prescribed motion that contain no particle. */
+/* Adds warnings to *to about boundaries of scene s with prescribed motion that contain no particle. l: loads, one for
+ * each boundary; p: particles. */
 static void warn_of_boundaries(const struct scene *s, const struct loads *l, const struct particles *p,
                                struct warnings *to)
 {
@@ -182,7 +188,8 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
                                 particles_extent_text(p).text);
 }
 
-/* Adds a warning to *to about a time step above the critical time step, with which a dynamic run is unstable. */
+/* Adds a warning to *to if the time step of `clock` is above the critical time step, with which a dynamic run is
+ * unstable. s: scene. */
 static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
 {
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
@@ -194,8 +201,8 @@ static void warn_of_step(const struct scene *s, const struct run_clock *clock, s
 
 #define HORIZON_LEAST 1.45 /* [spacings] below it a particle of a lattice has no diagonal neighbours, at sqrt(2) */
 
-/* Adds a warning to *to about a horizon so small that a particle has bonds only to its neighbours along the axes of the
- * lattice. */
+/* Adds a warning to *to if the horizon of scene s is so small that a particle has bonds only to its neighbours along
+ * the axes of the lattice. */
 static void warn_of_horizon(const struct scene *s, struct warnings *to)
 {
     if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;
@@ -213,8 +220,8 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
 
 #define STIFFNESS_APART 0.05 /* relative error of a bulk modulus that is worth a warning; vmpd has 0.02 */
 
-/* Adds a warning to *to if bonds of the family f, by their calibration, make a material stiffer or softer than the
- * scene says. */
+/* Adds a warning to *to if bonds of the family f (neighbourhood), by their calibration, make a material stiffer or
+ * softer than scene s says. */
 static void warn_of_stiffness(const struct scene *s, const struct family *f, struct warnings *to)
 {
     real c11, c12;

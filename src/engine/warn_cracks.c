@@ -8,7 +8,7 @@
 #define FAR_OUTSIDE 0.1 /* distance of an end of a crack from all particles that is reported [longest edges] */
 enum { ALONG = 32 };    /* positions along a segment, or along each of two sides of a triangle, of a crack */
 
-/* Returns true if pre-cracks have cut at least one of the bonds b. */
+/* Returns true if at least one of the bonds b is broken, at the start by pre-cracks. */
 static bool bonds_are_cut(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++)
@@ -17,8 +17,8 @@ static bool bonds_are_cut(const struct bonds *b)
     return false;
 }
 
-/* Returns true if crack c passes within `reach` [m], the length of the longest bonds, of a particle, so that it may cut
- * a bond. */
+/* Returns true if crack c passes within `reach` [m] of the reference position of a particle of p, so that it may cut a
+ * bond. reach: length of the longest bonds. */
 static bool crack_meets_particles(const struct crack *c, const struct particles *p, real reach)
 {
     bool meets = false;
@@ -30,7 +30,7 @@ static bool crack_meets_particles(const struct crack *c, const struct particles 
     return meets;
 }
 
-/* Returns the distance [m] of the position X[dim] [m] from the nearest particle of p. */
+/* Returns the distance of the position X[dim] [m] from the nearest particle of p [m]; INFINITY without particles. */
 static real particle_distance(const struct particles *p, const real *X)
 {
     real least2 = INFINITY;
@@ -43,8 +43,8 @@ static real particle_distance(const struct particles *p, const real *X)
     return sqrt(least2);
 }
 
-/* Returns the least distance [m] of a crack from a particle. It is computed from sample positions on the segments of a
- * line or, for a polygon in 3D, on the triangles between its first corner and its sides. */
+/* Returns the least distance of crack c from a particle of p [m]. It is computed from sample positions on the segments
+ * of a line or, for a polygon in 3D, on the triangles between its first corner and its sides. */
 static real crack_distance(const struct crack *c, const struct particles *p)
 {
     real least = INFINITY;
@@ -62,8 +62,9 @@ static real crack_distance(const struct crack *c, const struct particles *p)
     return least;
 }
 
-/* Adds warnings to *to about the first pre-cracks that are farther from all particles than `reach`, the length of the
- * longest bonds [m]. For many cracks only bounding boxes are compared. Returns true if there are any. */
+/* Adds warnings to *to about the first pre-cracks of scene s that are farther from all particles p than `reach` [m],
+ * the length of the longest bonds. For many cracks only bounding boxes are compared. Returns true if there are such
+ * cracks. */
 static bool warn_of_far_cracks(const struct scene *s, const struct particles *p, real reach, struct warnings *to)
 {
     enum { SEARCHED = 16, NAMED = 3 };
@@ -83,7 +84,8 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
     return far > 0;
 }
 
-/* Returns true if pre-crack c can grow: a tip starts at one of its ends, in 3D at the front of any pre-crack. */
+/* Returns true if pre-crack c can grow: a tip of `tips` starts at one of its ends, in 3D at the front of any pre-crack.
+ * Also true if the list of tips is full. */
 static bool can_grow(const struct crack_tips *tips, const struct crack *c)
 {
     bool can = tips->n == TIPS_MAX;
@@ -92,8 +94,9 @@ static bool can_grow(const struct crack_tips *tips, const struct crack *c)
                                       tips_start_at_precrack_end(tips, c->corner[c->n - 1])));
 }
 
-/* Counts the particles within `reach` [m] of position X[dim] [m], and in *loose those whose motion the supports do not
- * prescribe in all components. prescribed: [p->n], bit d: component d is prescribed. Returns the number of all. */
+/* Returns the number of particles within `reach` [m] of the position X[dim] [m], and adds to *loose the number of those
+ * whose motion the supports do not prescribe in all components. prescribed[p->n]: bit d is set if component d of a
+ * particle is prescribed. */
 static int64_t particles_near(const struct particles *p, const real *X, real reach, const uint8_t *prescribed,
                               int64_t *loose)
 {
@@ -107,9 +110,9 @@ static int64_t particles_near(const struct particles *p, const real *X, real rea
     return near;
 }
 
-/* Adds a warning to *to about pre-crack number k, which cannot grow, if supports prescribe the motion of all particles
- * within `reach` [m] of its ends, or if an end is far outside of all bodies. longest: longest edge of the box around
- * all particles [m]; prescribed: [p->n], bit d: component d is prescribed. */
+/* Adds a warning to *to about pre-crack number k, from 0, which cannot grow, if supports prescribe the motion of all
+ * particles within `reach` [m] of its ends, or if an end is far outside of all bodies. longest: longest edge of the box
+ * around all particles [m]; prescribed[p->n]: bit d is set if component d of a particle is prescribed. */
 static void warn_of_fixed_crack(const struct scene *s, const struct particles *p, int k, real reach, real longest,
                                 const uint8_t *prescribed, struct warnings *to)
 {
@@ -136,8 +139,9 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
             k + 1, (long long)near);
 }
 
-/* Adds warnings to *to about the first pre-cracks that cannot grow because supports hold them, or that cut a body and
- * end far outside of it. tips: tips at the start; reach: length of the longest bonds [m]. */
+/* Adds warnings to *to about the first pre-cracks of scene s that cannot grow because supports (in `loads`) hold them,
+ * or that cut a body and end far outside of it. tips: crack tips at the start; reach: length of the longest bonds
+ * [m]. */
 static void warn_of_fixed_cracks(const struct scene *s, const struct particles *p, const struct loads *loads,
                                  const struct crack_tips *tips, real reach, struct warnings *to)
 {
@@ -150,8 +154,8 @@ static void warn_of_fixed_cracks(const struct scene *s, const struct particles *
     memory_free(prescribed);
 }
 
-/* Adds warnings to *to about probes of crack tips and first breaks if no bond of the scene can break and no crack is
- * grown. */
+/* Adds warnings to *to about probes of crack tips and first breaks in scene s if no bond can break and no crack is
+ * grown by a rule. */
 static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
 {
     const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);
@@ -163,8 +167,8 @@ static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
                                                           "critical_stretch");
 }
 
-/* Adds warnings to *to about cracks with prescribed growth that begin outside of all bodies or after the end of the
- * run, grow by less than a spacing, or grow faster than Rayleigh waves. */
+/* Adds warnings to *to about cracks with prescribed growth in scene s that begin outside of all bodies (particles p) or
+ * after the end of the run, grow by less than a spacing, or grow faster than Rayleigh waves. */
 static void warn_of_growths(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     real rayleigh = 0;

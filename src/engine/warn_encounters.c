@@ -14,9 +14,9 @@ struct flight {
     bool known;                              /* the box is finite, and no force acts before the body meets another */
 };
 
-/* Computes the bounding box and the range of initial velocities of each deformable body b, and stores them in f[b].
- * Joined bodies count as the first of them. f: an entry for each body and rigid body; those of rigid bodies are not
- * set. */
+/* Computes the bounding box and the range of initial velocities of each deformable body b of scene s from the particles
+ * p, and stores them in f[b]. Joined bodies count as the first of them. f: an entry for each body and rigid body; those
+ * of rigid bodies are not set. */
 static void flights_of_particles(const struct scene *s, const struct particles *p, struct flight *f)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -45,8 +45,9 @@ static void flights_of_rigids(const struct scene *s, struct flight *f)
     }
 }
 
-/* Returns true if the body that f describes moves in one direction as a whole: along one axis all particles move in the
- * same direction, each with more than half of the largest speed. */
+/* Returns true if the body that f describes (range of its velocities) moves in one direction as a whole: along one axis
+ * all particles move in the same direction, each with more than half of the largest speed. dim: number of
+ * dimensions. */
 static bool flies(const struct flight *f, int dim)
 {
     bool any = false;
@@ -56,9 +57,9 @@ static bool flies(const struct flight *f, int dim)
     return any;
 }
 
-/* Returns the time after which bodies a and b can meet [s]: when their ranges of positions, extended by `reach`,
- * overlap along every axis. Returns INFINITY if they never do, also if they touch or are closer than `reach` at the
- * start, and fly apart. reach: distance at which bodies meet [m]. */
+/* Returns the time after which the bodies a and b can meet [s]: when their boxes, extended by `reach` [m] and moved
+ * with the extreme velocities, overlap along every axis. Returns INFINITY if they never do, also if they touch or are
+ * closer than `reach` at the start, and fly apart. */
 static real time_to_meet(const struct flight *a, const struct flight *b, int dim, real reach)
 {
     real after = 0;
@@ -88,8 +89,9 @@ static bool fly_freely(const struct scene *s)
     return freely;
 }
 
-/* Adds a warning to *to if body a, which moves in one direction as a whole, meets no other body within the duration.
- * f[b]: bounding box and velocity of each body b. */
+/* Adds a warning to *to if body number a, which moves in one direction as a whole, meets no other body within the
+ * duration of scene s. f[b]: bounding box and range of velocities of each body b, rigid bodies included. No warning is
+ * added if the box of another body is not known. */
 static void warn_of_flight(const struct scene *s, const struct flight *f, int a, struct warnings *to)
 {
     real soonest = INFINITY;

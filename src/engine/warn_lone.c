@@ -13,7 +13,8 @@ struct lone {
     int64_t all, n, first; /* all; without neighbour; index of the first without neighbour */
 };
 
-/* Counts particle i in *l, the particles without neighbours of a body. The first one is stored for the message. */
+/* Counts particle i in *l, the particles of a body that have no neighbours. The first one is stored in l->first for the
+ * message. */
 static void lone_add(struct lone *l, int64_t i)
 {
     if (l->n++ == 0) l->first = i;
@@ -47,8 +48,8 @@ static void lone_bonds_count(const struct bonds *b, const struct particles *p, s
     }
 }
 
-/* Counts the material points that have no neighbour within a cell in lone[b], an entry for each body b. Only bodies
- * from files are examined. */
+/* Counts the material points that have no neighbour within a cell in lone[b], an entry for each body b of scene s. Only
+ * bodies from files are examined. cells: cells of the neighbour search. */
 static void lone_points_count(const struct scene *s, const struct cells *cells, const struct particles *p,
                               struct lone *lone)
 {
@@ -71,8 +72,8 @@ enum { SAMPLED = 128 };  /* number of particles of a list that are tested */
 #define ALIKE 0.01
 #define LATTICE_OFF 0.02 /* relative difference of the distance of a lattice from the spacing */
 
-/* Computes the distance of particle i from its nearest neighbour and stores it in *apart [m], INFINITY if `near` is
- * empty. Stores the number of neighbours at that distance in *beside. near: neighbours of i. */
+/* Computes the distance of particle i from its nearest neighbour and the number of neighbours at that distance. near:
+ * neighbours of i; *apart: receives the distance [m], INFINITY if `near` is empty; *beside: receives the number. */
 static void surroundings(const struct particles *p, const struct neighbour_list *near, int64_t i, real *apart,
                          real *beside)
 {

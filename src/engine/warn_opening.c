@@ -20,8 +20,8 @@ static bool only_boundaries_load(const struct scene *s, const struct particles *
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of the nearest particle of load l from the start of a crack tip, in 3D from points of its front
- * [m]. */
+/* Returns the distance of the nearest particle of load l from the start of the crack tip `tip`, in 3D from points of
+ * its front [m]. p: particles. */
 static real load_distance(const struct load *l, const struct particles *p, const struct crack_tip *tip)
 {
     enum { POINTS = 4 }; /* along each half of the front */
@@ -70,7 +70,8 @@ static bool presses(const struct boundary *b, int dim)
     return normal && b->value[b->face] * b->side < 0;
 }
 
-/* Returns true if crack c lies across the axis `axis`. */
+/* Returns true if crack c lies across axis number `axis`: its extent along this axis is at most ACROSS times its
+ * largest extent. */
 static bool lies_across(const struct crack *c, int dim, int axis)
 {
     real extent[DIM_MAX] = {0}, largest = 0;

@@ -18,8 +18,8 @@ struct overlap {
     real depth;
 };
 
-/* Returns true if particle i belongs to body a and not to body b. Bodies that interfaces join have one number in
- * particles.body; they are told apart by their materials, and of equal materials not at all. */
+/* Returns true if particle i belongs to body number a and not to body number b. Bodies that interfaces join have one
+ * number in p->body; they are told apart by their materials, and bodies of equal materials not at all. */
 static bool belongs_to_first_only(const struct scene *s, const struct particles *p, int64_t i, int a, int b)
 {
     const struct scene_body *one = &s->body[a], *other = &s->body[b];
@@ -27,8 +27,9 @@ static bool belongs_to_first_only(const struct scene *s, const struct particles 
            (one->joined != other->joined || !scene_body_can_have_material(other, p->material[i]));
 }
 
-/* Returns the particles of body a that are inside the shape of body b by more than `least` [m]. Returns none if b is
- * made from a list of particles, whose surface is not known, or if its bounding box has an infinite side. */
+/* Returns the particles of body number a that are inside the shape of body number b by more than `least` [m]: their
+ * number, the deepest one and its depth. Returns none if b is made from a list of particles, whose surface is not
+ * known, or if its bounding box has an infinite side. */
 static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
 {
     const struct region *shape = &s->body[b].shape;
@@ -78,8 +79,8 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         }
 }
 
-/* Returns true if at least one particle, of the joined bodies number `body` (-1: of any), is in a region. Also returns
- * true if the run has cells whose particles are not created, since these may be in the region. */
+/* Returns true if at least one particle of the joined bodies number `body` (-1: of any body) is in `region`. Also
+ * returns true if the run has cells whose particles are not created, since these may be in the region. */
 static bool region_holds_particle(const struct scene *s, const struct particles *p, const struct region *region,
                                   int body)
 {
@@ -93,7 +94,8 @@ static bool region_holds_particle(const struct scene *s, const struct particles 
     return met;
 }
 
-/* Returns true if a region is beyond a plane of symmetry: it belongs to the half of a body that is not modelled. */
+/* Returns true if `region` is beyond a plane of symmetry of scene s, so that it belongs to the half of a body that is
+ * not modelled. */
 static bool region_beyond_mirror(const struct scene *s, const struct region *region)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -108,8 +110,8 @@ static bool region_beyond_mirror(const struct scene *s, const struct region *reg
     return beyond;
 }
 
-/* Adds a warning to *to for each part of a body that holds no particle, since it is outside the body, too small or
- * covered by a later part. Parts beyond planes of symmetry are meant to be empty. */
+/* Adds a warning to *to for each part of a body of scene s that holds no particle, since the part is outside the body,
+ * too small or covered by a later part. Parts beyond planes of symmetry are meant to be empty. */
 static void warn_of_empty_parts(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && p->n == p->n_body; b++) {
@@ -142,8 +144,8 @@ static bool initial_is_met(const struct scene *s, const struct particles *p, int
            region_holds_particle(s, p, &initial->region, initial->body < 0 ? -1 : s->body[initial->body].joined);
 }
 
-/* Returns the distance [m] of the plane of symmetry that the boundary condition b describes from the nearest particle.
- */
+/* Returns the distance of the plane of symmetry of boundary b from the nearest particle of p [m]; negative if the plane
+ * cuts the body. */
 static real mirror_distance(const struct particles *p, const struct boundary *b)
 {
     real low, high;

@@ -18,8 +18,8 @@ static real radical_inverse(int k, int base)
     return sum;
 }
 
-/* Computes the common part of the bounding box of a solid and the box low[dim] .. high[dim] [m], and stores it in `low`
- * and `high`. Returns the distance between both boxes [m], 0 if they meet. */
+/* Reduces the box low[dim] .. high[dim] [m] to the part that it has in common with the bounding box of `solid`. Returns
+ * the distance between both boxes [m], 0 if they meet; if they do not, low and high are no box. */
 static real boxes_common(const struct solid *solid, int dim, real *low, real *high)
 {
     struct bounds box;
@@ -47,8 +47,8 @@ static bool point_found(const struct solid *solid, const struct region *before, 
     return false;
 }
 
-/* Adds a warning to *to if solid k of the shape of body b, which is subtracted, removes nothing from the solids before
- * it. */
+/* Adds a warning to *to if solid number k, from 0, of the shape of body b, which is subtracted, removes nothing from
+ * the solids before it. dim: number of dimensions. */
 static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struct warnings *to)
 {
     const struct region before = {.n = k, .solid = b->shape.solid};
@@ -65,8 +65,8 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
             b->name, k + 1);
 }
 
-/* Adds a warning to *to if solid k of the shape of body b, which is added, is completely inside the solids before
- * it. */
+/* Adds a warning to *to if solid number k, from 0, of the shape of body b, which is added, is completely inside the
+ * solids before it. dim: number of dimensions. */
 static void warn_of_added(const struct scene_body *b, int k, int dim, struct warnings *to)
 {
     const struct region before = {.n = k, .solid = b->shape.solid};

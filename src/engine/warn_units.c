@@ -204,8 +204,8 @@ static void units_of_brittleness(const struct scene *s, real longest, struct war
 
 /* ---- times of loads ---------------------------------------------------------------------------------------------- */
 
-/* Returns the largest absolute value of the function of time f, a factor on a load, between the times 0 and t_end [s].
- * t_end: INFINITY for all times. */
+/* Returns the largest absolute value of the function of time f, a factor on a load, between the times 0 and t_end [s]
+ * [1]. t_end: INFINITY for all times. */
 static real factor_largest_until(const struct time_function *f, real t_end)
 {
     real most = fabs(time_function_value(f, t_end));
@@ -300,7 +300,7 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
 
-/* Returns the largest difference [m/s] between the initial velocities of particles and rigid bodies, including 0. */
+/* Returns the largest difference between the initial velocities of particles and rigid bodies, including 0 [m/s]. */
 static real units_speed_at_start(const struct scene *s, const struct particles *p)
 {
     real apart[DIM_MAX] = {0};
@@ -314,7 +314,7 @@ static real units_speed_at_start(const struct scene *s, const struct particles *
     return sqrt(dot(apart, apart, s->dim));
 }
 
-/* Returns the largest absolute component [Pa] of the initial stress of the particles. */
+/* Returns the largest absolute component of the initial stress of the particles p [Pa]; 0 without stress. */
 static real units_stress_at_start(const struct particles *p)
 {
     real most = 0;
@@ -323,8 +323,8 @@ static real units_stress_at_start(const struct particles *p)
     return most;
 }
 
-/* Returns the smallest strength [Pa] of the materials and interfaces that can break; INFINITY if none can. The strength
- * is Young's modulus times the critical stretch, or times the onset of softening for bonds that soften. */
+/* Returns the smallest strength of the materials and interfaces of scene s that can break [Pa]; INFINITY if none can.
+ * The strength is Young's modulus times the critical stretch, or times the onset of softening for bonds that soften. */
 static real least_strength(const struct scene *s)
 {
     real least = INFINITY, young = INFINITY;
