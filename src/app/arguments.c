@@ -18,8 +18,8 @@ status arguments_add_override(struct run_arguments *a, const char *text)
     return OK;
 }
 
-/* Reads a whole number from `text` into *count. Returns false, and leaves *count unchanged, unless the text is a whole
- * number from `least` to `most`. */
+/* Reads a whole number from `text` into *count. Returns true if the text is a whole number from `least` to `most`; else
+ * returns false and leaves *count unchanged. */
 static bool count_read(int *count, const char *text, int least, int most)
 {
     char *end;
@@ -36,9 +36,9 @@ status option_read_count(int *count, const char *option, const char *text, int s
                : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, smallest, largest);
 }
 
-/* Reads the width or height of a picture from *text into *pixels [pixel] and advances *text behind it. Stores in
- * *factor how many pixels a unit of the number is: those of a millimetre for the unit mm, 1 without unit. Returns false
- * for any other text. */
+/* Reads the width or height of a picture at the beginning of *text into *pixels [pixel] and advances *text behind it.
+ * *factor: receives how many pixels a unit of the number is: those of a millimetre for the unit mm, 1 without unit.
+ * Returns false if *text does not begin with a length. */
 static bool picture_length_read(double *pixels, double *factor, const char **text)
 {
     char *end;

@@ -41,7 +41,7 @@ static void say_frames(const struct run *e)
                (long long)e->frame->mesh.points);
 }
 
-/* Prints the names of the bodies of a scene with the indices `from` to end - 1: the first six, and the number of
+/* Prints the names of the bodies of scene s with the indices `from` to end - 1: the first six, and the number of
  * further ones. Joined bodies are printed as one name a+b. */
 static void say_names(const struct scene *s, int from, int end)
 {
@@ -58,8 +58,8 @@ static void say_names(const struct scene *s, int from, int end)
     if (n > NAMED) printf(" and %d more", n - NAMED);
 }
 
-/* Prints between which peridynamic bodies and rigid bodies contact acts, whether with themselves, and the contact law
- * and friction. Prints nothing for a scene without contact. */
+/* Prints between which peridynamic bodies and rigid bodies of scene s contact acts, whether with themselves, and the
+ * contact law and friction. Prints nothing for a scene without contact. */
 static void say_contact_of_bonds(const struct scene *s)
 {
     if (s->contact_between == CONTACT_NONE && s->rigids == 0) return;
@@ -113,8 +113,8 @@ static void say_contact(const struct run *e)
     }
 }
 
-/* Prints how the first six pre-cracks are represented, as slits of the mesh or as cut bonds, and the number of further
- * pre-cracks. */
+/* Prints how the first six pre-cracks of run e are represented, as slits of the mesh (doubled nodes) or as cut bonds,
+ * and the number of further pre-cracks. */
 static void say_notches(const struct run *e)
 {
     enum { SAID = 6 };
@@ -140,9 +140,9 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Prints the end of the line with the estimated run time: which steps were measured (all steps of the scene with larger
- * particles, or only the first steps), and what the run time would be if all particles were peridynamic. c: estimated
- * cost. */
+/* Prints the end of the line with the estimated run time of `scene`: which steps were measured (all steps of the scene
+ * with larger particles, or only the first steps), and what the run time would be if all particles were peridynamic. c:
+ * estimated cost. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -161,9 +161,10 @@ static void say_basis(const struct scene *scene, const struct cost *c)
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
-/* Prints the run time of a static equilibrium on `threads` threads. The solver runs until it converges, so the number
- * of its steps is not known in advance. Prints therefore the time of 1000 steps with a lower and an upper bound, and an
- * upper bound for the largest number of steps that the scene allows. c->step: measured time of one step [s]. */
+/* Prints the run time of the static equilibrium of run e on `threads` threads. The solver runs until it converges, so
+ * that the number of its steps is not known in advance. Therefore prints the time of 1000 steps with a lower and an
+ * upper bound, and an upper bound for the largest number of steps that the scene allows. c->step: measured time of one
+ * step [s]. */
 static void say_cost_at_rest(const struct run *e, const struct cost *c, int threads)
 {
     const double thousand = 1e3 * c->step;
@@ -194,8 +195,8 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
-/* Prints a part of a sentence: the smallest and largest random factor on the strength [1] over the particles of the
- * material with the index `material`. */
+/* Prints, as part of a sentence, the smallest and largest random factor on the strength [1] over the particles p of
+ * material number `material`. */
 static void say_scatter(const struct particles *p, int material)
 {
     real least = INFINITY, most = 0;
@@ -206,7 +207,7 @@ static void say_scatter(const struct particles *p, int material)
     if (most > 0) printf(", both by factors of %.3g to %.3g", least, most);
 }
 
-/* Returns true if an interface with an energy release rate of its own joins a body of material m. */
+/* Returns true if an interface of scene s with an energy release rate of its own joins a body of material number m. */
 static bool breaks_at_interface(const struct scene *s, int m)
 {
     bool breaks = false;
@@ -217,7 +218,8 @@ static bool breaks_at_interface(const struct scene *s, int m)
     return breaks;
 }
 
-/* Prints a line for each interface with an energy release rate of its own: the stretch at which its bonds break. */
+/* Prints a line for each interface of scene s with an energy release rate of its own: the stretch at which its bonds
+ * break. */
 static void say_interfaces(const struct scene *s)
 {
     for (int k = 0; k < s->interfaces; k++) {
@@ -255,7 +257,7 @@ static void say_materials(const struct run *e)
     }
 }
 
-/* Returns true if two texts are equal except for the numbers in them. */
+/* Returns true if the texts a and b are equal except for the numbers in them. */
 static bool texts_alike(const char *a, const char *b)
 {
     static const char number[] = "0123456789.+-e";
@@ -278,7 +280,7 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
 }
 
 /* Prints that other programs keep the machine busy, if they do. load: load average of the machine before the trial
- * steps, since the steps themselves raise it; threads: number of threads of the run. */
+ * steps, since the steps themselves raise it [processes]; threads: number of threads of the run. */
 static void say_busy(double load, int threads)
 {
     char text[256];
@@ -312,8 +314,8 @@ static void say_list(const struct warnings *lines, const char *heading)
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);
 }
 
-/* Prints the remarks on accuracy of a scene and stores the number of remarks in *remarks. Returns FAILED if there is no
- * memory for them. */
+/* Prints the remarks on the accuracy of the scene of run e. *remarks: receives their number. Returns FAILED, with a
+ * message, if there is no memory for them. */
 static status say_accuracy(const struct run *e, int *remarks)
 {
     char *text = NULL;
@@ -330,7 +332,7 @@ static status say_accuracy(const struct run *e, int *remarks)
 }
 
 /* Prints the verdict on a scene: sound, or fit to run after the warnings and remarks on accuracy have been read. scene:
- * file name; warnings, remarks: numbers of those printed above. */
+ * file name; warnings, remarks: numbers of warnings and remarks printed above. */
 static void say_verdict(const char *scene, int warnings, int remarks)
 {
     const struct printable_name shown = printable_name(scene);
@@ -364,10 +366,10 @@ static void say_settings(const struct run *e)
     say_contact(e);
 }
 
-/* Sets up a run of the scene s and prints its resolved settings, remarks on its accuracy, the cost (only if `trial` is
- * true), hints, the warnings (on standard error), and the verdict. a: arguments from which s was read; threads: number
- * of threads; start: time on thread_cpu_clock_seconds at which the reading of the scene began [s]. Changes settings of
- * s. Returns REFUSED or FAILED if the set-up or a trial step does. */
+/* Sets up a run of scene s and prints its resolved settings, remarks on its accuracy, the cost (only if `trial`),
+ * hints, the warnings (on standard error), and the verdict. a: arguments from which s was read; threads: number of
+ * threads; start: time on thread_cpu_clock_seconds at which the reading of the scene began [s]. Changes settings of s.
+ * Returns REFUSED or FAILED, with a message, if the set-up or a trial step fails. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};

@@ -39,8 +39,8 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Returns the edge length [m] of the box `a` along axis d. The length is doubled if one end of the box is at a plane of
- * symmetry of `source`, and INFINITY if both ends are. */
+/* Returns the edge length of the box `a` along axis d [m]: doubled if one end of the box is at a plane of symmetry of
+ * `source`, and INFINITY if both ends are. */
 static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
     const real near = ON_MIRROR * scene->spacing;
@@ -102,8 +102,8 @@ void print_stiffness_error(const struct scene *s, enum surface_rule surface, dou
         fprintf(out, "about %d %% in bending and tension, %d %% in twisting", off[OFF_SOLID], off[OFF_TWISTED]);
 }
 
-/* Writes to `out`, as part of a remark, the largest error of the stiffness of a peridynamic part that is `layers`
- * particles thick. */
+/* Writes to `out`, as part of a remark, the largest error of the stiffness of a peridynamic part of scene s that is
+ * `layers` particles thick. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
@@ -127,9 +127,9 @@ static real two_digits_down(real value)
     return floor(value / digit + 1e-6) * digit;
 }
 
-/* Writes to `out` a remark for each body with a part that is thinner than FEATURE horizons. Most particles of such a
- * part are near a surface and lack neighbours within the horizon. Writes nothing for scenes with the method mpm, and in
- * 1D. */
+/* Writes a remark to `out` for each body of run e with a part that is thinner than FEATURE horizons. Most particles of
+ * such a part are near a surface and lack neighbours within the horizon. Writes nothing for scenes with the method mpm,
+ * and in 1D. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -147,9 +147,9 @@ static void advise_features(const struct run *e, FILE *out)
     }
 }
 
-/* Writes to `out` a remark for each solid that is subtracted from a body and is thinner than one spacing. Such a hole
- * cuts bonds but removes no row of particles. Solids from voxel images are skipped because their thickness is not
- * known. */
+/* Writes a remark to `out` for each solid that is subtracted from a body of run e and is thinner than one spacing. Such
+ * a hole cuts bonds but removes no row of particles. Solids from voxel images are skipped because their thickness is
+ * not known. */
 static void advise_narrow_holes(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -168,9 +168,9 @@ static void advise_narrow_holes(const struct run *e, FILE *out)
     }
 }
 
-/* Returns true if the point X[dim] [m] is within BESIDE_FACE spacings of a face of the shape that is curved or slanted
- * to the axes. The normals of the shape are evaluated at the points AROUND spacings from X along each axis. The face is
- * curved or slanted if a normal near the face is parallel to no axis. */
+/* Returns true if the point X[dim] [m] is within BESIDE_FACE spacings of a face of `shape` that is curved or slanted to
+ * the axes of scene s. The normals of the shape are evaluated at the points AROUND spacings from X along each axis. The
+ * face is curved or slanted if a normal near the face is parallel to no axis. */
 static bool at_stepped_face(const struct scene *s, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0};
@@ -186,8 +186,8 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
     return stepped;
 }
 
-/* Writes a remark to `out` for each point probe of stress at a curved or slanted face. The error in the text was
- * measured with the elliptic membrane LE1 of NAFEMS, with 20 to 80 points across. */
+/* Writes a remark to `out` for each point probe of stress of scene s at a curved or slanted face. The error in the text
+ * was measured with the elliptic membrane LE1 of NAFEMS, with 20 to 80 points across. */
 static void advise_faces(const struct scene *s, FILE *out)
 {
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
@@ -203,7 +203,8 @@ static void advise_faces(const struct scene *s, FILE *out)
         }
 }
 
-/* Returns the duration of a pulse or the rise time of a ramp [s]; INFINITY for other functions of time. */
+/* Returns the rise time of the function of time f: the duration of a pulse or the time of a ramp [s]; INFINITY for
+ * other functions. */
 static real rise_time(const struct time_function *f)
 {
     return f->kind == TIME_PULSE || f->kind == TIME_RAMP ? f->until - f->from : INFINITY;
@@ -216,9 +217,9 @@ static bool rises_in(const struct boundary *b, real rise)
     return b->kind != BOUNDARY_MIRROR && rise_time(&b->time) == rise;
 }
 
-/* Writes to `out` one remark for all loads that have the rise time of boundary number b, if waves travel less than WAVE
- * spacings in this time. tables: material constants. Writes nothing if a boundary before b has the same rise time,
- * since the remark then exists. */
+/* Writes to `out` one remark for all loads of scene s that have the rise time of boundary number b, if waves travel
+ * less than WAVE spacings in this time. tables: wave speed. Writes nothing if a boundary before b has the same rise
+ * time, since the remark then exists. */
 static void advise_rise(const struct scene *s, const struct material_tables *tables, int b, FILE *out)
 {
     const real rise = rise_time(&s->boundary[b].time), length = tables->wave_speed * rise / s->spacing;
@@ -235,8 +236,8 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
             more ? "" : "s", length, WAVE, length_text_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark to `out` for each load during whose rise time waves travel less than WAVE spacings, and for each
- * initial pulse that is narrower than WAVE spacings. */
+/* Writes a remark to `out` for each load of scene s during whose rise time waves travel less than WAVE spacings, and
+ * for each initial pulse that is narrower than WAVE spacings. tables: wave speed. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
     for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
@@ -250,8 +251,8 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                 length_text_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark to `out` if bodies collide so fast that oscillations behind the wave front can break or yield
- * them. */
+/* Writes a remark to `out` if bodies of scene s collide so fast that oscillations behind the wave front can break or
+ * yield them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = scene_most_severe_collision(s);
@@ -262,8 +263,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
                 shock.speed, shock.share, shock.remedy);
 }
 
-/* Writes a remark to `out` if the scene prescribes a number of levels of coarse cells, and the cells of the coarsest
- * level are too large for the loads or for the thin parts of the body. */
+/* Writes a remark to `out` if the scene of run e prescribes a number of levels of coarse cells (the edge doubles with
+ * each level), and the cells of the coarsest level are too large for the loads or for the thin parts of the body. */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -272,7 +273,8 @@ static void advise_levels(const struct run *e, FILE *out)
         fprintf(out, "accuracy       %s\n", text);
 }
 
-/* Writes a remark to `out` if a formula of a load or support has no finite value at some time of the run. */
+/* Writes a remark to `out` if a formula of a load or support of run e has no finite value at one of PULL_MOMENTS + 1
+ * times of the run. */
 static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
@@ -296,8 +298,8 @@ static void pulled_span(const struct load *l, const struct particles *p, int d, 
     }
 }
 
-/* Returns the largest length of the body along axis d that its supports prescribe during the run, divided by its
- * initial length [1]. Returns 1 if no support stretches the body. duration: of the run [s]. */
+/* Returns the largest length of the particles p along axis d that the supports in l prescribe during the run, divided
+ * by the initial length [1]; 1 if no support stretches the body. duration: duration of the run [s]. */
 static real pulled_stretch(const struct loads *l, const struct particles *p, real duration, int d)
 {
     real low, high, stretch = 1;
@@ -356,8 +358,8 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
 
 /* ---- parts that are not needed ----------------------------------------------------------------------------------- */
 
-/* Adds a hint to *to if the scene uses a state-based model with a Poisson's ratio for which the cheaper bond-based
- * model gives the right elasticity as well. */
+/* Adds a hint to *to if scene s uses a state-based model with a Poisson's ratio for which the cheaper bond-based model
+ * gives the right elasticity as well. */
 static void hint_model(const struct scene *s, struct warnings *to)
 {
     const real wanted = bond_based_poisson_ratio(s->space);
@@ -370,10 +372,10 @@ static void hint_model(const struct scene *s, struct warnings *to)
         s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
-/* Returns an upper estimate [Pa] of the stress in a run: REACHED (rho c v + traction) plus the stress of initial
- * strains, with v the range of initial and prescribed velocities. Returns INFINITY if no estimate is possible: for body
- * forces, tables in time, formulas, rotating supports, and runs in which waves cross the body more than PASSAGES times.
- */
+/* Returns an upper estimate of the stress in run e [Pa]: REACHED (rho c v + traction) plus the stress of initial
+ * strains, with density rho, wave speed c and the range v of initial and prescribed velocities. Returns INFINITY if no
+ * estimate is possible: for body forces, tables in time, formulas, rotating supports, and runs in which waves cross the
+ * body more than PASSAGES times. */
 static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;
@@ -400,8 +402,8 @@ static real stress_reached(const struct run *e)
     return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
 }
 
-/* Adds a hint to *to for each body whose shape functions are evaluated at the present positions of its material points
- * although the faster evaluation at reference positions would be possible. */
+/* Adds a hint to *to for each body of run e whose shape functions are evaluated at the present positions of its
+ * material points although the faster evaluation at reference positions would be possible. */
 static void hint_frame(const struct run *e, struct warnings *to)
 {
     const real reached = stress_reached(e);
@@ -430,7 +432,7 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Adds a hint to *to if the scene uses a peridynamic method although no bond can break, so that the method mpm
+/* Adds a hint to *to if the scene of run e uses a peridynamic method although no bond can break, so that the method mpm
  * suffices. Scenes with rigid bodies are excepted, since material points do not support contact with them. */
 static void hint_method(const struct run *e, struct warnings *to)
 {
@@ -453,8 +455,8 @@ static void hint_method(const struct run *e, struct warnings *to)
             reached, weakest, method);
 }
 
-/* Adds a hint to *to that names the planes about which the scene is symmetric, so that a part of the body can be
- * run. */
+/* Adds a hint to *to that names the planes about which the scene of run e is symmetric, so that a part of the body can
+ * be computed instead. Adds none without such planes. */
 static void hint_symmetry(const struct run *e, struct warnings *to)
 {
     static const char *const share[] = {"", "half", "a quarter", "an eighth"};

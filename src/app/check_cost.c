@@ -34,16 +34,16 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define BONDS_MOST 2e8             /* of a body that is tried with all particles peridynamic */
 #define BONDS_TRIED 2e7            /* of a coarser body that is tried in its place */
 
-/* Returns the quartiles of the n measured times spent[n] [s], which are sorted in place. */
+/* Returns the quartiles of n measured times spent[n] [s]; the array is sorted in place. */
 static struct quartiles quartiles_of(double *spent, int n)
 {
     const double median = median_by_sorting(spent, n);
     return (struct quartiles){spent[n / 4], median, spent[n - 1 - n / 4]};
 }
 
-/* Runs steps of e and measures the processor time of one step [s]. Each measurement covers the steps from one sample of
- * the history to the next. Stores the quartiles of the measurements in *step. The first step, which has cold caches,
- * does not count. Returns FAILED if a step fails. */
+/* Makes time steps of run e and measures the processor time of one step. Each measurement covers the steps from one
+ * sample of the history to the next. *step: receives the quartiles of the measurements [s]. The first step, which has
+ * cold caches, does not count. Returns FAILED, with a message, if a step fails. */
 static status time_steps(struct run *e, struct quartiles *step)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
@@ -70,7 +70,7 @@ static status time_steps(struct run *e, struct quartiles *step)
     return OK;
 }
 
-/* Returns the processor time [s] of one evaluation of the forces, the median of several. */
+/* Returns the processor time of one evaluation of the forces of run e [s], the median of several. */
 static double time_force(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -83,8 +83,8 @@ static double time_force(struct run *e)
     return median_by_sorting(spent, n);
 }
 
-/* Returns the processor time [s] of contact in one step of the present state: search and forces, the median of several.
- */
+/* Returns the processor time of contact in one step of run e at its present state [s]: search and forces, the median of
+ * several. */
 static double time_contact(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -101,9 +101,10 @@ static double time_contact(struct run *e)
 
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
 
-/* Reads the scene of `a` again with the additional override key=value (none if key is NULL) and creates its run e.
- * rest: true if inactive parts of the body may be skipped, as the scene requests. Returns FAILED or REFUSED if the
- * scene cannot be read or its run cannot be created. The caller releases s and e, also on failure. */
+/* Reads the scene of the arguments a again to *s, with the additional override key=value (none if key is NULL), and
+ * creates its run e. rest: true if inactive parts of the body may be skipped, as the scene requests. Returns FAILED or
+ * REFUSED, with a message, if the scene cannot be read or its run cannot be created. The caller releases s and e, also
+ * on failure. */
 static status make_other(struct scene *s, struct run *e, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {
@@ -136,9 +137,9 @@ static double all_steps(struct run *e)
     return engine_run_mpm_baseline_for_pulse_probe(e) == OK ? thread_cpu_clock_seconds() - start : NAN;
 }
 
-/* Runs the scene of the arguments `a` with the additional override key=value (none if key is NULL). whole: true to run
- * and measure all steps; false to extrapolate the time from the first steps. Appends the warnings of the run to *found,
- * which may be NULL. Returns the processor time of all steps [s], or NAN if a step fails. */
+/* Runs the scene of the arguments a with the additional override key=value (none if key is NULL). whole: true to run
+ * and measure all steps; false to extrapolate the time from the first steps. found: receives the warnings of the run,
+ * appended; or NULL. Returns the processor time of all steps [s]; NAN if a step fails. */
 static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole,
                         struct warnings *found)
 {
@@ -160,10 +161,10 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* Returns the ratio r [1] of the processor time of all steps of a scene to the time extrapolated from its first steps.
- * It is measured in the scene s with larger particles. Stores the factor by which the particles are larger in
- * c->coarser, and r in c->growth. a: arguments from which s was read; first: extrapolated time of s itself [s]. Returns
- * NAN if the ratio cannot be measured. */
+/* Returns the ratio r of the processor time of all steps of scene s to the time extrapolated from its first steps [1];
+ * NAN if it cannot be measured. It is measured in the scene with larger particles. Stores the factor by which the
+ * particles are larger in c->coarser, and r in c->growth. a: arguments from which s was read; first: extrapolated time
+ * of s itself [s]. */
 static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
     char value[32];
@@ -179,11 +180,11 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
 
 /* ---- the estimate ------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of neighbours within the horizon of a particle far from surfaces: the volume of its family (all
- * its neighbours) divided by that of a lattice cell. */
+/* Returns the number of neighbours of a particle far from surfaces: the volume of its complete family f (all neighbours
+ * within the horizon) divided by that of a lattice cell [1]. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Returns an estimate [s] of the time for writing the output of a run: all frames including the one at the start, two
+/* Returns an estimate of the time for writing the output of run e [s]: all frames including the one at the start, two
  * checkpoints, profiles and particle series. */
 static double output_seconds(const struct run *e)
 {
@@ -228,8 +229,8 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Returns the processor time [s] of one step per particle, measured with the scene that is read by the arguments `a`,
- * but with all particles peridynamic and the spacing `spacing` [m]. Returns NAN if the steps fail. */
+/* Returns the processor time of one step per particle [s], measured with the scene of the arguments a, but with all
+ * particles peridynamic and with `spacing` [m]; NAN if the steps fail. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};
@@ -267,8 +268,8 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
     if (c->basis == COST_FIRST) c->most = c->all_peridynamic > 0 ? fmax(c->most, c->all_peridynamic) : INFINITY;
 }
 
-/* Returns an estimate of the memory for writing output [byte]. It is added to the memory measured in trial steps, which
- * write nothing. */
+/* Returns an estimate of the memory for writing the output of `scene` with the particles `part` [byte]. It is added to
+ * the memory measured in trial steps, which write nothing. */
 static double output_bytes(const struct particles *part, const struct scene *scene)
 {
     /* per particle, by dimension: copy for the writer, the sort order, what goes to the particles file; measured */

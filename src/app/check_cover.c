@@ -112,8 +112,8 @@ static bool is_thin(const struct cover *c, int64_t cell)
     return thin || !beside;
 }
 
-/* Returns true if a solid of the shape, or of a group or extrusion in it, is a surface from a file. Testing whether a
- * point is inside such a solid is expensive. */
+/* Returns true if a solid of `shape`, or of a group or extrusion in it, is a surface from a file. It is expensive to
+ * test whether a point is inside such a solid. */
 static bool is_dear(const struct region *shape)
 {
     bool dear = false;
@@ -124,8 +124,8 @@ static bool is_dear(const struct region *shape)
     return dear;
 }
 
-/* Returns the fraction of a lattice cell of c that is inside the region `shape`. X[dim]: centre of the cell [m]. The
- * surface in the cell is approximated by a plane, from the distance and the normal of the surface at X. */
+/* Returns the fraction of a lattice cell of c that is inside the region `shape` [1]. X[dim]: centre of the cell [m].
+ * The surface in the cell is approximated by a plane, from the distance and the normal of the surface at X. */
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;

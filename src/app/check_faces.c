@@ -85,9 +85,9 @@ static real slope_along(const struct ends *c, int64_t place, int k)
     return isnan(after) ? isnan(before) ? 0 : before : isnan(before) || after < before ? after : before;
 }
 
-/* Returns the cosine [1] of the angle between the outward axis of the face of boundary b and the surface normal at
- * particle i. Uses the normal of the body's shape if c->height is NULL, else the slopes of the column heights
- * c->height. */
+/* Returns the cosine of the angle between the outward axis of the face of boundary b and the surface normal at particle
+ * i [1]. c: heights of the face by columns of particles; the normal follows from their slopes, or from the shape of the
+ * body in `scene` if c->height is NULL. */
 static real cosine_at(const struct scene *scene, const struct particles *part, const struct boundary *b,
                       const struct ends *c, int64_t i)
 {
@@ -140,7 +140,8 @@ static real elsewhere_cut(const struct particles *part, const struct scene *scen
     return INFINITY;
 }
 
-/* Returns true if all bodies to which boundary b applies have a shape with known normals of its own. */
+/* Returns true if all bodies of scene s to which boundary b applies have a shape of their own, whose normals are
+ * known. */
 static bool has_normals(const struct scene *s, const struct boundary *b)
 {
     bool all = true;

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "check_parts.h"
 
-/* Returns true if all solids of a shape are boxes along the axes. The volume of the particles of such a shape follows
+/* Returns true if all solids of `shape` are boxes along the axes. The volume of the particles of such a shape follows
  * from the spacing and need not be compared with the volume of the shape. */
 static bool all_boxes(const struct region *shape)
 {
@@ -16,7 +16,7 @@ static bool all_boxes(const struct region *shape)
     return boxes;
 }
 
-/* Returns the number of particles of the body with the index `body`. Joined bodies count as one body, with the index of
+/* Returns the number of particles of body number `body` in `part`. Joined bodies count as one body, with the number of
  * the first. If the scene has only one body, particles that are not created (in coarse cells) are included. */
 static int64_t particles_of(const struct scene *scene, const struct particles *part, int body)
 {

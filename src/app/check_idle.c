@@ -15,7 +15,7 @@ static bool with_regular_lattice(const struct scene *s) { return !(s->irregulari
 static bool without_opening(const struct scene *s) { return s->steps.control != CONTROL_OPENING; }
 static bool without_tips(const struct scene *s) { return !scene_can_crack(s) || !scene_is_dynamic(s); }
 
-/* Returns true if the scene makes no time steps, neither from the start nor after an unstable crack increment. */
+/* Returns true if scene s makes no time steps, neither from the start nor after an unstable crack increment. */
 static bool without_time_steps(const struct scene *s)
 {
     return scene_is_single_equilibrium(s) || (scene_has_load_steps(s) && s->steps.then != THEN_EXPLICIT);
@@ -50,7 +50,8 @@ static const struct {
     {"crack.speed_window", without_tips, "no crack grows in time"},
 };
 
-/* Returns true if the key `name` is in a list of keys and groups that bars separate. */
+/* Returns true if the key `name` is in `keys`, a list of keys and groups of keys (which end with a point) separated by
+ * bars. */
 static bool key_listed(const char *keys, const char *name)
 {
     for (const char *key = keys; *key; key += strspn(key, "|")) {
@@ -69,8 +70,8 @@ static bool scene_gives(const struct scene *s, const char *key)
     return false;
 }
 
-/* Returns true if the scene gives a key of every group, as the scene.yaml of a run does: it has all keys, whether they
- * have an effect or not. */
+/* Returns true if scene s gives a key of every group, as the scene.yaml of a run does: such a file has all keys,
+ * whether they have an effect or not. */
 static bool scene_gives_all(const struct scene *s)
 {
     static const char *const keys[] = {"solver_tolerance", "steps.number",     "pd.volume",  "mpm.cell",
@@ -80,8 +81,8 @@ static bool scene_gives_all(const struct scene *s)
     return all;
 }
 
-/* Returns true if an earlier row of the table idle_keys has reported the key: a row before number `row` that names it,
- * and whose condition is true for the scene s. */
+/* Returns true if a row of the table idle_keys before row number `row` has reported the key: if it names the key, and
+ * its condition is true for scene s. */
 static bool key_is_named_before(const struct scene *s, size_t row, const char *key)
 {
     bool named = false;
@@ -89,8 +90,8 @@ static bool key_is_named_before(const struct scene *s, size_t row, const char *k
     return named;
 }
 
-/* Appends to text[capacity] the keys in row number `row` of idle_keys that the scene gives, and why they have no
- * effect. Appends nothing if the scene gives none of them. used: present length of the text. Returns the new length. */
+/* Appends to text[capacity] the keys in row number `row` of idle_keys that scene s gives, and why they have no effect.
+ * Appends nothing if the scene gives none of them. used: present length of the text. Returns the new length. */
 static size_t idle_row_append(const struct scene *s, size_t row, char *text, size_t capacity, size_t used)
 {
     const size_t before = used;
@@ -107,8 +108,8 @@ static size_t idle_row_append(const struct scene *s, size_t row, char *text, siz
     return used;
 }
 
-/* Adds a hint to *to for each material that has a fracture criterion in a scene with the method mpm, which has no bonds
- * that could break. */
+/* Adds a hint to *to for each material of scene s that has a fracture criterion although the method is mpm, which has
+ * no bonds that could break. */
 static void hint_unbreakable(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->method == METHOD_MPM; m++)
@@ -119,7 +120,7 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
                                 s->material[m].name);
 }
 
-/* Adds a hint to *to for each material of which no body consists. */
+/* Adds a hint to *to for each material of scene s of which no body consists. */
 static void hint_unused_materials(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->unused_materials; m++)

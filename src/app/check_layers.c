@@ -26,9 +26,9 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
     return site;
 }
 
-/* Finds which lattice sites are filled by particles of the body with the index `body`, among the sites in the bounding
- * box of these particles. Sets m->filled of each site. Returns false, with nothing to release, for more than CELLS_MOST
- * sites. Release m->filled otherwise. */
+/* Finds which lattice sites are filled by particles of body number `body` of run e, among the sites in the bounding box
+ * of these particles, and stores the result in m, with m->filled[sites] 1 or 0. Returns false, with nothing to release,
+ * for more than CELLS_MOST sites. Otherwise the caller frees m->filled with memory_free. */
 static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
 {
     const struct particles *p = &e->part;
@@ -58,9 +58,9 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Counts the consecutive lattice sites with particles along `axis` in the direction `way` (1 or -1), from the neighbour
- * of the site with the indices from[dim] on, up to RUNS_MOST. Sets *mirrored to true if the sites end at a plane of
- * symmetry. Returns their number. */
+/* Returns the number of consecutive lattice sites with particles along `axis` in the direction `way` (1 or -1), from
+ * the neighbour of the site from[dim] on, at most RUNS_MOST. from: indices of the site along the axes; *mirrored:
+ * receives whether the sites end at a plane of symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
     int64_t at = from[axis], site = 0;
@@ -77,7 +77,7 @@ static int layer_run(const struct layer_map *m, const int64_t *from, int axis, i
     return run;
 }
 
-/* Returns the number of particle layers across the body at the site with the indices at[dim]: the smallest of the
+/* Returns the number of particle layers across the body at the site with the indices at[dim] in m: the smallest of the
  * counts along the axes. A count that ends at a plane of symmetry is doubled. For parts that are slanted to the axes
  * the number is up to 1.4 times too large. */
 static double site_layers(const struct layer_map *m, const int64_t *at)
@@ -92,9 +92,9 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of particle layers across the thin parts of a body: over those of its particles at which
- * the body has fewer than `most` layers. Returns INFINITY if such particles are less than the share SHARE_LEAST of all,
- * or if the bounding box of the body has more than CELLS_MOST lattice sites. */
+/* Returns the median number of particle layers across the thin parts of body number `body` of run e: over those of its
+ * particles at which the body has fewer than `most` layers. Returns INFINITY if such particles are less than the share
+ * SHARE_LEAST of all, or if the bounding box of the body has more than CELLS_MOST lattice sites. */
 static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;
@@ -192,8 +192,8 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
 static const real layer_shortening[] = {[1] = -0.65, [2] = -0.75, [3] = -0.75};
 #define SHORTENED 0.03 /* share of the length from which on it is reported; 10 % of the stiffness in bending [1] */
 
-/* Returns true if load l is a support with the default depth behind a face that prescribes the motion normal to it, one
- * motion for all particles, and if bonds alone move these particles. */
+/* Returns true if load l of scene s is a support with the default depth behind a face that prescribes the motion normal
+ * to the face, one motion for all particles, and if bonds alone move these particles. */
 static bool holds_layer_of_bonds(const struct scene *s, const struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;

@@ -19,8 +19,8 @@ void print_coarse_cells(const struct run *e)
                (long long)levels_count_cells_of_level(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
-/* Writes the number n into text[32]: with all digits or, if `millions` is true, in millions, such as "52 million".
- * Returns text. */
+/* Writes the number n to text[32]: with all digits or, if `millions`, in millions, such as "52 million". Returns
+ * `text`. */
 static const char *many(double n, bool millions, char text[static 32])
 {
     if (millions)
@@ -50,8 +50,9 @@ static const char *much_memory(double bytes, char text[static 32])
     return text;
 }
 
-/* Returns the number of material points in the cells of all coarse levels 1 to l->n of the mesh, including points that
- * are not created. A cell of level k has an edge of 2^(k+1) spacings. */
+/* Returns the number of material points in the cells of all coarse levels 1 to l->n of the mesh (level 0 is the
+ * finest), including points that are not created. A cell of level k has an edge of 2^(k+1) spacings. dim: number of
+ * dimensions. */
 static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
 {
     double n = 0;

@@ -9,8 +9,8 @@
 /* Approximate number of particles that are examined; largest number of layers that is counted. */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Returns true if a particle of the body with the index `body` is within PROBE spacings of the point X[dim] [m], so
- * that X counts as inside the body. Also returns true if more particles are near X than can be tested. */
+/* Returns true if a particle of body number `body` of run e is within PROBE spacings of the point X[dim] [m], so that X
+ * counts as inside the body. Also returns true if more particles are near X than can be tested. */
 static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
@@ -21,7 +21,7 @@ static bool body_at(const struct run *e, int body, const real *X)
     return n > ROOM;
 }
 
-/* Returns the thickness of the body of particle i, as a number of particles. The particles are counted along each axis
+/* Returns the thickness of the body at particle i of run e [particles]: the particles are counted along each axis
  * through particle i, up to LAYERS_MOST, and the smallest count is returned. An axis along which the body ends at a
  * plane of symmetry counts as LAYERS_MOST. */
 static int layers_at(const struct run *e, int64_t i)
@@ -47,9 +47,9 @@ static int layers_at(const struct run *e, int64_t i)
     return least;
 }
 
-/* Returns a measure of how thin a body is: the smallest number L such that at least the share THIN_SHARE of its
- * particles have L or fewer layers of particles across the body; at most LAYERS_MOST. Tests a sample of about LOOKED_AT
- * particles. */
+/* Returns a measure of how thin body number `body` of run e is: the smallest number L such that at least the share
+ * THIN_SHARE of its particles have L or fewer layers of particles across the body; at most LAYERS_MOST. Tests a sample
+ * of about LOOKED_AT particles. */
 static int thinnest(const struct run *e, int body)
 {
     const struct particles *p = &e->part;
@@ -68,8 +68,8 @@ static int thinnest(const struct run *e, int body)
     return LAYERS_MOST;
 }
 
-/* Prints advice for each body that is read from a list of particles, if these are not on a lattice along the axes while
- * the scene has pd.weights: isotropic. These weights of bonds are computed for a lattice along the axes. */
+/* Prints advice to `out` for each body of scene s that is read from a list of particles not on a lattice along the
+ * axes, if the scene has pd.weights: isotropic. These weights of bonds are computed for a lattice along the axes. */
 static void print_weight_advice(const struct scene *s, FILE *out)
 {
     for (int b = 0; b < s->bodies && s->shells == SHELLS_ISOTROPIC; b++) {

@@ -26,8 +26,8 @@ static void instant_try(const struct time_function *f, real t, real duration, re
     *best = t, *most = fabs(time_function_value(f, t));
 }
 
-/* Returns the time in 0..duration [s] at which the absolute value of the time function f is largest, the earliest of
- * several. Stores this absolute value in *most. */
+/* Returns the time between 0 and `duration` at which the absolute value of the time function f is largest, the earliest
+ * of several [s]. *most: receives this absolute value. */
 static real largest_factor_at(const struct time_function *f, real duration, real *most)
 {
     real best = *most = 0;
@@ -50,8 +50,8 @@ enum { MOMENTS = 200, PLACES = 64 }; /* numbers of times, and of particles of a 
  * displacement [m], and store it in vector[dim]. */
 typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
 
-/* Returns the sum of |a|^2 over a sample of the particles of load l at time t [s]. vector: function that computes a,
- * the force or displacement of one particle. */
+/* Returns the sum of |a|^2 over a sample of the particles of load l at time t [s], in the squared unit of a. vector:
+ * function that computes a, the force [N] or displacement [m] of one particle. */
 static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
 {
     real sum = 0, a[DIM_MAX];
@@ -59,9 +59,9 @@ static real square_sum(const struct load *l, const struct particles *p, vector_f
     return sum;
 }
 
-/* Returns the time in 0..duration [s] at which the vectors of load l are largest. Tests evenly spaced times and the
- * times of the load's table. Returns `duration` unless they are larger at an earlier time. vector: function that
- * computes the force or displacement of one particle. */
+/* Returns the time between 0 and `duration` at which the vectors of load l are largest [s]. Tests evenly spaced times
+ * and the times of the load's table. Returns `duration` unless they are larger at an earlier time. vector: function
+ * that computes the force or displacement of one particle. */
 static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
 {
     const struct time_function *f = &l->boundary->time;
@@ -75,8 +75,8 @@ static real largest_at(const struct load *l, const struct particles *p, vector_f
     return best;
 }
 
-/* Returns the time at which the force of a load is reported, with a text that gives the reason: the time at which the
- * force is largest, or `duration`, the end of the run. */
+/* Returns the time at which the force of load l is reported, with a text that gives the reason: the time at which the
+ * force is largest, or `duration`, the end of the run [s]. */
 static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
 {
     const struct boundary *b = l->boundary;
@@ -98,8 +98,8 @@ struct resultant {
     real force[DIM_MAX], moment[DIM_MAX];
 }; /* [N], about the origin [N m] */
 
-/* Returns the total force and the moment about the origin of a load at time t [s], summed over its particles. Sums that
- * are round-off are set to 0. */
+/* Returns the total force and the moment about the origin of load l at time t [s], summed over its particles p. Sums
+ * that are round-off are set to 0. */
 static struct resultant resultant_at(const struct load *l, const struct particles *p, real t)
 {
     struct resultant r = {{0}, {0}};
@@ -134,7 +134,7 @@ struct faced {
     bool unknown;    /* for one of the bodies no distance is known */
 };
 
-/* Returns true if distances from the surface of the body with the index `body` can be computed: it has a shape of its
+/* Returns true if distances from the surface of body number `body` of scene s can be computed: it has a shape of its
  * own, not shared with joined bodies. */
 static bool has_distance(const struct scene *s, int body)
 {
@@ -226,8 +226,8 @@ static void say_traction_area(const struct scene *scene, const struct load *l)
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
-/* Prints the total force and moment of the load l, and the time for which they are computed with the reason for this
- * time, as part of a sentence. */
+/* Prints, as part of a sentence, the total force and moment of load l, the time for which they are computed and the
+ * reason for this time. */
 static void say_force(const struct particles *part, const struct scene *scene, const struct load *l)
 {
     const int dim = part->dim;
@@ -279,8 +279,8 @@ static void say_mean_displacement(const struct particles *part, const struct loa
     printf(" m%s", boundary_motion_varies_in_space(l->boundary) ? " on average" : "");
 }
 
-/* Prints the mean displacement that a support prescribes, at its maximum and at the end of the run, and its largest
- * speed if the solver is explicit. */
+/* Prints the mean displacement that the support l prescribes, at its maximum and at the end of the run, and its largest
+ * speed if the solver of `scene` is explicit. */
 static void say_displacement(const struct scene *scene, const struct particles *part, const struct load *l)
 {
     const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
@@ -336,7 +336,8 @@ struct drift {
     bool lasts;                             /* the net force acts at the end as well, and waves have crossed the body */
 };
 
-/* Returns true if the scene has a single body that moves in time, and can touch no other body. */
+/* Returns true if scene s has a single body that moves in time and can touch no other body. p: particles; all must have
+ * been created. */
 static bool is_single_body(const struct scene *s, const struct particles *p)
 {
     bool is_single = scene_is_dynamic(s) && s->rigids == 0 && p->n > 0 && p->n == p->n_body;
@@ -344,7 +345,8 @@ static bool is_single_body(const struct scene *s, const struct particles *p)
     return is_single;
 }
 
-/* Returns true if a support, a plane of symmetry or an absorbing face resists motion of the body along axis d. */
+/* Returns true if a support, a plane of symmetry or an absorbing face in `loads` resists motion of the body along axis
+ * d. */
 static bool is_held_along(const struct loads *loads, int d)
 {
     bool held = false;
@@ -400,7 +402,8 @@ static bool drift_by_loads(const struct run *e, struct drift *a)
     return a->net > UNBALANCED * all && isfinite(a->net);
 }
 
-/* Writes to `out` the largest net force on a body that nothing holds along it, and the motion of the body by it. */
+/* Writes to `out` the largest net force on the body of run e, which nothing holds along it, and the motion of the body
+ * by this force. a: force and motion. */
 static void write_drift(const struct run *e, const struct drift *a, FILE *out)
 {
     fprintf(out,

@@ -11,8 +11,8 @@
 /* Length of a pre-crack below which its critical load depends on the horizon [horizons]; measured. */
 #define HORIZONS_LEAST 3
 
-/* Returns the share of the straight crack between the points `from` and `to` (coordinates [m]) that is inside bodies
- * [1], from 1000 points on it. */
+/* Returns the share of the straight crack between the points from[dim] and to[dim] [m] that is inside bodies of scene s
+ * [1], estimated from 1000 points of the crack. */
 static real crack_share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };

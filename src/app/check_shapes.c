@@ -6,7 +6,8 @@
 #include "geometry/geometry.h"
 #include "scene/shape_file.h"
 
-/* Returns the number of slits in the surface h of a mesh: free surfaces inside the mesh, at which nodes are doubled. */
+/* Returns the number of slits in the surface h of a mesh: free surfaces inside the mesh, at which nodes are doubled. h:
+ * surface from a file. */
 static int hull_slits(const struct hull *h)
 {
     struct crack *slit = NULL;

@@ -15,8 +15,8 @@
 /* Returns true if the components of boundary b are given as numbers, none of them as a formula. */
 static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }
 
-/* Adds a hint to *to for each pressure that is negative, and for each pair of tractions on opposite faces that point in
- * the same direction along their normals. */
+/* Adds a hint to *to for each pressure of scene s that is negative, and for each pair of tractions on opposite faces
+ * that point in the same direction along their normals. */
 static void hint_pushed(const struct scene *s, struct warnings *to)
 {
     for (int k = 0; k < s->boundaries; k++) {
@@ -38,8 +38,8 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds a hint to *to for each value of friction, gravity, damping and widths of cracks that is larger than any known
- * one. */
+/* Adds a hint to *to for each value of friction, gravity, damping and widths of cracks in the scene of run e that is
+ * larger than any known one. */
 static void hint_sizes(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -64,7 +64,7 @@ static void hint_sizes(const struct run *e, struct warnings *to)
                                 k + 1, s->crack[k].width, longest);
 }
 
-/* Adds a hint to *to if the frames of the run take much space on the disk. */
+/* Adds a hint to *to if the frames of run e will take much space on the disk. */
 static void hint_frames(const struct run *e, struct warnings *to)
 {
     const double steps = (double)e->clock.steps, frames = e->scene->frames < steps ? e->scene->frames : steps;

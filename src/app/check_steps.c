@@ -38,8 +38,9 @@ static bool is_sif_driven(const struct run *e)
     return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
 }
 
-/* Returns the distance [m] from a crack tip to the end of the body in a straight line. side: 1 for the distance ahead
- * of the tip, -1 for the distance back along the crack. Bodies from particle lists are ignored. */
+/* Returns the distance from a crack tip to the end of the body in a straight line [m]. side: 1 for the distance ahead
+ * of the tip, -1 for the distance back along the crack. s: shapes of the bodies; bodies from particle lists are
+ * ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
     const real most = 2 * (particles_bounding_box_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
@@ -54,7 +55,7 @@ static real way_within(const struct scene *s, const struct particles *part, cons
     return way;
 }
 
-/* Returns the length [m] of that part of the pre-crack behind a crack tip that is inside bodies. Returns INFINITY if
+/* Returns the length of that part of the pre-crack behind a crack tip that is inside bodies of scene s [m]; INFINITY if
  * the pre-crack is bent, in 3D, or if none is found. */
 static real crack_behind(const struct scene *s, const struct particles *part, const struct crack_tip *tip)
 {
@@ -120,9 +121,9 @@ static void print_missed_peak(const struct scene *s, real t, FILE *out)
             t, s->steps.number, number);
 }
 
-/* Writes to `out` a remark if loads act before the first load step. Writes another one if loads decrease, although the
- * load steps are controlled in a manner that requires growing loads. Under control by load, writes one on the peak that
- * load steps miss most. */
+/* Writes a remark to `out` if loads of run e act before the first load step. Writes another one if loads decrease,
+ * although the load steps are controlled in a manner that requires growing loads. Under control by load, writes one on
+ * the peak of the loads that is farthest above the nearest load steps. */
 static void advise_growth(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -156,8 +157,8 @@ static void advise_growth(const struct run *e, FILE *out)
     if (missed > PEAK_MISSED * most) print_missed_peak(s, peak, out);
 }
 
-/* Writes a remark to `out` for each crack tip with fewer than FEW spacings of crack behind it or of body ahead of
- * it. */
+/* Writes a remark to `out` for each crack tip of run e with fewer than FEW spacings of crack behind it or of body ahead
+ * of it. */
 static void advise_lengths(const struct run *e, FILE *out)
 {
     const real h = e->scene->spacing;
@@ -175,8 +176,8 @@ static void advise_lengths(const struct run *e, FILE *out)
     }
 }
 
-/* Returns the extent of the particles of load l along `axis`, as a number of columns of particles. Returns 0 if the
- * load extends over the whole width of the body. */
+/* Returns the extent of the particles of load l along `axis` [columns of particles]; 0 if the load extends over the
+ * whole width of the body. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;
@@ -189,8 +190,8 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Writes a remark to `out` for each support that is meant as a pin or roller but constrains rotation: it holds more
- * columns of particles than a pin, but too few for a grip. */
+/* Writes a remark to `out` for each support of run e that is meant as a pin or roller but constrains rotation: it holds
+ * more columns of particles than a pin, but too few for a grip. */
 static void advise_supports(const struct run *e, FILE *out)
 {
     for (int b = 0; b < e->loads.n; b++) {
@@ -219,8 +220,8 @@ void print_load_step_accuracy_advice(const struct run *e, FILE *out)
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Returns an estimate of the number of equilibria that one crack increment requires. It is LED_EQUILIBRIA if the
- * direction of cracks follows from stress-intensity factors. Otherwise it follows from the number of bonds in an
+/* Returns an estimate of the number of equilibria that one crack increment of run e requires. It is LED_EQUILIBRIA if
+ * the direction of cracks follows from stress-intensity factors. Otherwise it follows from the number of bonds in an
  * increment and the number of pairs of bonds that break per equilibrium: PAIRS_AT_ONCE in 2D, the number that the scene
  * allows in 3D. */
 static double equilibria_of_advance(const struct run *e)

@@ -16,8 +16,8 @@ static const struct {
     real kappa[EXCESSES], excess[EXCESSES];
 } measured[2] = {{5, {2.1, 4.2, 8.3, 17, 33}, {2, 3, 5, 4, 7}}, {4, {1.2, 2.4, 4.7, 9.7}, {2, 4, 5.5, 12}}};
 
-/* Prints the horizon [m] of the scene s. If the fracture energy G_c of material m is given, also prints the ratio of
- * the horizon to the length E G_c/strength^2, with Young's modulus E and the tensile strength. */
+/* Prints the horizon of scene s [m] and, if the fracture energy G_c of material m is given, the ratio of the horizon to
+ * the length E G_c/strength^2, with Young's modulus E and the tensile strength. */
 static void say_horizon(const struct scene *s, const struct material *m)
 {
     printf("               horizon %.4g m", s->horizon * s->spacing);
@@ -58,9 +58,10 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
     printf("\n");
 }
 
-/* Prints the strengths of material m according to its strength surface, and the radius over which strains are averaged
- * to evaluate the surface. Also prints the horizon that the surface requires: with a larger horizon, bonds begin to
- * soften before the stress reaches the surface. Prints the stresses in tension and shear for which this happens. */
+/* Prints the strengths of material m according to its strength surface (failure criterion in stress), and the radius
+ * over which strains are averaged to evaluate the surface. Also prints the horizon that the surface requires in scene
+ * s: with a larger horizon, bonds begin to soften before the stress reaches the surface. Prints the stresses in tension
+ * and shear for which this happens. */
 static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);

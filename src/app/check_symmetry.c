@@ -13,7 +13,7 @@
 
 #define NEAR_ENOUGH 1e-6 /* [spacings], and share of a largest component */
 
-/* Returns the index of the particle at the position X[dim] [m], or -1 if there is none or more than one. */
+/* Returns the index of the particle of run e at the position X[dim] [m]; -1 if there is none or more than one. */
 static int64_t particle_at(const struct run *e, const real *X)
 {
     int32_t found[4];
@@ -60,8 +60,8 @@ static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
     return true;
 }
 
-/* Returns a number that identifies the boundary condition b: it is computed from its kind and its function of time,
- * such that different loads have different numbers and sums of these are rarely equal by chance. */
+/* Returns a number that identifies the boundary condition b. It is computed from kind and function of time, such that
+ * different loads have different numbers and sums of these are rarely equal by chance. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
@@ -96,9 +96,9 @@ static void loads_ask(const struct particles *part, const struct loads *loads, i
     }
 }
 
-/* Returns true if loads, constraints and initial velocities are symmetric about a plane normal to `axis`. twin[i]:
- * index of the mirror image of particle i. Returns false for formulas and rotating supports, whose symmetry is
- * unknown. */
+/* Returns true if loads, constraints and initial velocities of the particles p are symmetric about a plane normal to
+ * `axis`. twin[p->n]: index of the mirror image of each particle. Returns false for formulas and rotating supports,
+ * whose symmetry is unknown. */
 static bool loads_agree(const struct particles *p, const struct loads *loads, int axis, const int32_t *twin)
 {
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
@@ -117,9 +117,10 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     return same;
 }
 
-/* Stores in twin[i] the index of the mirror image of each particle i in the plane normal to `axis` at the coordinate
- * `at` [m]. Returns false if a particle has no image. Also returns false if a particle is on the plane and thus its own
- * image, because a scene of one half would have to cut it. */
+/* Finds the mirror image of each particle of run e in the plane normal to `axis` at the coordinate `at` [m].
+ * twin[particles]: receives the index of the mirror image of each particle. Returns false if a particle has no image.
+ * Also returns false if a particle is on the plane and thus its own image, because a scene of one half would have to
+ * cut it. */
 static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -156,8 +157,9 @@ static bool rigid_twins(const struct particles *p, const struct scene *scene, in
     return same;
 }
 
-/* Returns true if every rigid body has a mirror image among the rigid bodies in the plane normal to `axis` at the
- * coordinate `at` [m], and no rigid body moves freely. */
+/* Returns true if every rigid body of `scene` has a mirror image among the rigid bodies in the plane normal to `axis`
+ * at the coordinate `at` [m], and no rigid body moves freely. part: particles, at which distances of the bodies are
+ * compared. */
 static bool rigid_bodies_agree(const struct scene *scene, const struct particles *part, int axis, real at)
 {
     const struct scene_body *rigid = scene->body + scene->bodies;
@@ -170,11 +172,11 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
     return true;
 }
 
-/* Returns true if two numbers are equal or both are NAN, which denotes a number that is not given. */
+/* Returns true if the numbers a and b are equal or both are NAN, which denotes a number that is not given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Returns true if the settings for growing cracks are symmetric about the plane normal to `axis` at the coordinate `at`
- * [m]: each crack has a mirror image with equal speed, toughness and start. */
+/* Returns true if the settings for growing cracks in scene s are symmetric about the plane normal to `axis` at the
+ * coordinate `at` [m]: each crack has a mirror image with equal speed, toughness and start. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {
@@ -196,8 +198,8 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
     return true;
 }
 
-/* Returns true if the plane normal to `axis` at the coordinate `at` [m] crosses no ring over which a probe integrates
- * stress-intensity factors. */
+/* Returns true if the plane normal to `axis` at the coordinate `at` [m] crosses no ring over which a probe of run e
+ * integrates stress-intensity factors. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
     const struct observed_run seen = observed_run_view_of(e);

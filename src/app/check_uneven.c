@@ -10,9 +10,9 @@
 #define SAME_PLACE 2    /* largest distance of two measurements of one width [spacings] */
 enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
-/* Returns true if a part of a body may be added to the list of the parts with the largest errors. error: relative error
- * of the width of its particles [1]. The list must not be full, or |error| must exceed 0.9 times the smallest |error|
- * in it. The factor 0.9 allows for errors of equal parts, which differ by up to a tenth because they are estimated from
+/* Returns true if a part of a body may be added to `list`, the parts with the largest errors: the list is not full, or
+ * |error| exceeds 0.9 times the smallest |error| in it. error: relative error of the width of the part's particles [1].
+ * The factor 0.9 allows for errors of equal parts, which differ by up to a tenth because they are estimated from
  * samples. */
 bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real error)
 {
@@ -106,9 +106,9 @@ static void width_measure(struct uneven *u, const struct piece *p)
     if (u->measured) u->width = width;
 }
 
-/* Returns the number of lattice rows of the piece p between the coordinates `low` and `high` [m] along `axis`, if the
- * spacing of its scene were `spacing` [m]. Returns -1 if the lattice of the body cannot be determined for this
- * spacing. */
+/* Returns the number of lattice rows of the piece p (a body, or its part of one material) between the coordinates `low`
+ * and `high` along `axis` [m], if the spacing of its scene were `spacing` [m]; -1 if the lattice of the body cannot be
+ * determined for this spacing. */
 static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
 {
     struct scene other = *p->scene;
@@ -135,9 +135,9 @@ static struct length_unit unit_of_spacing(real spacing)
     return unit[k];
 }
 
-/* Prints the nearest smaller and the nearest larger spacing that divide the width of the narrow part u and give it the
- * right number of lattice rows. Spacings are cut to six digits. If the present spacing divides the width already,
- * prints how the part can be moved to fit the lattice. */
+/* Prints to `out` the nearest smaller and the nearest larger spacing that divide the width of the narrow part u of
+ * piece p and give this part the right number of lattice rows. Spacings are cut to six digits. If the present spacing
+ * divides the width already, prints how the part can be moved to fit the lattice. */
 static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
 {
     const struct length_unit unit = unit_of_spacing(p->scene->spacing);

@@ -15,8 +15,8 @@ static real stopping_distance(enum shape shape)
     return shape == SHAPE_LINEAR ? 0.73 : shape == SHAPE_QUADRATIC ? 0.9 : shape == SHAPE_CUBIC ? 0.93 : 0.8;
 }
 
-/* Returns the distance [m] between the face of body `body` and the plane of symmetry of boundary b at the start;
- * INFINITY if the body has no particles. */
+/* Returns the distance between the face of body number `body` and the plane of symmetry of boundary b at the start [m];
+ * INFINITY if the body has no particles. spacing: lattice spacing [m]. */
 static real gap_at_plane(const struct particles *p, int body, const struct boundary *b, real spacing)
 {
     real nearest = INFINITY;

@@ -39,7 +39,7 @@ static bool holds_run(const char *folder)
 
 /* ---- rows of the table ------------------------------------------------------------------------------------------- */
 
-/* Prints the number a in a column of the table; a dash if it is NAN. */
+/* Prints the number a in a column of the table of a comparison; a dash if it is NAN. */
 static void print_number(double a)
 {
     if (isnan(a))
@@ -48,8 +48,8 @@ static void print_number(double a)
         printf(" %14.7g", a);
 }
 
-/* Prints a row of the table: label, unit, the values a and b of the runs A and B, and b - a. A value that is NAN is
- * printed as a dash. Prints nothing if both are NAN. */
+/* Prints a row of the table of a comparison: label, unit ("" for none), the values a and b of the runs A and B, and b -
+ * a. A value that is NAN is printed as a dash. Prints nothing if both are NAN. */
 static void compare_print_row(const char *label, const char *unit, double a, double b)
 {
     char text[KEY_LENGTH];
@@ -72,7 +72,7 @@ struct times {
     struct listed_frame *list;
 };
 
-/* Returns the mean time [s] between the frames of a run; INFINITY for fewer than two. */
+/* Returns the mean time between the frames t of a run [s]; INFINITY for fewer than two. */
 static double interval(const struct times *t)
 {
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
@@ -104,8 +104,8 @@ struct difference {
     int64_t where;              /* particle of the largest        */
 };
 
-/* Returns the largest and the root-mean-square difference |a - b| of two fields over n particles, the particle of the
- * largest difference, and the largest |a|. a, b: [components][n]. */
+/* Returns the largest and the root-mean-square difference |a - b| of the fields a and b over n particles, the particle
+ * of the largest difference, and the largest |a|. a[components][n], b[components][n]: fields of the runs A and B. */
 static struct difference field_difference(float *const *a, float *const *b, int components, int64_t n)
 {
     struct difference d = {0};
@@ -126,9 +126,9 @@ static struct difference field_difference(float *const *a, float *const *b, int 
     return d;
 }
 
-/* Prints a row of the table of fields: the label with the unit, then from d the largest and the root-mean-square
- * difference, the largest value of the field, and the reference position of the particle with the largest difference.
- * f: frame of run A with the reference positions. */
+/* Prints a row of the table of fields: label and unit, then from d the largest and the root-mean-square difference, the
+ * largest value of the field, and the reference position of the particle with the largest difference. f: frame of run
+ * A, with the reference positions. */
 static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
@@ -172,9 +172,9 @@ static double frame_step_length(const struct output_frame *f)
     return f->step > 0 ? f->t / (double)f->step : INFINITY;
 }
 
-/* Prints the difference in time of the two compared frames a and b, unless it is below half a step. If exactly one of
- * the runs is of LAMMPS, also prints that the velocities of the other run are taken half a step before those of LAMMPS,
- * and its damage one step before. */
+/* Prints the difference in time of the compared frames a and b of the runs p, unless it is below half a step. If
+ * exactly one of the runs is of LAMMPS, also prints that the velocities of the other run are taken half a step before
+ * those of LAMMPS, and its damage one step before. */
 static void print_time_apart(const struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
@@ -188,7 +188,8 @@ static void print_time_apart(const struct pair *p, const struct output_frame *a,
                lammps[0] ? "B" : "A");
 }
 
-/* Returns the largest distance between the reference positions of particles of the same number in two frames [m]. */
+/* Returns the largest distance between the reference positions of particles of the same number in the frames a and b
+ * [m]. */
 static double largest_start_distance(const struct output_frame *a, const struct output_frame *b)
 {
     double largest = 0;
@@ -200,7 +201,7 @@ static double largest_start_distance(const struct output_frame *a, const struct 
     return largest;
 }
 
-/* Compares the frames a and b of the two runs particle by particle and prints the differences, or the reason why they
+/* Compares the frames a and b of the runs p particle by particle and prints the differences, or the reason why they
  * cannot be compared. */
 static void compare_particles(struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
@@ -254,14 +255,15 @@ static status compare_frames(struct pair *p)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of the column called `name` in the last row of a history; NAN if there is no such column or row. */
+/* Returns the value of the column called `name` in the last row of the history h of a run; NAN if there is no such
+ * column or row. */
 static double last_of(const struct history *h, const char *name)
 {
     return h->rows > 0 ? history_value_at(h, h->rows - 1, history_find_column(h, name)) : NAN;
 }
 
-/* Prints the energies and errors in the last lines of history.csv of both runs, with their differences. Prints a
- * message if a run has no such file. Returns FAILED if a file cannot be read. */
+/* Prints the energies and errors in the last lines of history.csv of both runs p, with their differences. Prints a
+ * message if a run has no such file. Returns FAILED, with a message, if a file cannot be read. */
 static status compare_energies(const struct pair *p)
 {
     static const struct {
@@ -303,8 +305,8 @@ static double compare_figure_of(const char *folder, const char *key)
     return summary_read_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Reads the position place[DIM_MAX] of crack tip number k [m] from the summary of the run in `folder`. Returns false if
- * the run has no such tip. */
+/* Reads the position of crack tip number k, from 0, from the summary of the run in `folder` to place[DIM_MAX] [m].
+ * Returns false if the run has no such tip. */
 static bool tip_place(const char *folder, int k, double place[DIM_MAX])
 {
     bool found = false;
@@ -318,7 +320,7 @@ static bool tip_place(const char *folder, int k, double place[DIM_MAX])
     return found;
 }
 
-/* Prints every crack tip of run A with the distance to the nearest tip of run B. */
+/* Prints every crack tip of the first run of p with the distance to the nearest tip of the second run. */
 static void print_tips(const struct pair *p)
 {
     double a[DIM_MAX], b[DIM_MAX];

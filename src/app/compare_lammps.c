@@ -16,8 +16,8 @@ bool lammps_run_exists(const char *folder)
     return run_has_file(folder, "plate.dump") && run_has_file(folder, "in.lammps");
 }
 
-/* Reads the time step [s] from the LAMMPS script in.lammps of a folder into *dt. Returns FAILED if the script has no
- * such line. */
+/* Reads the time step from the LAMMPS script in.lammps in `folder` to *dt [s]. Returns FAILED, with a message, if there
+ * is no script or it has no such line. */
 static status lammps_time_step(const char *folder, double *dt)
 {
     struct path path = path_join(folder, "in.lammps");
@@ -146,7 +146,7 @@ status lammps_run_read_frame(struct output_frame *f, const char *folder, int fra
 /* ---- the check --------------------------------------------------------------------------------------------------- */
 
 /* Prints the largest differences in displacement and damage between the frame f of LAMMPS and the states of Cleave in
- * check.csv. */
+ * check.csv, c. */
 static void check_print(const struct check *c, const struct lammps_frame *f)
 {
     double apart = 0, size = 0, damage = 0;

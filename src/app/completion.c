@@ -19,8 +19,8 @@ static void options_of(FILE *out, const struct command *c)
     fputs(" --help", out);
 }
 
-/* Writes a `case` statement for the shell that assigns to the shell variable `options` the options of the command in
- * the shell variable `command`. */
+/* Writes to `out` a `case` statement for the shell that assigns the options of the command in the shell variable
+ * `command` to the shell variable `options`. */
 static void cases_print(FILE *out)
 {
     fputs("    case \"$command\" in\n", out);

@@ -18,8 +18,9 @@ static const struct target {
     status (*write)(const struct export_request *);
 } targets[] = {{"lammps", export_lammps}, {"exodus", export_exodus}};
 
-/* Reads the options that only `cleave export` has into r, and removes them from argv, so that the remaining words can
- * be read as those of `cleave run`. Returns REFUSED if --style has an unknown value, or if --resume or -q is given. */
+/* Reads the options that only `cleave export` has to r, and removes them from the words argv[*argc], so that the
+ * remaining words can be read as those of `cleave run`. Returns REFUSED, with a message, if --style has an unknown
+ * value, or if --resume or -q is given. */
 static status export_words(struct export_request *r, int *argc, char **argv)
 {
     int kept = 1;
@@ -41,7 +42,8 @@ static status export_words(struct export_request *r, int *argc, char **argv)
     return OK;
 }
 
-/* Returns REFUSED if `scene` is the folder of a study, which has a list of its runs in place of a scene. */
+/* Checks that `scene`, a file or folder, is not the folder of a study, which has a list of its runs in place of a
+ * scene. Returns OK, or REFUSED with a message. */
 static status check_not_study(const char *scene)
 {
     const bool study = folder_holds_study(scene) || run_has_file(scene, "study.yaml");

@@ -49,7 +49,7 @@ static const struct {
     {"scenes|yaml", "inputs/scenes.md; `cleave help scene` lists all keys"},
 };
 
-/* Returns the text that names where the manual or the program treats a word, from the table `topics`; NULL if the word
+/* Returns the text that names where the manual or the program treats `word`, from the table `topics`; NULL if the word
  * is not in it. */
 static const char *topic_answer(const char *word)
 {

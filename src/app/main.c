@@ -19,8 +19,8 @@
 #define LEAVE _exit
 #endif
 
-/* Returns true if -h or --help is among the words after a command, unless it is the value of an option of one
- * letter. */
+/* Returns true if -h or --help is among the words argv[2 .. argc - 1] after a command, unless it is the value of an
+ * option of one letter. */
 static bool asks_help(int argc, char **argv)
 {
     bool asks = false;
@@ -29,7 +29,8 @@ static bool asks_help(int argc, char **argv)
     return asks;
 }
 
-/* Returns REFUSED if a word after the command has the form --option=value, unless it is the value of an option. */
+/* Checks that no word argv[2 .. argc - 1] after the command has the form --option=value, unless it is the value of an
+ * option. Returns OK, or REFUSED with a message. */
 static status check_no_value_is_joined(int argc, char **argv)
 {
     for (int k = 2; k < argc; k++) {
@@ -55,10 +56,10 @@ static status call(int argc, char **argv)
     return c->call(argc - 1, argv + 1);
 }
 
-/* Sets a short spin of OpenMP threads by GOMP_SPINCOUNT and restarts the program with it, unless the environment sets a
- * wait policy. By default threads wait for each other by spinning for milliseconds, which slows a run many times over
- * on a busy machine. Measured for plate_hole with two threads on two cores next to two other processes: 0.1 to 0.9 s
- * with a short spin; without it 2 to 23 s in one of ten runs. */
+/* Sets a short spin of OpenMP threads by GOMP_SPINCOUNT and restarts the program with its arguments argv, unless the
+ * environment sets a wait policy. By default threads wait for each other by spinning for milliseconds, which slows a
+ * run many times over on a busy machine. Measured for plate_hole with two threads on two cores next to two other
+ * processes: 0.1 to 0.9 s with a short spin; without it 2 to 23 s in one of ten runs. */
 static void limit_spin(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
@@ -75,7 +76,7 @@ static void keep_descriptors(void)
     if (fd > STDERR_FILENO) close(fd);
 }
 
-/* Returns true if standard output is a pipe whose reader has ended. */
+/* Returns true if standard output is a pipe whose reader has ended, so that nothing can be printed any more. */
 static bool reader_gone(void)
 {
     struct pollfd output = {STDOUT_FILENO, POLLOUT, 0};

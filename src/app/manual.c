@@ -197,8 +197,8 @@ void usage_print(FILE *out)
         "\n`cleave COMMAND --help` says what a command takes; `cleave help run` what a run leaves and how it ends.\n");
 }
 
-/* Returns true if the command c has an option, i.e. if its usage contains the option. term: the option, which may be
- * followed by a blank and its value. */
+/* Returns true if the command c has the option `term`, i.e. if the usage of the command contains the option. term: the
+ * option, which may be followed by a blank and its value. */
 static bool takes_option(const struct command *c, const char *term)
 {
     size_t length = strcspn(term, " ");

@@ -30,8 +30,8 @@ static status kinds_print(void)
     return OK;
 }
 
-/* Finds the kind of scene called `name` and stores a pointer to it in *found. Returns REFUSED if there is none, with
- * the most similar name in the message. */
+/* Finds the kind of scene called `name` and stores a pointer to it, which is static, in *found. Returns REFUSED, with
+ * the most similar name in the message, if there is none. */
 static status kind_find(const char *name, const struct kind **found)
 {
     const struct kind *nearest = kinds;
@@ -44,8 +44,9 @@ static status kind_find(const char *name, const struct kind **found)
                       similar ? "the nearest is " : "", similar ? nearest->name : "", similar ? ", and " : "");
 }
 
-/* Finds the name of a new scene in its path: *name points to the first letter of the file name in `path`, *length is
- * the length of `path` without the ending .yaml. Returns REFUSED unless the name is valid as the name of a run. */
+/* Checks the path of a new scene. *name: receives the first letter of the file name in `path`; *length: receives the
+ * length of `path` without the ending .yaml. Returns REFUSED, with a message, unless the file name without this ending
+ * is valid as the name of a run. */
 static status check_path(const char *path, int *length, const char **name)
 {
     const char *slash = strrchr(path, '/');
@@ -78,7 +79,8 @@ static void scene_write(FILE *out, const struct kind *k, const char *path, const
         fputs(k->text, out);
 }
 
-/* Creates and opens a new file for writing. Returns REFUSED if the file exists or cannot be created. */
+/* Creates the file `path` and opens it for writing, as *out. Returns REFUSED, with a message, if the file exists or
+ * cannot be created. */
 static status file_open(FILE **out, const char *path)
 {
     *out = fopen(path, "wx");
@@ -106,8 +108,8 @@ static struct part_name part_path(const char *path)
     return file;
 }
 
-/* Writes the surface NAME.stl that belongs to the scene at `path`, if its kind reads one. Returns REFUSED if the file
- * exists, FAILED if it cannot be written. */
+/* Writes the surface NAME.stl that belongs to the scene at `path`, if its kind k reads one. Returns REFUSED if the file
+ * exists, FAILED if it cannot be written, with a message. */
 static status part_write(const struct kind *k, const char *path)
 {
     FILE *out;

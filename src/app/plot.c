@@ -28,7 +28,8 @@ enum { TITLE_MOST = TITLE_LENGTH - 64 }; /* longest title; other words may follo
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the value of --frames, which is `all`, `last`, or the number of frames. Returns REFUSED for other texts. */
+/* Reads `text`, the value of --frames, to w: `all`, `last`, or the number of frames. Returns REFUSED, with a message,
+ * for other texts. */
 static status read_frames_option(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -39,8 +40,8 @@ static status read_frames_option(struct plot_words *w, const char *text)
     return option_read_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
-/* Reads the value of --times into w: numbers with units and `last`, separated by commas, or `all`. Returns REFUSED if
- * the text contains anything that is no time, or more than PANELS_MAX times. */
+/* Reads `text`, the value of --times, to w: numbers with units and `last`, separated by commas, or `all`. Returns
+ * REFUSED, with a message, if the text contains anything that is no time, or more than PANELS_MAX times. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -64,8 +65,8 @@ static status read_times(struct plot_words *w, const char *text)
     return s;
 }
 
-/* Reads the value of --slice: `z=4mm`, or `z` for the slice normal to z with the most damage. Returns REFUSED for other
- * texts. */
+/* Reads `text`, the value of --slice, to w: `z=4mm`, or `z` for the slice normal to z with the most damage. Returns
+ * REFUSED, with a message, for other texts. */
 static status read_slice(struct plot_words *w, const char *text)
 {
     struct projection *projection = &w->request.projection;
@@ -114,8 +115,8 @@ static status read_range(struct plot_words *w, const char *text)
     return OK;
 }
 
-/* Reads the value of --crop, the rectangle X:X,Y:Y of lengths. Returns REFUSED for other texts, and unless the lower
- * end of each axis comes first. */
+/* Reads `text`, the value of --crop, to w: the rectangle X:X,Y:Y of lengths. Returns REFUSED, with a message, for other
+ * texts, and unless the lower end of each axis comes first. */
 static status read_crop(struct plot_words *w, const char *text)
 {
     char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "give X:X,Y:Y as lengths";
@@ -161,9 +162,9 @@ static status read_fps(struct plot_words *w, const char *text)
     return option_read_count(&w->request.fps, "plot: --fps", text, 1, 240);
 }
 
-/* Reads the value of --size into w: width and height as 1200x800 [pixel] or as 90mmx60mm. Returns REFUSED unless the
- * width is from 300 (53 mm) and the height from 226 (40 mm) to 10000 pixels, since a smaller picture has no space
- * beside its letters. */
+/* Reads `text`, the value of --size, to w: width and height as 1200x800 [pixel] or as 90mmx60mm. Returns REFUSED, with
+ * a message, unless the width is from 300 (53 mm) and the height from 226 (40 mm) to 10000 pixels, since a smaller
+ * picture has no space beside its letters. */
 static status read_picture_size(struct plot_words *w, const char *text)
 {
     return option_read_picture_size(&w->size, "plot: --size", text);
@@ -232,8 +233,8 @@ static status read_option(struct plot_words *w, const char *word, const char *va
                       word_propose_similar(word, name, COUNT_OF(name)).text, usage);
 }
 
-/* Sets the format of the picture from the file name extension of -o, unless --format is given. Returns REFUSED if the
- * extension is unknown, or differs from --format. */
+/* Sets the format of the picture from the file name extension of -o in w, unless --format is given. Returns REFUSED,
+ * with a message, if the extension is unknown, or differs from --format. */
 static status settle_format(struct plot_words *w)
 {
     const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;
@@ -248,8 +249,8 @@ static status settle_format(struct plot_words *w)
         printable_name(out).text, w->format);
 }
 
-/* Checks the options of `cleave plot` together. Returns REFUSED if two of them exclude each other, or if neither a
- * folder nor --scene is given. */
+/* Checks the options of `cleave plot` in w together. Returns REFUSED, with a message, if two of them exclude each
+ * other, or if neither a folder nor --scene is given. */
 static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
@@ -319,7 +320,8 @@ static status check_folder(const char *folder)
                : status_set(FAILED, "%s: the name is too long; choose a shorter one", folder);
 }
 
-/* Returns true if the argument of -o names a folder: one that exists, or a name that ends in / or has no ending. */
+/* Returns true if `out`, the argument of -o, names a folder: one that exists, or a name that ends in / or has no
+ * ending. */
 static bool is_folder_name(const char *out)
 {
     const size_t length = strlen(out);

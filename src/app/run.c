@@ -24,8 +24,8 @@
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
 /* Prints the growth of the crack that ends at *tip, its direction and its ends; in a bar the growth of the zone of
- * broken bonds. dim: dimensions of the space. The length [m] has the SI prefix with which it has up to three digits
- * before the point. */
+ * broken bonds. dim: number of dimensions. The length [m] has the SI prefix with which it has up to three digits before
+ * the point. */
 static void print_longest(const struct crack_tip *tip, int dim)
 {
     static const struct {
@@ -45,9 +45,8 @@ static void print_longest(const struct crack_tip *tip, int dim)
         printf(", %.0f %% of it by joining others, which has no speed", 100 * tip->joined / tip->growth);
 }
 
-/* Prints how bonds broke in the run e: when and at how many positions they broke first, the growth, angle and ends of
- * the longest crack, and when a bond first broke at a particle that a boundary drives. Prints nothing if no bond broke.
- */
+/* Prints how bonds broke in run e: when and at how many positions they broke first, the growth, angle and ends of the
+ * longest crack, and when a bond first broke at a particle that a boundary drives. Prints nothing if no bond broke. */
 static void print_breaks(const struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
@@ -71,7 +70,8 @@ static void print_breaks(const struct run *e)
         printf("  first broken bond of particles that a boundary moves: at %.4g s\n", w->driven_time);
 }
 
-/* Prints the energy that the load steps have released so far, and the area of the crack, from the record r. */
+/* Prints the energy that the load steps have released so far, and the area of the crack, from r, the record of the load
+ * steps. */
 static void print_release(const struct steps_record *r)
 {
     const bool beside_mirror = r->face > r->area;
@@ -114,10 +114,10 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     return OK;
 }
 
-/* Creates the run e, opens its folder out, resumes from a checkpoint if requested, runs to the end and writes the
- * summary. The folder is opened after the run is created, so that a refused scene leaves no folder. threads: number
- * of threads, for messages and the summary. Returns OK, REFUSED, FAILED, or INTERRUPTED if a signal ended the run
- * early. */
+/* Creates run e of scene s, opens its folder as `out`, resumes from a checkpoint if the arguments a request it, runs to
+ * the end and writes the summary. The folder is opened after the run is created, so that a refused scene leaves no
+ * folder. threads: number of threads, for messages and the summary. Returns OK, REFUSED, FAILED, or INTERRUPTED if a
+ * signal ended the run early. */
 static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {

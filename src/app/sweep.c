@@ -26,8 +26,8 @@ struct sweep_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-/* Reads KEY=VALUES, the text of an option -s, which gives a scene key with the values that the sweep tries, and appends
- * it to a->key. Returns REFUSED if the key is given twice or the text is invalid. */
+/* Reads `text`, KEY=VALUES, the text of an option -s, which gives a scene key with the values that the sweep tries, and
+ * appends it to a->key. Returns REFUSED, with a message, if the key is given twice or the text is invalid. */
 static status key_add(struct sweep_arguments *a, const char *text)
 {
     TRY(varied_key_parse_values(&a->key[a->keys], text));
@@ -91,7 +91,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
 
 /* ---- what is printed --------------------------------------------------------------------------------------------- */
 
-/* Returns the number of runs of a study that are in the given state. */
+/* Returns the number of runs of study s that are in the given state. */
 static int cases_in(const struct study *s, enum case_state state)
 {
     int n = 0;
@@ -113,8 +113,9 @@ static void sweep_print(const struct study *s)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the results of all finished runs of a study, writes its table sweep.csv, draws its pictures and prints
- * means over a random seed that alone varies. Returns the first status that is not OK. */
+/* Reads the results of all finished runs of study s, writes its table sweep.csv, draws its pictures and prints means
+ * over a random seed that alone varies. a: arguments of the sweep, with its keys. Returns the first status that is not
+ * OK, else OK. */
 static status sweep_collect(const struct study *s, const struct sweep_arguments *a)
 {
     struct study_table table;
