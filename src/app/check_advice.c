@@ -120,7 +120,8 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
     fprintf(out, "; in bending, method: adaptive is within 1 %% from 10 layers on");
 }
 
-/* Returns the positive number `value` rounded down to two significant digits, with a tolerance for round-off. */
+/* Returns the positive number `value` rounded down to two significant digits, with a tolerance for round-off, for
+ * messages. */
 static real two_digits_down(real value)
 {
     const real digit = pow(10, floor(log10(value)) - 1);

@@ -56,8 +56,8 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
 
-/* Returns the number of cells of the run whose first cell is `from`. A run is a line of consecutive lattice cells along
- * k->axis that either all contain particles, or contain none although the body partly covers each of them. */
+/* Returns the number of cells of the run whose first cell is `from`. A run is a line of consecutive lattice cells of k
+ * along k->axis that either all contain particles, or contain none although the body partly covers each of them. */
 static int64_t run_span(const struct necks *k, int64_t from)
 {
     int64_t n = 1;
@@ -66,7 +66,7 @@ static int64_t run_span(const struct necks *k, int64_t from)
 }
 
 /* Returns true if one of the two cells next to the ends of a line of n lattice cells contains a particle. The line
- * extends along k->axis and begins with the cell `from`. */
+ * extends along k->axis and begins with cell number `from` of k->cover. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
@@ -111,8 +111,8 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
     return found;
 }
 
-/* Returns true if a plane of symmetry normal to the axis `across` adjoins the cell number `cell` in the direction `way`
- * (-1 or 1). */
+/* Returns true if a plane of symmetry of the run k->engine, normal to the axis `across`, adjoins the lattice cell
+ * number `cell` in the direction `way` (-1 or 1). */
 static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct run *e = k->engine;
@@ -133,8 +133,9 @@ static void cell_point(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
-/* Measures the width of the piece along k->axis on the line through X[dim] [m]. Stores the midpoint and the length of
- * the line inside the piece in *chord. Returns false if X is outside the piece or on its surface. */
+/* Measures the width of the piece k->piece (a body, or its part of one material) along k->axis on the line through
+ * X[dim] [m]. *chord: receives the midpoint and the length of the part of the line inside the piece. Returns false if X
+ * is outside the piece or on its surface. */
 static bool chord_measure(const struct necks *k, const real *X, struct chord *chord)
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
@@ -187,8 +188,8 @@ static bool chords_measure(struct chords *p, const struct necks *k, const int *r
     return true;
 }
 
-/* Returns the number of the narrowest of the chords `from` to `to`. If several chords have this width to within
- * `tolerance` [m], returns the middle one. */
+/* Returns the number of the narrowest of the chords (widths on parallel lines) number `from` to `to` of p. If several
+ * chords have this width to within `tolerance` [m], returns the middle one. */
 static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
 {
     int best = from, end;
@@ -211,11 +212,11 @@ static real chord_rows(struct chords *p, const struct necks *k, int m)
     return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
 }
 
-/* Returns true if the piece, measured on parallel chords, is a neck at its narrowest chord `narrowest`: its width grows
- * by at least GROWTH spacings on both sides. Bent strips of constant width are excluded by the condition that the
- * midpoint of the chord shifts by less than the width grows. A side that ends at a plane of symmetry is taken as the
- * mirror image of the other side. Sets *even to true if the width changes only in steps, each below 0.001 or above 0.5
- * spacings. */
+/* Returns true if the piece, measured on the parallel chords p, is a neck at its narrowest chord, number `narrowest`:
+ * its width grows by at least GROWTH spacings on both sides. Bent strips of constant width are excluded by the
+ * condition that the midpoint of the chord shifts by less than the width grows. A side that ends at a plane of symmetry
+ * is taken as the mirror image of the other side. *even: receives whether the width changes only in steps, each below
+ * 0.001 or above 0.5 spacings. */
 static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -236,9 +237,10 @@ static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool
     return fabs(shift[0] + shift[1]) < 0.75 * (growth[0] + growth[1]);
 }
 
-/* Returns the relative error of the width of a neck: (number of its particle rows times the spacing)/(its width) - 1
- * [1]. narrowest: number of its narrowest chord. Both widths are averaged over a length of the neck equal to its width,
- * as 1/mean(1/width), since the compliance of the neck depends on this mean. */
+/* Returns the relative error of the width of a neck [1]: number of its particle rows times the spacing, divided by its
+ * width, minus 1. p: chords (widths on parallel lines) across the neck; narrowest: number of the narrowest one. Both
+ * widths are averaged over a length of the neck equal to its width, as 1/mean(1/width), since the compliance of the
+ * neck depends on this mean. */
 static real neck_off(struct chords *p, const struct necks *k, int narrowest)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -251,8 +253,8 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns the index of the lattice cell that contains u->at, the centre of a neck. Returns -1 if the centre is outside
- * all cells of k, or if k->rows of the cell is 0, since it contains no particle. */
+/* Returns the number of the lattice cell of k that contains u->at, the centre of a neck; -1 if the centre is outside
+ * all cells, or if the cell contains no particle (its k->rows is 0). */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -295,9 +297,10 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
     return true;
 }
 
-/* Returns the description of a neck: its position, its width at the chord `narrowest`, and the error of this width. The
- * width is reduced if a parabola through the widths of this chord and its two neighbours has its minimum between them,
- * and the piece is narrower there. rows: number of particle rows across the neck. */
+/* Returns the description of a neck: its position, its width at the chord number `narrowest`, and the error of this
+ * width. The width is reduced if a parabola through the widths of this chord and its two neighbours has its minimum
+ * between them, and the piece is narrower there. p: chords (widths on parallel lines) across the neck; rows: number of
+ * particle rows across the neck. */
 static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
@@ -343,8 +346,8 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     uneven_list_add_narrow_part(list, &u, false);
 }
 
-/* Sets k->seen of `cell` and of all cells that are connected to it through cells with the same number of particle rows
- * k->rows, so that their neck is examined only once. */
+/* Sets k->seen to 1 for the lattice cell number `cell` and all cells that are connected to it through cells with the
+ * same number of particle rows k->rows, so that their neck is examined only once. */
 static void neck_mark(struct necks *k, int64_t cell)
 {
     int64_t top = 0;
@@ -411,7 +414,7 @@ void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *
 }
 
 /* Compares the length of a part of a 1D body, from `low` to `high` [m], with the length that its particles represent:
- * their number times the spacing. Adds the part to the list if the relative difference exceeds OFF_LEAST. first:
+ * their number times the spacing. Appends the part to `list` if the relative difference exceeds OFF_LEAST. first:
  * coordinate of a particle of the body's lattice [m]. */
 static void length_judge(struct uneven_list *list, real low, real high, real first)
 {

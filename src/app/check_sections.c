@@ -66,8 +66,8 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
     }
 }
 
-/* Returns the index of that one of the sections with the indices a and b which has the larger area. An index of -1
- * denotes no section. */
+/* Returns the number of that one of the sections a and b of s (connected cells in a slice) which has the larger area. A
+ * number -1 denotes no section; -1 is returned if both are -1. */
 static int32_t larger(const struct sections *s, int32_t a, int32_t b)
 {
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
@@ -110,8 +110,9 @@ static void sections_free(struct sections *s)
     memory_free(s->of);
 }
 
-/* Returns true if a part of constant width continues at section k: the section exists (k >= 0), touches sections in the
- * previous and next slice, and has the area `area` [cells] to within the relative tolerance ALIKE. */
+/* Returns true if a part of constant width continues at section number k of s (connected cells in a slice): the section
+ * exists (k >= 0), touches sections in the previous and next slice, and has the area `area` [cells] to within the
+ * relative tolerance ALIKE. */
 static bool goes_on_alike(const struct sections *s, int32_t k, real area)
 {
     return k >= 0 && s->section[k].before >= 0 && s->section[k].after >= 0 &&
@@ -138,9 +139,9 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
     return sum > 0 ? (filled ? section->filled : section->area) / sum : 0;
 }
 
-/* Returns the description of the section with the index `number`, whose number of particle rows is wrong: its centre,
- * and the widths of shape and particles along the axis on which they differ most. off: relative error of its area
- * [1]. */
+/* Returns the description of section number `number` of s (connected cells in a slice), whose number of particle rows
+ * is wrong: its centre, and the widths of shape and particles along the axis on which they differ most. off: relative
+ * error of its area [1]. */
 static struct uneven uneven_of(const struct sections *s, int32_t number, real off)
 {
     const struct cover *c = s->cover;
@@ -176,8 +177,8 @@ struct stretch {
     bool even; /* all sections have equal numbers of particles: their faces are along the axis */
 };
 
-/* Returns the sums over at most `most` consecutive sections of nearly equal area, beginning with section number `first`
- * in ascending order of slices. */
+/* Returns the sums over at most `most` consecutive sections of s (connected cells in a slice) of nearly equal area,
+ * beginning with section number `first`, in ascending order of slices. */
 static struct stretch stretch_from(const struct sections *s, int32_t first, int most)
 {
     const struct section *begin = &s->section[first];
@@ -243,8 +244,8 @@ static void piece_sections(struct uneven_list *list, const struct cover *c, uint
     }
 }
 
-/* Adds to the list the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body, or
- * all its parts of one material. */
+/* Appends to `list` the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body of
+ * run e, or all its parts of one material. */
 static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;

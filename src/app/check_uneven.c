@@ -27,7 +27,8 @@ static bool same_width(const struct uneven *a, const struct uneven *b)
 }
 
 /* Returns true if the narrow parts a and b have their widths along the same axis and positions within SAME_PLACE
- * spacings. They are then one part that was found twice: in the whole body, and in its piece of one material. */
+ * spacings of scene s. They are then one part that was found twice: in the whole body, and in its piece of one
+ * material. */
 static bool same_place(const struct uneven *a, const struct uneven *b, const struct scene *s)
 {
     real r2 = 0;

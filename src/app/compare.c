@@ -30,7 +30,8 @@ struct pair {
     int dim;
 };
 
-/* Returns true if `folder` contains at least one of the files of a run that `cleave compare` reads. */
+/* Returns true if `folder` contains at least one of the files of a run, of Cleave or LAMMPS, that `cleave compare`
+ * reads. */
 static bool holds_run(const char *folder)
 {
     return run_has_file(folder, "summary.json") || run_has_file(folder, "history.csv") ||
@@ -157,8 +158,8 @@ static void print_fields(const struct output_frame *a, const struct output_frame
     printf("  %-28s %14lld of %lld\n", "kind differs (bond or point)", (long long)other_kind, (long long)a->n);
 }
 
-/* Returns the reason why the frames a and b cannot be compared particle by particle, a static text for a message; NULL
- * if they can. */
+/* Returns the reason why the frames a and b cannot be compared particle by particle, as a constant text for a message;
+ * NULL if they can be compared. */
 static const char *particles_differ(const struct output_frame *a, const struct output_frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
@@ -224,8 +225,8 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
     print_fields(a, b);
 }
 
-/* Compares the last frames that both runs p have at a common time, particle by particle, and prints the differences, or
- * the reason why frames are not compared. Returns FAILED if frames cannot be read. */
+/* Compares the last frames that both runs of p have at a common time, particle by particle, and prints the differences,
+ * or the reason why frames are not compared. Returns FAILED, with a message, if frames cannot be read. */
 static status compare_frames(struct pair *p)
 {
     struct times t[2] = {{0}};
@@ -297,8 +298,8 @@ static status compare_energies(const struct pair *p)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number called `key` (names joined by dots) of summary.json in `folder`, the folder of a run; NAN if there
- * is none. */
+/* Returns the number called `key` (names joined by dots) in summary.json of the run in `folder`; NAN if there is
+ * none. */
 static double compare_figure_of(const char *folder, const char *key)
 {
     double value;
@@ -398,8 +399,8 @@ static status read_words(struct pair *p, int argc, char **argv)
     return OK;
 }
 
-/* Prints name, method and state of the run in `folder`, after the letter `letter`, A or B, by which the table denotes
- * the run. Returns FAILED if the summary of the run exists but cannot be read. */
+/* Prints name, method and state of the run in `folder`, after `letter`, A or B, by which the tables denote the run.
+ * Returns FAILED, with a message, if the summary of the run exists but cannot be read. */
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];

@@ -5,8 +5,8 @@
 
 /* ---- curves ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the convex softening curve through the points (x[k], y[k]), k = 0 .. pieces, in *c: its straight lines, and
- * the area below them. x ascends from 0 to 1. */
+/* Stores in *c the convex softening curve through the points (x[k], y[k]), k = 0 .. pieces: its straight lines, and the
+ * area below them. x ascends from 0 to 1, y descends to 0. */
 static void curve_through(struct softening_curve *c, int pieces, const real *x, const real *y)
 {
     *c = (struct softening_curve){.pieces = pieces};
@@ -19,8 +19,9 @@ static void curve_through(struct softening_curve *c, int pieces, const real *x, 
     c->from[pieces] = 1;
 }
 
-/* Computes the points x, y [SOFTENING_PIECES + 1] of the exponential softening curve. They are denser where it is
- * more curved, as the square root of its curvature, so that all chords deviate from it equally. */
+/* Computes x[SOFTENING_PIECES + 1] and y[SOFTENING_PIECES + 1], the points of the exponential softening curve. They are
+ * denser where the curve is more curved, as the square root of its curvature, so that all chords deviate from the curve
+ * equally. */
 static void exponential_points(real *x, real *y)
 {
     const real last = exp(-DECAY), whole = 1 - exp(-0.5 * DECAY);
@@ -31,9 +32,9 @@ static void exponential_points(real *x, real *y)
     x[SOFTENING_PIECES] = 1, y[SOFTENING_PIECES] = 0;
 }
 
-/* Returns the softening curve of a law: force of a bond over the force at the onset, as a function of (s - s_0)/(s_f
- * - s_0) from 0 to 1, with the stretch s, its onset s_0 and its end s_f. The bilinear curve of concrete has its kink
- * at 2/9 of this range and 1/3 of the force (Petersson 1981). */
+/* Returns the softening curve of `law`: the force of a bond, divided by the force at the onset, as a function of x = (s
+ * - s_0)/(s_f - s_0) from 0 to 1, with the stretch s, its onset s_0 and its end s_f. The bilinear curve of concrete has
+ * its kink at x = 2/9 and 1/3 of the force (Petersson 1981). */
 struct softening_curve softening_curve_of_law(enum softening law)
 {
     struct softening_curve c;
@@ -150,9 +151,9 @@ static struct stress_pair family_stress(const struct directions *a, real axial, 
     return (struct stress_pair){sum.axial * axial_factor / DIRECTIONS, sum.lateral * lateral_factor / DIRECTIONS};
 }
 
-/* Returns the strain x at which the function stress(a, x, given) is 0, by bisection. The function must grow with x and
- * have its root between `low` and 0. given: its other strain. Strains are in units of s_0, the stretch at which
- * softening begins. */
+/* Returns the strain x, in units of s_0, at which the function stress(a, x, given) is 0, by bisection. The function
+ * must grow with x and have its root between `low` and 0. a: family of bonds; given: the other strain of the function.
+ * s_0: stretch at which softening begins. */
 static real strain_without_stress(const struct directions *a, real low, real given,
                                   real (*stress)(const struct directions *, real x, real given))
 {
@@ -199,8 +200,8 @@ static real biaxial_at(const struct directions *a, real strain)
     return family_stress(a, strain_without_stress(a, -2 * strain, strain, axial_stress), strain).lateral;
 }
 
-/* Returns the shear stress of a family of bonds, divided by E' s_0 [1], in a plane state with equal tension and
- * compression along two axes. strain: along the axis of tension, in units of s_0, the stretch at which softening
+/* Returns the shear stress of the family of bonds a, divided by E' s_0 [1], in a plane state with equal tension and
+ * compression along two axes. strain: strain along the axis of tension, in units of s_0, the stretch at which softening
  * begins. Returns NAN in 1D and 3D. */
 static real shear_at(const struct directions *a, real strain)
 {
@@ -208,9 +209,10 @@ static real shear_at(const struct directions *a, real strain)
     return family_stress(a, strain, strain_without_stress(a, -10 * strain, strain, stress_sum)).axial;
 }
 
-/* Returns the largest value of stress(a, strain) as the strain grows, which is the strength of the material. The search
- * begins at the strain at which softening begins. It ends when the stress has fallen to 0.8 of the maximum, or when all
- * bonds have failed. Returns NAN if the stress is not defined in this space. */
+/* Returns the largest value of the function stress(a, strain) as the strain grows, divided by E' s_0, which is the
+ * strength of the material. a: family of bonds. The search begins at the strain at which softening begins. It ends when
+ * the stress has fallen to 0.8 of the maximum, or when all bonds have failed. Returns NAN if the stress is not defined
+ * in this space. */
 static real peak(const struct directions *a, real (*stress)(const struct directions *, real))
 {
     real most = 0;

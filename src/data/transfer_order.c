@@ -8,8 +8,8 @@
 
 /* ---- blocks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the block (a box of cells) that contains cell k along an axis. edge: length of a block along
- * the axis [cells]. */
+/* Returns the index of the block (a box of cells) that contains cell number k along an axis; both may be negative.
+ * edge: length of a block along the axis [cells]. */
 static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k >= 0 ? k : k - edge + 1) / edge; }
 
 /* The blocks that overlap the box of a grid. */
@@ -19,7 +19,8 @@ struct block_shape {
     int64_t cells_in_block, n;
 };
 
-/* Returns the blocks (boxes of cells) that overlap the box of the grid g. */
+/* Returns the blocks (boxes of cells) that overlap the box of the grid g: their range along each axis, and their
+ * number. */
 static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.dim = g->dim, .cells_in_block = 1, .n = 1};
@@ -32,8 +33,8 @@ static struct block_shape block_shape_of(const struct grid *g)
     return s;
 }
 
-/* Returns the colour of a block (a box of cells), one bit per axis: whether its index along the axis is odd. Blocks of
- * one colour are not adjacent. */
+/* Returns the colour of block number `block` (a box of cells) of s, one bit per axis: whether its index along the axis
+ * is odd. Blocks of one colour are not adjacent, so that threads can process them at the same time. */
 static int block_colour(const struct block_shape *s, int64_t block)
 {
     int colour = 0;
@@ -60,8 +61,8 @@ static void rank_blocks(struct transfer_order *o, const struct block_shape *s, i
 
 /* ---- room -------------------------------------------------------------------------------------------------------- */
 
-/* Reserves memory for o->cell_start, the index of the first point of each cell in the list of points sorted by cell,
- * for at least `cells` cells. If the array is too short, a longer one replaces it and its contents are lost. */
+/* Reserves memory in o->cell_start, the index of the first point of each cell in the list of points sorted by cell, for
+ * at least `cells` cells. If the array is too short, a longer one replaces it and its contents are lost. */
 static void cells_room(struct transfer_order *o, int32_t cells)
 {
     if (o->cells_room >= cells + 1) return;
@@ -106,8 +107,8 @@ struct sorting {
     uint16_t *inside, *sorted; /* [n] cell in the block; sorted by rank */
 };
 
-/* Returns the index of the first entry of chunk number `chunk`; the list of points is divided into s->chunks equal
- * chunks, one per thread. */
+/* Returns the index of the first entry of chunk number `chunk`, 0 to s->chunks, of the list of points; the list is
+ * divided into s->chunks equal chunks, one per thread. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
 /* Fills the tables s->place[d], with one entry for each cell index along the axis d. The sum of one entry for each axis
@@ -158,8 +159,8 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
     count[key] += (int32_t)(chunk_start(s, chunk + 1) - from);
 }
 
-/* Finds blocks and cells of the points in a chunk of the list, the part of one thread. Calls the copy of find_blocks
- * that is compiled for the dimensions of the grid. */
+/* Finds blocks and cells of the points in chunk number `chunk` of the list (the part of one thread). Calls the copy of
+ * find_blocks that is compiled for the dimensions of the grid. */
 static void find_blocks_of(const struct sorting *s, int chunk)
 {
     switch (s->shape.dim) {
@@ -249,9 +250,9 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->cell_start[o->cells] = (int32_t)o->n;
 }
 
-/* Allocates the working memory of a sort of points by block (a box of cells) and cell. The arrays are not cleared,
- * since all entries are written before they are read. A grid without nodes has no blocks, and then there are no
- * chunks. */
+/* Allocates the working memory of s, a sort of points by block (a box of cells) and cell; s->shape, s->g and s->n must
+ * be set. The arrays are not cleared, since all entries are written before they are read. A grid without nodes has no
+ * blocks, and then there are no chunks. */
 static void sorting_make(struct sorting *s)
 {
     s->chunks = s->shape.n > 0 ? omp_get_max_threads() : 0;

@@ -26,8 +26,8 @@ static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int b
     return 0;
 }
 
-/* Compares two particles, for array_sort: first by the group of points with which they rotate, then by position, then
- * by number. Returns -1, 0 or 1. */
+/* Compares two particles (struct member) for array_sort: first by the group of points with which they rotate, then by
+ * position, then by number. Returns -1, 0 or 1. */
 static int by_member(const void *a, const void *b)
 {
     const struct member *p = a, *q = b;
@@ -37,8 +37,8 @@ static int by_member(const void *a, const void *b)
     return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
 }
 
-/* Compares two groups of points that rotate together by body, then by position, for array_sort and bsearch. Returns -1,
- * 0 or 1. */
+/* Compares two groups of points that rotate together (struct turning_group) for array_sort and bsearch: by body, then
+ * by position. Returns -1, 0 or 1. */
 static int by_group(const void *a, const void *b)
 {
     const struct turning_group *p = a, *q = b;
@@ -61,9 +61,10 @@ struct division {
     bool odd[DIM_MAX];                /* a row of particles is on the middle, across each axis */
 };
 
-/* Returns for each body the division of the bodies that are joined to it; only entries of bodies one[b] are filled. The
- * caller releases the array with memory_free. spacing: of the particles [m]; mirror[dim]: positions of planes of
- * symmetry [m], NAN: none; one: for each body the first of the bodies that are joined to it; bodies: their number. */
+/* Returns an array [bodies] with the division of the bodies that are joined to each body; only the entries of bodies
+ * one[b] are filled. The caller frees it with memory_free. p: particles; spacing: lattice spacing [m]; mirror[dim]:
+ * positions of planes of symmetry [m], NAN: none; one[bodies]: for each body the first of the bodies that are joined to
+ * it. */
 static struct division *divisions_make(const struct particles *p, real spacing, const real *mirror, const int *one,
                                        int bodies)
 {
@@ -122,15 +123,15 @@ static void groups_near(struct rotation_groups *t, int32_t g)
     }
 }
 
-/* Returns true if the particles a and b, which are consecutive in the list of particles sorted by group, belong to
- * different groups of points. */
+/* Returns true if the particles a and b, neighbours in the list of particles sorted by group, belong to different
+ * groups of points that rotate together. */
 static bool groups_differ(const struct member *a, const struct member *b)
 {
     return order_of_places(a->place, a->body, b->place, b->body) != 0;
 }
 
-/* Lists in t->run the particles of each group as runs: at most LANES particles that have consecutive numbers and belong
- * to one group. all[n]: particles sorted by group, then by position. */
+/* Lists in t->run the particles of each group of t (points that rotate together) as runs: at most LANES particles that
+ * have consecutive numbers and belong to one group. all[n]: particles sorted by group, then by position. */
 static void runs_make(struct rotation_groups *t, const struct member *all, int64_t n)
 {
     struct turning_group *g = t->group;

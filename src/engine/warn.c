@@ -175,8 +175,8 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
                                 s->series[k].name);
 }
 
-/* Adds warnings to *to about boundaries of scene s with prescribed motion that contain no particle. l: loads, one for
- * each boundary; p: particles. */
+/* Adds a warning to *to for each boundary of scene s with prescribed motion that contains no particle. l: loads, one
+ * for each boundary; p: particles. */
 static void warn_of_boundaries(const struct scene *s, const struct loads *l, const struct particles *p,
                                struct warnings *to)
 {
@@ -188,8 +188,8 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
                                 particles_extent_text(p).text);
 }
 
-/* Adds a warning to *to if the time step of `clock` is above the critical time step, with which a dynamic run is
- * unstable. s: scene. */
+/* Adds a warning to *to if the time step of `clock` is above the critical time step, with which the run of scene s is
+ * unstable if it is dynamic. */
 static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
 {
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;

@@ -497,7 +497,7 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     }
 }
 
-/* Adds a warning to *to about a plate in plane stress that is much thicker than its longest edge. longest: longest edge
+/* Adds a warning to *to if scene s is a plate in plane stress much thicker than its longest edge. longest: longest edge
  * of the box around all particles [m]. */
 static void units_of_thickness(const struct scene *s, real longest, struct warnings *to)
 {
