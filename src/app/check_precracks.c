@@ -57,7 +57,8 @@ void advise_on_close_crack_tips(const struct scene *s, const struct fracture_sta
     }
 }
 
-/* Returns the index of the body to which particle i belongs; for joined bodies the index of the first of them. */
+/* Returns the index of the body of `scene` to which particle i of `part` belongs; for joined bodies the index of the
+ * first of them. */
 static int body_of(const struct scene *scene, const struct particles *part, int32_t i)
 {
     return scene->body[part->body[i]].joined;

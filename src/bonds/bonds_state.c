@@ -46,8 +46,9 @@ void state_based_update_weighted_volumes(struct bonds *b, const struct particles
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
-/* Computes the weighted volume Q (sum over the bonds of a row) of the row blocks (eight rows stored together) in which
- * it is still 0: those that are rebuilt. Row blocks that were copied from the previous bonds keep their Q. */
+/* Computes the weighted volume Q (sum over the bonds of a row) of the row blocks of b (eight rows stored together) in
+ * which it is still 0: those that are rebuilt. Row blocks that were copied from the previous bonds keep their Q. s:
+ * data of bonds. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)

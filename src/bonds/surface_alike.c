@@ -67,8 +67,9 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
     return mixed(HASH_START, sum ^ sum >> 32);
 }
 
-/* Returns the hash of the surroundings (colour) of particle or image j, reflected by the axes in `mirrors` (bit d: axis
- * d). Returns 1 if there is no particle (j < 0), 2 if it is near no face. */
+/* Returns the hash of the surroundings (colour, from the kinds s) of particle or image j, reflected by the axes in
+ * `mirrors` (bit d: axis d). Returns 1 if there is no particle (j < 0), 2 if it is not in b, the particles near
+ * faces. */
 static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, int32_t j, int mirrors)
 {
     if (j < 0) return 1;

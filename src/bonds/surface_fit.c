@@ -383,9 +383,9 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors on the weights of the bonds of class number `class` (particles with equal surroundings), by equal
- * lower and upper bounds: at 1 if `one`, else at the factor of the volume method (Le & Bobaru 2018), between LEAST and
- * MOST. */
+/* Fixes the factors on the weights of the bonds of class number `class` (particles with equal surroundings) in q, by
+ * equal lower and upper bounds: at 1 if `one`, else at the factor of the volume method (Le & Bobaru 2018), between
+ * LEAST and MOST. b: particles near faces. */
 static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;

@@ -5,8 +5,8 @@
 #include "export_parts.h"
 #include "step/report.h"
 
-/* Computes volume[n], the sum of the volumes of the neighbours to which each of the n particles has an intact bond
- * [m^3]. LAMMPS computes damage as 1 minus the ratio of this sum to its initial value. */
+/* Computes volume[n], the sum of the volumes of the neighbours to which each of the n particles of `part` has an intact
+ * bond in `bonds` [m^3]. LAMMPS computes damage as 1 minus the ratio of this sum to its initial value. */
 static void joined_volume(real *volume, const struct particles *part, const struct bonds *bonds)
 {
     for (int64_t i = 0; i < part->n; i++) {
