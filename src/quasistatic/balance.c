@@ -23,10 +23,11 @@ enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 
 /* ---- predictor --------------------------------------------------------------------------------------------------- */
 
-/* Returns by which fraction of their present values the loads grow from the last equilibrium to pseudo-time t [s] [1].
- * Prescribed displacements are compared if there are any, else applied forces: the scalar product of values at t and
- * present values, over the square of the present ones, less 1. Returns 0 if the present values are 0. before[dim]:
- * applied forces at the last equilibrium, a value for each particle [N]. */
+/* Returns the relative growth of the loads from the last equilibrium to pseudo-time t [s]: the value at t divided by
+ * the present value, less 1, dimensionless; used to predict displacements. Prescribed displacements are compared if
+ * there are any, else applied forces, as scalar product with the present values divided by their square. Returns 0 if
+ * the present values are 0. s: unknowns and increment; part: particles; before[dim][particles]: applied forces of the
+ * last equilibrium [N]. */
 static real load_growth(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
     real now = 0, initial = 0;
@@ -40,9 +41,9 @@ static real load_growth(const struct statics *s, const struct particles *part, r
     return initial > 0 && t != s->t ? now / initial - 1 : 0;
 }
 
-/* Stores in s->increment the displacement increment to pseudo-time t [s]: that of supports as prescribed, all other
- * components as predicted by scaling the present displacements with the growth of the loads. before[dim]: applied
- * forces of the last equilibrium, a value for each particle [N]. */
+/* Stores in s->increment the predicted displacement increment to pseudo-time t [s]: that of supports as prescribed by
+ * `loads`, all other components as the present displacements times the relative growth of the loads. p, mesh: particles
+ * and nodes to which the unknowns belong; before[dim][particles]: applied forces of the last equilibrium [N]. */
 static void increment_predict(struct statics *s, const struct particles *p, const struct mesh *mesh,
                               const struct loads *loads, real t, real *const *before)
 {
@@ -65,8 +66,8 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
     field_remove_free_rigid_motion(s, &s->increment);
 }
 
-/* Returns ten times the norm of the bond forces that round-off of the positions causes [N], the noise level of
- * forces. */
+/* Returns the noise level of forces [N]: ten times the norm of the bond forces that result from round-off of the
+ * positions. bonds, part: all bonds and their particles. */
 static real round_off_force(const struct bonds *bonds, const struct particles *part)
 {
     real sum = 0;
@@ -80,12 +81,13 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
 
 /* ---- losses ------------------------------------------------------------------------------------------------------ */
 
-/* Corrects q->lost, the energy that the solver has lost in all solutions; before this solution it was `lost` [J]. If
- * points yield or faces come into contact, forces do not change linearly over the increment, and the work of loads is
- * known up to +-`range` only [J]. A loss within this range is an error of the work, and is subtracted from the work.
- * in_contact: true if anything is in contact at the start or the end of the increment; yields: true if points or bonds
- * may yield. round_off: energy that round-off of the forces may make [J]. Returns true if the solution gained more than
- * GAIN_MOST times `range` and `round_off` in contact: faces have then passed through each other. */
+/* Corrects q->lost [J], the energy that the solver q has lost in all solutions. `lost` [J] is its value before this
+ * solution. If points yield or faces come into contact, forces do not change linearly over the increment, and the work
+ * of loads is known only up to +-`range` [J]. A loss within this range is an error of the work: it is subtracted from
+ * loads->work. in_contact: true if anything is in contact at the start or the end of the increment; yields: true if
+ * points or bonds may yield; round_off: energy that round-off of the forces may create [J]. Returns true if, in
+ * contact, the solution gained more energy than GAIN_MOST times `range` plus `round_off`: faces have then passed
+ * through each other. */
 static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, real round_off,
                          bool in_contact, bool yields)
 {
@@ -97,8 +99,9 @@ static bool losses_store(struct newton_solver *q, struct loads *loads, real lost
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
 
-/* Sets the error that no equilibrium was found, with a message that names the position of the largest residual and
- * possible remedies. step: number of the load step. Returns FAILED. */
+/* Sets the error that no equilibrium was found: the message names the position of the largest residual of s and
+ * possible remedies. p, mesh: particles and nodes of the unknowns; step: number of the load step, for the message.
+ * Always returns FAILED. */
 static status equilibrium_failed(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                  int64_t step)
 {
@@ -113,7 +116,8 @@ static status equilibrium_failed(const struct statics *s, const struct particles
         p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
-/* Returns INTERRUPTED, with a message, if the user has stopped the run, else OK. */
+/* Returns INTERRUPTED, with a message that names the load step of `clock`, if the user has asked for a stop
+ * (*report->stop), else OK. */
 static status check_stop(const struct run_report *report, const struct run_clock *clock)
 {
     if (!report->stop || !*report->stop) return OK;
@@ -136,9 +140,9 @@ status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, r
     return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
 }
 
-/* Finds the equilibrium at pseudo-time t [s] in a single solution, and updates work and energies of loads, supports and
- * solver. *crossed: set to true if faces have passed through each other, else to false. Returns FAILED, with a message,
- * if there is no equilibrium. */
+/* Finds the equilibrium of run e at pseudo-time t [s] in a single solution, and updates work and energies of loads,
+ * supports and solver. *crossed: set to true if faces have passed through each other, else to false. Returns FAILED,
+ * with a message, if no equilibrium is found or a formula of a load is not finite. */
 static status solve_at(struct run *e, real t, bool *crossed)
 {
     struct statics *s = e->statics;
@@ -167,9 +171,9 @@ static status solve_at(struct run *e, real t, bool *crossed)
     return found;
 }
 
-/* Finds the equilibria after `substeps` equal increments up to pseudo-time t [s] one after the other. Stops, and sets
- * *crossed to true, when faces have passed through each other. Returns FAILED, with a message, if an equilibrium is not
- * found. */
+/* Finds the equilibria of run e after each of `substeps` equal increments up to pseudo-time t [s]. Stops, and sets
+ * *crossed to true, as soon as faces have passed through each other; else sets *crossed to false. Returns FAILED, with
+ * a message, if an equilibrium is not found. */
 static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 {
     const real from = e->statics->t;
@@ -179,9 +183,10 @@ static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
     return OK;
 }
 
-/* Finds the equilibrium at pseudo-time t [s]. If faces pass through each other, restores the initial state and divides
- * the increment into SUBSTEPS_FACTOR times as many substeps. After TRIES_MOST such divisions returns FAILED, with a
- * message. For bodies that yield there is one attempt only, because yielding is not undone. */
+/* Finds the equilibrium of run e at pseudo-time t [s]. If faces pass through each other, restores the initial state and
+ * divides the increment into SUBSTEPS_FACTOR times as many substeps. Returns FAILED, with a message, if they still do
+ * after TRIES_MOST such divisions, or if an equilibrium is not found. For bodies that yield there is one attempt only,
+ * because yielding is not undone. */
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;
@@ -205,9 +210,10 @@ static status solve_whole(struct run *e, real t)
                       (long long)e->clock.step + 1, t);
 }
 
-/* Finds the equilibrium at the pseudo-time `pseudo_time` [s] and stores the largest stretch ratio there. Returns
- * INTERRUPTED, before the solution, if the user has stopped the run, so that the checkpoint of the previous load step
- * stays valid. */
+/* Finds the equilibrium of run e at `pseudo_time` [s] and stores the largest stretch ratio (stretch of a bond divided
+ * by its critical stretch) in e->statics. Returns FAILED, with a message, if there is no equilibrium; INTERRUPTED,
+ * before the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays
+ * valid. */
 status equilibrium_find_at_time(struct run *e, real pseudo_time)
 {
     TRY(check_stop(e->report, &e->clock));

@@ -25,7 +25,8 @@ enum { SUBSTEPS_MOST = 10000 };
 
 bool crack_faces_are_in_contact(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
 
-/* Returns the number of free motions (rigid motions that nothing resists) of all unconstrained fragments together. */
+/* Returns the number of free motions (rigid motions that nothing resists) of all unconstrained fragments of s
+ * together. */
 static int free_motions(const struct statics *s)
 {
     int n = 0;
@@ -33,8 +34,8 @@ static int free_motions(const struct statics *s)
     return n;
 }
 
-/* Finds the unconstrained fragments again after contact has changed. Discards the preconditioner if the total number of
- * their free motions (rigid motions that nothing resists) has changed. */
+/* Finds the unconstrained fragments (pieces that no support holds) of run e again after contact has changed. Discards
+ * the preconditioner if the total number of their free motions (rigid motions that nothing resists) has changed. */
 static void unconstrained_update(struct run *e)
 {
     const int before = free_motions(e->statics);
@@ -42,8 +43,8 @@ static void unconstrained_update(struct run *e)
     if (free_motions(e->statics) != before) statics_preconditioner_free(e->statics);
 }
 
-/* Searches for contact pairs and selects the active contacts (those that carry forces). close: gap up to which contacts
- * become active [spacings]. Returns the number of changes of the set of active contacts. */
+/* Searches run e for contact pairs and selects the active contacts (pairs that carry forces). close: largest gap at
+ * which a pair becomes active [spacings]. Returns the number of changes of the set of active contacts. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
     return contact_search_select_and_count_changes(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
@@ -70,8 +71,8 @@ int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, 
     return (int)real_min(SUBSTEPS_MOST, real_max(1, ceil(most / (SUBSTEP_MOST * s->spacing))));
 }
 
-/* Returns the sum of strain energy, contact energy and plastic work of bonds at the positions at which forces were last
- * computed [J]. */
+/* Returns the sum of strain energy, contact energy and plastic work of bonds of run e at the positions at which forces
+ * were last computed [J]. */
 static real energy_present(struct run *e)
 {
     return sample_current_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) +
@@ -83,9 +84,10 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
     return s->in_contact || c->touching > 0;
 }
 
-/* Prepares contact for the solution at the pseudo-time `pseudo_time` [s]: stores the energy before the solution, moves
- * rigid bodies and searches for contacts. The stored energy includes contact energy only if anything was in contact
- * before. If anything is in contact now, finds the unconstrained fragments again, since contact may constrain them. */
+/* Prepares contact of run e for the solution at `pseudo_time` [s]: stores the energy before the solution, moves rigid
+ * bodies and searches for contacts. The stored energy includes contact energy only if anything was in contact before.
+ * If anything is in contact now, finds the unconstrained fragments (pieces that no support holds) again, since contact
+ * may constrain them. */
 void statics_contact_begin_solution(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;

@@ -53,9 +53,9 @@ real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct 
     return on ? 0.5 : 1;
 }
 
-/* Returns the length of the crack front in 3D [m]: the sum of the edges of the pre-cracks, at most the shortest side of
- * the body, and at least one spacing. The side counts twice if a plane of symmetry along the crack halves it. Returns 1
- * for a plane body, since its section contains its thickness. */
+/* Returns the length of the crack front in 3D [m]: the sum of the edges of the pre-cracks t, at least one spacing and
+ * at most the shortest side of the body p. That side counts twice if one of the planes of symmetry of `source` lies
+ * along the crack and halves the body. Returns 1 for a plane body, whose section already contains the thickness. */
 static real front_length(const struct crack_tips *t, const struct bond_source *source, const struct particles *p)
 {
     const real h = source->family.spacing;
@@ -70,8 +70,9 @@ static real front_length(const struct crack_tips *t, const struct bond_source *s
     return edges > 0 ? real_min(length, real_max(edges, h)) : length;
 }
 
-/* Returns the area of a crack increment of INCREMENT_SPACINGS spacings [m^2]; half of it for a crack on a plane of
- * symmetry. front: length of the crack front in 3D [m]; 1 for a plane body, whose thickness is in its section. */
+/* Returns the area of a crack increment of INCREMENT_SPACINGS spacings [m^2]: length times thickness (or section) of
+ * the scene s times `front`, the length of the crack front in 3D [m], 1 for a plane body. Half of that for cracks t on
+ * a plane of symmetry (a mirror of `source`). */
 static real increment_area(const struct scene *s, const struct crack_tips *t, const struct bond_source *source,
                            real front)
 {
@@ -86,8 +87,8 @@ real crack_area_of_growth_by_one_spacing(const struct run *e)
     return increment_area(e->scene, t, &e->source, front_length(t, &e->source, &e->part)) / INCREMENT_SPACINGS;
 }
 
-/* Returns the number of pairs of bonds that may break between two equilibria: the key `steps.breaks` for each spacing
- * of the crack front. front: length of the crack front [m]. */
+/* Returns how many pairs of bonds may break before the next equilibrium is found: the key `steps.breaks` of scene s for
+ * each spacing of the crack front. front: length of the crack front [m], used in 3D only. */
 static int64_t breaks_most(const struct scene *s, real front)
 {
     const real along = s->dim < 3 ? 1 : front / s->spacing;
@@ -96,11 +97,11 @@ static int64_t breaks_most(const struct scene *s, real front)
 
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
-/* Breaks the bonds of one crack increment at the present pseudo-time, with an equilibrium after each group of bonds,
- * and appends these bonds to s->next. *a: receives the energy that the bonds cost and the energy released by the body,
- * the latter divided by the square of the load size (norm of prescribed displacements or forces). In 3D the part of the
- * body that SIF-driven crack fronts have left intact breaks in larger groups, because no load depends on the path
- * there. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Breaks the bonds of one crack increment of run e at the present pseudo-time, with an equilibrium after each batch of
+ * bonds, and appends these bonds to e->statics->next. *a: receives the energy that the bonds cost [J] and the energy
+ * that the body releases, divided by the square of the load size (norm of prescribed displacements or forces). In 3D
+ * the part of the section that SIF-driven crack fronts have left intact breaks in larger batches, because no load
+ * depends on the path there. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
@@ -126,7 +127,8 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
     return OK;
 }
 
-/* Returns true if the body has a pre-crack and no crack increment has been made. */
+/* Returns true if one of the tips t belongs to a pre-crack and no crack increment has been made (statics->behind, the
+ * previous increment, is empty). */
 static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics *statics)
 {
     bool any = false;
@@ -134,10 +136,11 @@ static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics 
     return any && statics->behind.cost == 0;
 }
 
-/* Determines the next crack increment under the present loads. SIF-driven tips (growth direction from stress-intensity
- * factors) determine it, if there are any. Otherwise, or if bonds elsewhere exceed their critical stretch, it is found
- * by a trial in which bonds break and which is undone. stressed: stretch ratio below which there is no trial [1].
- * Returns FAILED, with a message, if a trial equilibrium is not found. */
+/* Determines the next crack increment of run e under the present loads. SIF-driven tips (growth direction from
+ * stress-intensity factors) determine it, if there are any. Otherwise, or if bonds elsewhere exceed their critical
+ * stretch, it is found by a trial in which bonds break and which is undone. stressed: smallest stretch ratio (stretch
+ * divided by critical stretch) for which the trial is made. Returns FAILED, with a message, if a trial equilibrium is
+ * not found. */
 static status increment_find_now(struct run *e, real stressed)
 {
     struct statics *s = e->statics;
@@ -162,15 +165,17 @@ static status increment_find_now(struct run *e, real stressed)
     return tried;
 }
 
-/* Returns the stretch ratio below which no increment is looked for under the present loads [1]. */
+/* Returns the smallest stretch ratio (stretch of a bond divided by its critical stretch) at which an increment is
+ * looked for under the present loads: a lower limit once an increment has been made (s->behind). */
 static real stretch_ratio_of_trial(const struct statics *s) { return s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED; }
 
-/* Determines the next crack increment at the load size at which it is due, by the secant method. The energy release
- * grows with the square of the strain, and the strain is not proportional to the load size if supports or rigid bodies
- * move before anything is in contact. Bonds may be stretched less there than a trial under the present loads requires.
- * Then restores the present equilibrium or, if material points have been converted, finds the equilibrium of the
- * initial pseudo-time again. If the load size is so small that no bond would break, the increment is that of the
- * present loads. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Determines the next crack increment of run e at the load size (norm of prescribed displacements or forces) at which
+ * it is due, by the secant method. Needed where the strain is not proportional to the load size, as supports or rigid
+ * bodies move before anything is in contact; the energy release grows with the square of the strain. Bonds may be
+ * stretched less there than a trial under the present loads requires. Then restores the present equilibrium or, if
+ * material points have been converted, finds the equilibrium of the initial pseudo-time again. If the load size is so
+ * small that no bond would break, the increment is that of the present loads. Returns FAILED, with a message, if an
+ * equilibrium is not found. */
 static status increment_find_at_due(struct run *e)
 {
     struct statics *s = e->statics;
@@ -195,10 +200,10 @@ static status increment_find_at_due(struct run *e)
     return found == OK && s->next.n == 0 ? increment_find_now(e, stretch_ratio_of_trial(s)) : found;
 }
 
-/* Finds the bonds of the next crack increment and the load size (norm of prescribed displacements or forces) at which
- * it is made. If anything is in contact, the increment is evaluated again at that load size, because the energy release
- * is then not proportional to the square of the load size. Returns FAILED, with a message, if a trial equilibrium is
- * not found. */
+/* Finds the bonds of the next crack increment of run e (e->statics->next) and the load size (norm of prescribed
+ * displacements or forces) at which it is made. If anything is in contact, evaluates the increment again at that load
+ * size, because the energy release is then not proportional to the square of the load size. Returns FAILED, with a
+ * message, if a trial equilibrium is not found. */
 status crack_increment_find(struct run *e)
 {
     TRY(increment_find_now(e, stretch_ratio_of_trial(e->statics)));

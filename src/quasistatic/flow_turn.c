@@ -19,7 +19,7 @@
 
 #define DEGREE (M_PI / 180)
 
-/* Returns the scalar product x:y of two symmetric tensors with the components xx yy zz xy yz zx. */
+/* Returns the scalar product x:y of two symmetric tensors, each with the components xx yy zz xy yz zx. */
 static real tensor_scalar_product(const real *x, const real *y)
 {
     real sum = 0;
@@ -27,14 +27,17 @@ static real tensor_scalar_product(const real *x, const real *y)
     return sum;
 }
 
-/* Subtracts the mean of the normal components from a symmetric tensor x (components xx yy zz xy yz zx). */
+/* Makes a symmetric tensor x (components xx yy zz xy yz zx) deviatoric in place: subtracts the mean of its normal
+ * components. */
 static void deviator(real *x)
 {
     const real mean = (x[0] + x[1] + x[2]) / 3;
     for (int c = 0; c < 3; c++) x[c] -= mean;
 }
 
-/* Returns the present state of point i. m: constants of its material, which has a law. */
+/* Returns the present state of material point i of p: deviators of stress less back stress and of the elastic stress
+ * [Pa], yield stress [Pa] and accumulated plastic strain. m: constants of its material, which must have a hardening law
+ * (m->law). */
 static struct flow_start point_state(const struct particles *p, const struct elastic *m, int64_t i)
 {
     struct flow_start state = {.strain = p->plastic_strain[i]};
@@ -58,9 +61,10 @@ static struct flow_start point_state(const struct particles *p, const struct ela
     return state;
 }
 
-/* Returns the angle between the directions of flow at the beginning and at the end of the flow of a point that flows in
- * a load step [rad]. The flow begins where the trial stress, which grows in proportion from the start of the step,
- * reaches the yield surface. */
+/* Returns by which angle the direction of plastic flow of a point turns in a load step [rad], from where it begins to
+ * flow to the end of the step. It begins to flow where the trial stress, which grows in proportion from the start of
+ * the step, reaches the yield surface. start, end: states of the point at the two ends of the step; the point must flow
+ * in it. */
 static real turn_between(const struct flow_start *start, const struct flow_start *end)
 {
     real trial[SYM_MAX], first[SYM_MAX];

@@ -7,8 +7,8 @@
 
 /* ---- load size --------------------------------------------------------------------------------------------------- */
 
-/* Returns the sum of the squared displacements of the rigid bodies r->body[0 .. n - 1] from the start to pseudo-time t
- * [s], in [m^2]. */
+/* Returns the sum of the squared displacements [m^2] of the first n rigid bodies of r from the start to pseudo-time t
+ * [s]. */
 static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, shift[DIM_MAX];
@@ -16,7 +16,7 @@ static real rigid_displacement2(const struct rigid_set *r, int n, real t)
     return sum;
 }
 
-/* Returns the load size at pseudo-time t [s], a measure proportional to the loads: the norm of the prescribed
+/* Returns the load size of run e at pseudo-time t [s], a measure proportional to the loads: the norm of the prescribed
  * displacements of supports and rigid bodies [m], or, if these do not move, the norm of the applied forces [N]. */
 real statics_norm_of_prescribed_loads(const struct run *e, real t)
 {
@@ -55,8 +55,8 @@ real statics_time_of_load_size(const struct run *e, real load_size)
 
 /* ---- crack increments -------------------------------------------------------------------------------------------- */
 
-/* Returns the energy released since the start [J]: the fracture energy of broken bonds plus s->balance.lost, the energy
- * lost in solutions. */
+/* Returns the energy released since the start [J]: the fracture energy of the broken bonds of b plus s->balance.lost,
+ * the energy lost in solutions. */
 real statics_energy_released(const struct statics *s, const struct bonds *b)
 {
     return bonds_fracture_energy(b) + s->balance.lost;

@@ -38,34 +38,35 @@ enum { APPROACHES_MOST = 12 };
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
 /* Returns the load size (norm of prescribed displacements [m] or of applied forces [N]) at which the next crack
- * increment is made if loads can only grow. For the first increment it is s->due, at which the pre-crack is in balance
- * with the loads. For a later one it is the larger of s->due and the load size at which the body releases the energy
- * that this increment alone costs; loads then oscillate about those of a crack that grows continuously. */
+ * increment is made if loads can only grow. For the first increment (no bond of diagnostics->bonds_broken yet) it is
+ * s->due, at which the pre-crack is in balance with the loads. For a later one it is the larger of s->due and the load
+ * size at which the body releases the energy that this increment alone costs; loads then oscillate about those of a
+ * crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
     return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load_size(&s->ahead)) : s->due;
 }
 
-/* Updates the probes and the largest forces of the rigid bodies for the present equilibrium, a state that the loads
- * have reached. */
+/* Updates the probes and the largest forces on rigid bodies of run e for the present equilibrium. Call for states that
+ * the loads have reached, not for trials. */
 static void state_sample(struct run *e)
 {
     sample_update_probes_of_every_step(e);
     rigid_forces_update_largest(e->rigid, e->scene->rigids);
 }
 
-/* Finds the equilibrium at the load size `size` (norm of prescribed displacements [m] or of applied forces [N]). The
- * pseudo-time of that load size is limited to least .. most [s]. Returns FAILED, with a message, if there is no
- * equilibrium. */
+/* Finds the equilibrium of run e at the load size `size` (norm of prescribed displacements [m] or of applied forces
+ * [N]). The corresponding pseudo-time is limited to the range least .. most [s]. Returns FAILED, with a message, if
+ * there is no equilibrium. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
     return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_load_size(e, size), least), most));
 }
 
-/* Finds the equilibrium at pseudo-time t [s], then determines the next crack increment. If bonds are far beyond their
- * critical stretch at t, uses an earlier pseudo-time at which they come near it, because the body would have broken
- * before t. In the equilibrium at t, bonds would yield that otherwise do not, and large energies would hide the energy
- * that an increment releases. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Finds the equilibrium of run e at pseudo-time t [s], then determines the next crack increment. If bonds are far
+ * beyond their critical stretch at t, uses an earlier pseudo-time at which they come near it, because the body would
+ * have broken before t: at t, bonds would yield that otherwise do not, and large energies would hide the energy that an
+ * increment releases. Returns FAILED, with a message, if an equilibrium is not found. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -89,11 +90,11 @@ static status approach_loads(struct run *e, real t)
     return crack_increment_find(e);
 }
 
-/* Makes the next crack increment while loads can only grow, and determines the one after it. The increment is made at
- * the load size (norm of prescribed displacements [m] or of applied forces [N]) at which it is due; if this is smaller
- * than *size, the load size of the previous increment, then at *size. *size receives the load size of this increment.
- * Updates the largest forces of the rigid bodies there. from, t: range of the pseudo-time [s]. Returns FAILED, with a
- * message, if an equilibrium is not found. */
+/* Makes the next crack increment of run e while loads can only grow, and determines the increment after it. The
+ * increment is made at the larger of the load size (norm of prescribed displacements [m] or of applied forces [N]) at
+ * which it is due and *size, the load size of the previous increment. *size receives this load size. Updates the
+ * largest forces of the rigid bodies there. from, t: range of the pseudo-time [s]. Returns FAILED, with a message, if
+ * an equilibrium is not found. */
 static status increment_under_loads(struct run *e, real *size, real from, real t)
 {
     struct statics *s = e->statics;
@@ -115,8 +116,9 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     return crack_increment_find(e);
 }
 
-/* Increases the loads to those of pseudo-time t [s], and makes all crack increments that are due at smaller loads. The
- * pseudo-time never decreases. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Makes a load step of run e under load control: increases the loads to those of pseudo-time t [s], and makes all crack
+ * increments that are due at smaller loads. The pseudo-time never decreases. Returns FAILED, with a message, if an
+ * equilibrium is not found. */
 static status step_by_load(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -134,9 +136,9 @@ static status step_by_load(struct run *e, real t)
     }
 }
 
-/* Makes a load step under energy control, where loads may fall: makes one crack increment, then finds the equilibrium
- * at the pseudo-time at which the next increment is due. If no increment is due within `most` [s] from now, ends at
- * that pseudo-time. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Makes a load step of run e under energy control, where loads may fall: makes one crack increment, then finds the
+ * equilibrium at the pseudo-time at which the next increment is due. If no increment is due within the pseudo-time
+ * `most` [s] from now, the step ends there. Returns FAILED, with a message, if an equilibrium is not found. */
 static status step_by_energy(struct run *e, real most)
 {
     struct statics *s = e->statics;
@@ -153,9 +155,10 @@ static status step_by_energy(struct run *e, real most)
     return OK;
 }
 
-/* Returns true if the next crack increment, due at the load size `due`, comes before the opening reaches `wanted` [m].
- * Assumes that the opening grows in proportion to the loads. size: present load size, in the unit of `due` ([m] or
- * [N]). */
+/* Returns true if the next crack increment comes before the opening between the gauge particles of p reaches `wanted`
+ * [m]. Assumes that the opening grows in proportion to the loads. s: state of the load steps; size: present load size
+ * (norm of prescribed displacements [m] or of applied forces [N]); due: load size of the increment, in the same
+ * unit. */
 static bool increment_before_opening(const struct particles *p, const struct statics *s, real size, real due,
                                      real wanted)
 {
@@ -163,16 +166,17 @@ static bool increment_before_opening(const struct particles *p, const struct sta
     return s->next.n > 0 && now > 0 && now / size * due < wanted;
 }
 
-/* Returns the pseudo-time at which the opening equals `wanted` [m] if it grows in proportion to the time, `otherwise`
- * while the gauge has not opened [s]. */
+/* Returns the pseudo-time [s] at which the opening between the gauge particles of p equals `wanted` [m] if it grows in
+ * proportion to the pseudo-time from the present state s. Returns `otherwise` [s] while the gauge has not opened. */
 static real time_of_opening(const struct particles *p, const struct statics *s, real wanted, real otherwise)
 {
     const real now = gauge_opening(p, s);
     return now > 0 ? s->t * wanted / now : otherwise;
 }
 
-/* Increases the opening between the gauge particles by one load step, and makes all crack increments that are due until
- * then. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Makes a load step of run e under control of the opening: increases the opening between the gauge particles by one
+ * step, and makes all crack increments that are due until then. Returns FAILED, with a message, if an equilibrium is
+ * not found. */
 static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;

@@ -60,10 +60,10 @@ struct opening_search {
     int last;       /* the end of the bracket that was replaced last */
 };
 
-/* Takes the equilibrium at pseudo-time t [s], whose opening is larger than the wanted one by `differ` [m], into the
- * search r for a body that yields. Returns the next pseudo-time to try [s]: by the secant method, limited to 0 .. 2 t,
- * within a bracket by its Illinois variant, which halves the difference of an end that was kept twice. Returns t if
- * the opening has not changed since the last call. */
+/* Adds a result to the search r for a body that yields: the equilibrium at pseudo-time t [s] has an opening that
+ * exceeds the wanted opening by `differ` [m]. Returns the next pseudo-time to try [s]: by the secant method, limited to
+ * 0 .. 2 t, and within a bracket by its Illinois variant, which halves the difference of an end that was kept twice.
+ * Returns t if the opening has not changed since the last call. */
 static real opening_search_next(struct opening_search *r, real t, real differ)
 {
     const int end = differ > 0;
@@ -81,12 +81,12 @@ static real opening_search_next(struct opening_search *r, real t, real differ)
     return r->t[0] - r->differ[0] * (r->t[1] - r->t[0]) / (r->differ[1] - r->differ[0]);
 }
 
-/* Returns true if the opening `at` equals the opening `wanted` within the relative error `error`. */
+/* Returns true if the opening `at` equals the opening `wanted` (both [m]) within the relative error `error`. */
 static bool opening_is_near(real at, real wanted, real error) { return fabs(at - wanted) <= error * fabs(wanted); }
 
-/* Finds the equilibrium of a body that yields at which the opening between the gauge particles equals `wanted` [m].
- * Each attempt starts from the state at the call, since plastic strains depend on the path; that state is restored
- * after attempts that fail. t: first pseudo-time tried [s]. *at: receives the opening of the last attempt [m], which
+/* Finds the equilibrium of run e, whose body yields, at which the opening between the gauge particles equals `wanted`
+ * [m]. Each attempt starts from the state at the call, since plastic strains depend on the path; that state is restored
+ * after an attempt that fails. t: first pseudo-time tried [s]. *at: receives the opening of the last attempt [m], which
  * the caller compares. Returns FAILED, with a message, if an equilibrium is not found. */
 static status find_opening_of_yielding_body(struct run *e, real wanted, real t, real *at)
 {

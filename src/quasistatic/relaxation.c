@@ -32,8 +32,8 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
         }
 }
 
-/* Adds the squares of the forces that accelerate grid nodes first .. end - 1 to sum[0] [N^2]. context: the grid method
- * (struct grid_method). reproducible_sums calls it for each block of nodes. */
+/* Adds the squares of the forces that accelerate grid nodes first .. end - 1 to sum[0] [N^2], for the residual.
+ * context: the grid method (struct grid_method). reproducible_sums calls it for each block of nodes. */
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid_method *mpm = context;
@@ -42,8 +42,9 @@ static void node_block(const void *context, int64_t first, int64_t end, real *su
         for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
 }
 
-/* Adds the squares of the forces on those of the particles first .. end - 1 that are not on the grid to sum[0] [N^2].
- * context: the particles (struct particles). reproducible_sums calls it for each block of particles. */
+/* Adds the squared forces on particles first .. end - 1 to sum[0] [N^2], for the residual; particles that move with
+ * grid nodes are left out. context: the particles (struct particles). reproducible_sums calls it for each block of
+ * particles. */
 static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -51,8 +52,8 @@ static void particle_block(const void *context, int64_t first, int64_t end, real
         for (int d = 0; d < p->dim && !particle_moves_with_nodes(p, i); d++) sum[0] += square(p->f[d][i]);
 }
 
-/* Returns the norm of the reactions of all supports, each divided evenly among its particles [N]. dim: number of
- * components. */
+/* Returns the norm of the reactions of all supports in `loads`, each reaction divided evenly among the particles of its
+ * support [N]. It scales the residual. dim: number of components. */
 static real reactions_norm(const struct loads *loads, int dim)
 {
     real sum = 0;
@@ -64,9 +65,9 @@ static real reactions_norm(const struct loads *loads, int dim)
     return sqrt(sum);
 }
 
-/* Updates damping and residual of the solver. The damping is the critical one, 2 omega, of the lowest mode. This mode
- * resembles the displacement u, so that omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the strain energy U. *done:
- * set to true at equilibrium, else to false. */
+/* Updates damping and residual of the solver of run e. The damping is the critical one, 2 omega, of the lowest mode.
+ * This mode resembles the displacement u, so that omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the strain energy U.
+ * *done: set to true at equilibrium, else to false. */
 static void estimate(struct run *e, bool *done)
 {
     struct static_solver *s = e->solver;
@@ -83,8 +84,9 @@ static void estimate(struct run *e, bool *done)
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }
 
-/* Damps the velocities of particles and their gradients (APIC) over a step by the factor (2 - damping)/(2 + damping).
- * gradients: number of components of a velocity gradient, 0 without APIC; damping: damping rate times step [1]. */
+/* Damps the velocities of particles p, and the velocity gradients that APIC keeps, over a time step by the factor (2 -
+ * damping)/(2 + damping). loads: its mirror images are then updated; gradients: number of components of a velocity
+ * gradient, 0 without APIC; damping: damping rate times time step, dimensionless. */
 static void damp_velocities(struct particles *p, const struct loads *loads, int gradients, real damping)
 {
     const real keep = (2 - damping) / (2 + damping);

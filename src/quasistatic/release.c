@@ -28,8 +28,8 @@ enum { ENERGY_STEPS = 20 };   /* time steps between checks of the energies */
 /* Number of time steps of the clock of a release, so large that no frame or sample is due. */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
-/* Sets boundary[scene->boundaries] to copies of the boundaries of the scene in which the loads keep their values at
- * pseudo-time t [s] and supports are at rest. */
+/* Sets boundary[scene->boundaries] to copies of the boundaries of the scene in which loads keep their values at
+ * pseudo-time t [s] and supports are at rest, so that a motion in time sees constant loads. */
 static void boundaries_freeze(const struct scene *scene, struct boundary *boundary, real t)
 {
     for (int b = 0; b < scene->boundaries; b++) {
@@ -50,14 +50,15 @@ static void boundaries_freeze(const struct scene *scene, struct boundary *bounda
     }
 }
 
-/* Sets boundary[scene->boundaries] back to the boundaries of the scene, whose loads depend on the pseudo-time. */
+/* Undoes boundaries_freeze: copies the boundaries of the scene, whose loads depend on the pseudo-time, to
+ * boundary[scene->boundaries]. */
 static void boundaries_restore(struct boundary *boundary, const struct scene *scene)
 {
     array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
-/* Fixes all rigid bodies if `hold` is true. If it is false, makes those with a prescribed velocity move with it
- * again. */
+/* If `hold` is true, fixes all rigid bodies of the scene; if it is false, makes those with a prescribed velocity move
+ * with it again. rigid: the rigid bodies, in the order of the scene. */
 static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
     for (int k = 0; k < scene->rigids; k++) {
@@ -67,7 +68,8 @@ static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bo
     }
 }
 
-/* Multiplies the velocities of particles, mesh nodes and mirror images by `share` [1]. */
+/* Multiplies all velocities by `share`, dimensionless: those of particles p, of mesh nodes and of mirror images in
+ * `loads`. */
 static void velocities_scale(struct particles *p, struct mesh *mesh, const struct loads *loads, real share)
 {
     const struct grid *g = &mesh->grid;
@@ -78,14 +80,15 @@ static void velocities_scale(struct particles *p, struct mesh *mesh, const struc
     loads_update_mirror_images(loads, p);
 }
 
-/* Returns the kinetic energy of particles and mesh [J]. */
+/* Returns the kinetic energy [J] of the particles `part` and of the mesh of the reference frame `frame`. */
 static real kinetic_present(const struct particles *part, const struct reference_frame *frame)
 {
     return particles_kinetic_energy(part) + reference_frame_kinetic_energy(frame);
 }
 
-/* Makes time steps, first undamped, then damped, until the body is at rest. *broken: receives the number of directed
- * bonds that break. Returns FAILED, with a message, if the motion diverges. */
+/* Makes time steps of run e, first undamped, then damped, until the body is at rest or the longest time of a release
+ * has passed. *broken: receives the number of directed bonds (each bond counts twice) that break. Returns FAILED, with
+ * a message, if the motion diverges. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
     const real crossing = (particles_bounding_box_longest_edge(&e->part) + e->scene->spacing) /
@@ -110,7 +113,7 @@ static status steps_in_time(struct run *e, int64_t *broken)
     return OK;
 }
 
-/* Returns the strain energy, contact energy and fracture energy minus the work of loads and supports [J]. */
+/* Returns the strain, contact and fracture energy of run e minus the work of loads and supports [J]. */
 static real energy_budget(struct run *e)
 {
     const real held = sample_current_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) +
