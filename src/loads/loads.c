@@ -36,9 +36,9 @@ uint8_t boundary_prescribed_components(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_MIRROR ? (uint8_t)(1 << b->axis) : 0;
 }
 
-/* Sets load->prescribes of all loads that prescribe motion of particles. Each component of a particle belongs to the
- * last load in the scene that prescribes it: this load alone moves it, and has its reaction, impulse and work.
- * particles: number of particles; dim: number of components. */
+/* Sets load->prescribes, the components that a load prescribes, for all loads of l that prescribe motion of particles.
+ * Each component of a particle belongs to the last load in the scene that prescribes it: this load alone moves it, and
+ * has its reaction, impulse and work. particles: number of particles; dim: number of components. */
 static void loads_divide_components(struct loads *l, int64_t particles, int dim)
 {
     uint8_t *taken = NEW("loads.taken", particles, uint8_t);
@@ -80,8 +80,9 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
     return OK;
 }
 
-/* Replaces the particles on which contact acts (mark TOUCHES in l->loaded) by list[n], which is in ascending order.
- * Rebuilds l->list, all marked particles in ascending order; particles that have no mark left are removed from it. */
+/* Replaces the particles of p on which contact acts (mark TOUCHES in l->loaded) by the indices list[n], in ascending
+ * order, copied. Rebuilds l->list, all marked particles in ascending order; particles that have no mark left are
+ * removed from it. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
@@ -159,8 +160,8 @@ struct force_sum {
 };
 
 /* Adds the sum of one force component over the particles first .. end - 1 to *sum [N]. context: a struct force_sum,
- * with the particles and the component. A block function of reproducible_sums. Adds in LANES partial sums, because
- * additions to a single one would wait for each other. */
+ * with the particles and the component. reproducible_sums calls it for each block of particles. Adds in LANES partial
+ * sums, because additions to a single one would wait for each other. */
 static void loads_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct force_sum *s = context;
@@ -173,9 +174,9 @@ static void loads_force_block(const void *context, int64_t first, int64_t end, r
     for (int l = 0; l < LANES; l++) *sum += part[l];
 }
 
-/* Adds the impulse of mirror supports in a velocity update of duration dt_velocity [s] to l->impulse: the sum of all
- * particle forces normal to each mirror, and along mirrors that also hold tangential motion. Forces between two
- * particles cancel in this sum; forces from mirror images remain and are the reaction of the support. Along other
+/* Adds the impulse of mirror supports in a velocity update of duration dt_velocity [s] to l->impulse [N s]: the sum of
+ * all forces on particles p normal to each mirror, and along mirrors that also hold tangential motion. Forces between
+ * two particles cancel in this sum; forces from mirror images remain and are the reaction of the support. Along other
  * mirrors the forces from images cancel in pairs. */
 static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
 {
@@ -193,8 +194,8 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
 }
 
 /* Updates load->displacement [m], the displacement of a support, by one step: stores a prescribed displacement, or
- * integrates a prescribed velocity over the step. If the values differ between particles, uses their mean. by: motion
- * that the load prescribes in this step. */
+ * integrates a prescribed velocity over the step. If the values differ between the particles of the load (indices in
+ * p), uses their mean. by: motion that the load prescribes in this step. */
 static void displacement_update(struct load *load, const struct particles *p, const struct prescribed_motion *by)
 {
     const bool displaces = load->boundary->displaces;
@@ -233,8 +234,8 @@ void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t
 /* ---- after the gather -------------------------------------------------------------------------------------------- */
 
 /* Sets the velocities of those particles of a load that are material points on a grid to the prescribed values. Points
- * of a mesh are skipped. Adds the change of momentum to l->impulse and its work to l->constraint_work. by: motion that
- * the load prescribes in this step. */
+ * of a mesh are skipped. Adds the change of momentum to l->impulse and its work to l->constraint_work. p: all
+ * particles; by: motion that the load prescribes in this step. */
 static void velocities_set(struct loads *l, const struct load *load, struct particles *p,
                            const struct prescribed_motion *by)
 {
@@ -259,10 +260,10 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
  * driven. */
 #define OFF_PLACE 1e-6
 
-/* Sets the positions of the particles of a load with prescribed displacement to those at the end of the step. Points of
- * a mesh are skipped, and particles moved by bond forces that are more than OFF_PLACE spacings away from these
- * positions. by: motion prescribed in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was
- * moved. */
+/* Sets the positions of the particles of a load with prescribed displacement to those at the end of the step, so that
+ * round-off does not accumulate. Skips points of a mesh, and particles moved by bond forces that are more than
+ * OFF_PLACE spacings away from these positions. p: all particles; by: motion prescribed in this step; spacing: lattice
+ * spacing [m]. Returns true if a material point of a grid was moved. */
 static bool positions_set(const struct load *load, struct particles *p, const struct prescribed_motion *by,
                           real spacing)
 {

@@ -9,7 +9,7 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true for an absorbing boundary. */
+/* Returns true if load l is an absorbing boundary. */
 static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
 
 /* Returns true if two absorbing loads act on the same face of at least one particle: the faces have equal axis and
@@ -27,9 +27,9 @@ static bool absorb_same(const struct load *a, const struct load *b)
     return false;
 }
 
-/* Returns true if the absorbing face of load a is in the plane of a mirror: one of its particles with area is within
- * 0.51 spacings of the plane. Returns false if `mirror` is no mirror or its axis is not that of the face. spacing
- * [m]. */
+/* Returns true if the absorbing face of load a is in the plane of the load `mirror`: one of its particles (indices in
+ * p) with area is within 0.51 spacings of the plane. Returns false if `mirror` is no mirror or its axis is not that of
+ * the face. spacing: lattice spacing [m]. */
 static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, const struct particles *p, real spacing)
 {
     const int axis = a->boundary->face;
@@ -39,8 +39,8 @@ static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, c
     return false;
 }
 
-/* Returns REFUSED, with a message that names both boundaries, if an absorbing face is in the plane of a mirror: the
- * body continues there, so that it has no face. */
+/* Returns REFUSED, with a message that names both boundaries, if an absorbing face of l is in the plane of a mirror:
+ * the body p continues there, so that it has no face. Returns OK otherwise. */
 static status absorbing_mirrors_check(const struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++)
@@ -73,8 +73,8 @@ status absorbing_boundaries_check(const struct loads *l, const struct particles 
     return OK;
 }
 
-/* Makes the list l->absorbing.particle of all particles on absorbing faces, in ascending order and without duplicates.
- * Released by absorbing_dashpots_free. */
+/* Makes the list l->absorbing.particle of all particles of p on absorbing faces, in ascending order and without
+ * duplicates. Release it with absorbing_dashpots_free. */
 static void particles_join(struct loads *l, const struct particles *p)
 {
     struct absorbing *a = &l->absorbing;
@@ -88,10 +88,10 @@ static void particles_join(struct loads *l, const struct particles *p)
     memory_free(chosen);
 }
 
-/* Returns the coefficient of the dashpot on particle number q of an absorbing load, for motion along axis d [kg/s]: the
- * area of the particle times the wave impedance of its material, for P waves normal to the face and for S waves along
- * it. by: what moves the particle, on which the impedance depends (bonds, grid or mesh); for a grid the areas are those
- * extrapolated to the face. a: impedances of the materials. */
+/* Returns the coefficient of the dashpot on particle number q of the absorbing load `load`, for motion along axis d
+ * [kg/s]: the area of the particle times the wave impedance of its material, for P waves normal to the face and for S
+ * waves along it. by: what moves the particle of p (bonds, grid or mesh), on which the impedance depends; for a grid
+ * the areas are those extrapolated to the face. a: impedances of the materials. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
                          enum moved_by by, int d)
 {
@@ -106,17 +106,17 @@ static int by_index(const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Returns the index of particle i in the ascending list a->particle of particles with dashpots, or -1 if it is not in
- * it. */
+/* Returns the position of particle i in the ascending list a->particle of particles with dashpots, or -1 if it has
+ * none. */
 static int64_t dashpot_of(const struct absorbing *a, int32_t i)
 {
     const int32_t *found = a->n ? bsearch(&i, a->particle, (size_t)a->n, sizeof i, by_index) : NULL;
     return found ? found - a->particle : -1;
 }
 
-/* Sets the dashpot coefficients of particles moved by bonds to 0 in components that a support or a clamped mirror
- * prescribes, so that the reaction of the support contains no dashpot force. On grids, dashpots_hold does this for
- * nodes of prescribed velocity. */
+/* Sets the dashpot coefficients of the particles of p that bonds move to 0 in components that a support or a clamped
+ * mirror of l prescribes, so that the reaction of the support contains no dashpot force. On grids, dashpots_hold does
+ * this for nodes of prescribed velocity. */
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
@@ -211,7 +211,7 @@ static void rates_clip(real *rate, int64_t n)
 }
 
 /* Adds a dashpot to grid g for each node with a positive coefficient in any direction. rate[dim][g->n]: coefficients
- * [kg/s], overwritten. The coefficient of a node beyond a mirror plane is first added to that of its mirror image. */
+ * [kg/s], overwritten: the coefficient of a node beyond a mirror plane is first added to that of its mirror image. */
 static void dashpots_list(struct grid *g, real *rate)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++)
@@ -228,8 +228,8 @@ static void dashpots_list(struct grid *g, real *rate)
     }
 }
 
-/* Sets the dashpot coefficient of node `node` in direction `component` to 0, because its velocity is prescribed.
- * Does nothing if the node has no dashpot. g->dashpot must be sorted by node. */
+/* Sets the dashpot coefficient of node `node` of grid g in direction `component` (0 .. dim - 1) to 0, because its
+ * velocity is prescribed. Does nothing if the node has no dashpot. g->dashpot must be sorted by node. */
 static void dashpots_hold(struct grid *g, int64_t node, int component)
 {
     const struct dashpot one = {.node = (int32_t)node};
@@ -237,7 +237,8 @@ static void dashpots_hold(struct grid *g, int64_t node, int component)
     if (held) held->rate[component] = 0;
 }
 
-/* Returns an array of n numbers, all 0. The array belongs to a, and the next call reuses it. */
+/* Returns an array of n numbers, all 0: working memory that belongs to a, is not to be freed, and is reused by the next
+ * call. */
 static real *field_of(struct absorbing *a, int64_t n)
 {
     GROW("loads.field", a->field, n);
@@ -271,10 +272,10 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
     memory_free(value);
 }
 
-/* Returns the share of the face area of a particle that goes to node `corner` of its mesh cell [1]. A cell has 2^dim
- * particles, one in each of its equal parts. place: number of the part of the particle; bit d of `place` and `corner`
- * is 1 for the upper half along axis d. The face is half a spacing in front of the particle, along `axis` in the
- * direction `side` (-1 or 1). */
+/* Returns the share (0 to 1) of the face area of a particle that goes to node `corner` of its mesh cell. A cell has
+ * 2^dim particles, one in each of its equal parts. place: number of the part of the particle; bit d of `place` and
+ * `corner` is 1 for the upper half along axis d. The face is half a spacing in front of the particle, along `axis` in
+ * the direction `side` (-1 or 1). */
 static real face_weight(int dim, int corner, int place, int axis, int side)
 {
     const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);
@@ -284,8 +285,8 @@ static real face_weight(int dim, int corner, int place, int axis, int side)
     return weight;
 }
 
-/* Adds the dashpot coefficients of the absorbing load `load` to the nodes of the mesh cells behind its face.
- * rate[dim][mesh->grid.n]: the coefficients [kg/s]. Particles that are in no cell are skipped. */
+/* Adds the dashpot coefficients of the absorbing load `load` to rate[dim][mesh->grid.n] [kg/s], at the nodes of the
+ * mesh cells behind its face. Particles of p that are in no cell are skipped. a: impedances of the materials. */
 static void mesh_face(const struct absorbing *a, const struct load *load, const struct mesh *mesh,
                       const struct particles *p, real *rate)
 {

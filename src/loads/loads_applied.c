@@ -10,17 +10,17 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if two loads can be applied together: they act on equal lists of particles, and their shares (area,
- * volume or mass of each particle) are constant in time. */
+/* Returns true if loads a and b can be applied together: they act on equal lists of particles, and their shares (area,
+ * volume or mass of each particle, by which the value of a load is multiplied) are constant in time. */
 static bool same_particles(const struct load *a, const struct load *b)
 {
     return !a->moving && !b->moving && a->n == b->n &&
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Saves memory if component d of load b has an array of shares equal to that of an earlier component, or of an earlier
- * load on the same particles: frees its own array and refers to the earlier one. A share is the area, volume or mass of
- * a particle by which the value of the load is multiplied. dim: number of components. */
+/* Saves memory: if component d of load number b has an array of shares (area, volume or mass of each particle, by which
+ * the value of the load is multiplied) equal to that of an earlier component, or of an earlier load of l on the same
+ * particles, frees the array of component d and refers to the earlier one. dim: number of components. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];
@@ -34,10 +34,10 @@ static void share_join(struct loads *l, int b, int d, int dim)
         }
 }
 
-/* Finds the leader of load b: the first load on an equal list of particles, or b itself. Loads with one leader are
- * applied together. Equal arrays of shares (areas, volumes or masses of the particles) are stored once. Allocates in
- * the leader the arrays of previous positions, from which the work of the loads is computed. dim: number of
- * components. */
+/* Finds the leader of load number b of l: the first load on an equal list of particles, or b itself. Loads with one
+ * leader are applied together. Equal arrays of shares (areas, volumes or masses of the particles) are stored once.
+ * Allocates in the leader the arrays of previous positions, from which the work of the loads is computed. dim: number
+ * of components. */
 static void load_join(struct loads *l, int b, int dim)
 {
     struct load *load = &l->load[b];
@@ -64,8 +64,8 @@ void loads_merge_equal_particle_lists(struct loads *l, int dim)
     }
 }
 
-/* Returns true if component d of load b refers to an array of shares (areas, volumes or masses of the particles) that
- * belongs to an earlier load or component. The array must then not be freed for load b. */
+/* Returns true if component d of load number b of l refers to an array of shares (areas, volumes or masses of the
+ * particles) that belongs to an earlier load or component. The array must then not be freed for load b. */
 static bool is_borrowed(const struct loads *l, int b, int d)
 {
     for (int c = 0; c <= b; c++)
@@ -95,10 +95,10 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* Prepares in *a the application of component d of all loads with the leader `leader`, which act on equal lists of
- * particles. Loads with the same array of shares (areas, volumes or masses of the particles) are added up to one term
- * of *a: a value times this array. factor[l->n]: factor of each load at present [1]. Returns false if none of these
- * loads has a value for component d. */
+/* Prepares *a to apply component d of all loads of l with the leader `leader` (the first of the loads on equal lists of
+ * particles) to particles p. Loads with the same array of shares (areas, volumes or masses of the particles) are added
+ * up to one term of *a: a value times this array. factor[l->n]: present value of the time function of each load,
+ * dimensionless. Returns false if none of these loads has a value for component d. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -192,17 +192,17 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the factor of a load for the velocity update from t - dt_velocity to t [s]: the mean of the time function f
- * over this interval by the trapezoidal rule [1]. The value at its end alone would be an error of first order, half a
- * step late. The mean also preserves the impulse of a load that is switched at a whole step. */
+/* Returns the dimensionless factor of a load for the velocity update from t - dt_velocity to t [s]: the mean of its
+ * time function f over this interval by the trapezoidal rule. The value at its end alone would be an error of first
+ * order, half a step late. The mean also preserves the impulse of a load that is switched at a whole step. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
 }
 
-/* Adds the applied forces at time t [s] to their particles, and their impulses over dt_velocity [s] to l->impulse.
- * The impulse of a step is summed before it is added to that of all steps, so that round-off grows with the number
- * of steps alone. */
+/* Adds the applied forces of l at time t [s] to p->f, and their impulses over the velocity update of duration
+ * dt_velocity [s] to l->impulse. The impulse of a step is summed before it is added to that of all steps, so that
+ * round-off grows with the number of steps alone. */
 void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;
@@ -220,10 +220,10 @@ void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real
         }
 }
 
-/* Returns the factor of a load with which its work over the position update about time t [s] is computed [1]. The work
- * must equal the change of the energy m v- . v+/2, thus the mean of the forces of the velocity updates before and after
- * it, times the displacement. Each of these is the mean of the time function f over its interval, so that the factor is
- * f(t)/2 + (f(t - dt) + f(t + dt))/4. dt: time step [s]. */
+/* Returns the dimensionless factor of a load with which its work over the position update about time t [s] is computed.
+ * The work must equal the change of the energy m v- . v+/2, thus the mean of the forces of the velocity updates before
+ * and after it, times the displacement. Each of these is the mean of the time function f over its interval, so that the
+ * factor is f(t)/2 + (f(t - dt) + f(t + dt))/4. dt: time step [s]. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_value(f, t) +
@@ -247,8 +247,7 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
         }
 }
 
-/* Sets all force components of the particles number first .. end - 1 of a load to 0. Clears them as bytes if their
- * indices are consecutive. */
+/* Sets all components of the forces p->f to 0 for the particles number first .. end - 1 in the list of a load. */
 static void clear_run(const struct load *load, struct particles *p, int64_t first, int64_t end)
 {
     const bool dense = follow_each_other(load->particle, first, end);

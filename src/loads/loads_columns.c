@@ -43,19 +43,19 @@ struct columns {
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Returns the edge of the cube (in 2D the square) that particle i stands for [m]: (volume/section)^(1/dim), with the
- * thickness or area b->section. Without section it is the spacing of the scene. If all particles of body c->body have
- * the same volume, it is their mean width c->width. */
+/* Returns the edge of the cube (in 2D the square) that particle i of p stands for [m]: (volume/section)^(1/dim), with
+ * the thickness or area b->section; without section the spacing of the scene. For the body c->body, if all its
+ * particles have the same volume, returns their common width c->width. */
 static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
 {
     if (p->body[i] == c->body && c->even) return c->width;
     return b->section > 0 ? pow(p->volume0[i] / b->section, 1.0 / p->dim) : c->spacing;
 }
 
-/* Computes c->width [m], the edge of a cube (in 2D a square) with the mean volume of the particles of body c->body.
- * Sets c->even to true if their volumes are equal up to the relative difference EVEN. A width that differs from the
- * spacing of the scene by less than this is set to the spacing. Without b->section (area or thickness) the width is the
- * spacing. */
+/* Computes c->width [m], the edge of a cube (in 2D a square) with the mean volume of the particles of body c->body in
+ * p. Sets c->even to true if their volumes are equal up to the relative difference EVEN. A width that differs from the
+ * spacing of the scene by less than EVEN is set to the spacing. Without b->section (area or thickness of boundary b)
+ * the width is the spacing. */
 static void find_width(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real mean = 0, least = INFINITY, most = 0;
@@ -71,10 +71,10 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
     if (fabs(c->width - c->spacing) <= EVEN * c->spacing) c->width = c->spacing;
 }
 
-/* Finds the coordinate of a lattice site of body c->body along axis d, at or near coordinate `low`, and stores it in
- * *site [m]. Coordinates are mapped to angles on a circle whose circumference is one particle width, and the mean
- * direction gives the site. Uses at most about SITES_SAMPLED particles. Returns false if the particles have no order
- * along d. */
+/* Finds the coordinate of a lattice site of body c->body along axis d, at or near coordinate `low` [m], and stores it
+ * in *site [m]. Coordinates of particles p are mapped to angles on a circle whose circumference is one particle width,
+ * and the mean direction gives the site. Uses at most about SITES_SAMPLED particles. Returns false if the particles
+ * have no order along d. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;
@@ -90,10 +90,10 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Determines where the columns of particles are, which are parallel to the normal of the face of b. Computes the axes
- * c->axis across the columns, the distance c->step of neighbouring columns, and c->middle, the position of column 0
- * along each of these axes [m]. If the particles are on a lattice and have equal volumes, there is a column at each
- * lattice site; else there are FINE columns for each particle width. */
+/* Sets where the columns (lines of particles parallel to the normal of the face of b) are: the axes c->axis across the
+ * columns, the distance c->step of neighbouring columns [m], and c->middle, the position of column 0 along each of
+ * these axes [m]. If the particles p are on a lattice and have equal volumes, there is a column at each lattice site;
+ * else there are FINE columns for each particle width. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -113,8 +113,8 @@ static void find_middles(struct columns *c, const struct boundary *b, const stru
 
 /* ---- particles in columns ---------------------------------------------------------------------------------------- */
 
-/* Returns the index of `key` in the hash table of columns, or the free index where it must be inserted (Fibonacci
- * hashing, Knuth vol. 3). The table must have a free index. */
+/* Returns the index of `key` in the hash table of the columns c (lines of particles behind a face), or the free index
+ * where it must be inserted (Fibonacci hashing, Knuth vol. 3). The table must have a free index. */
 static int64_t table_place(const struct columns *c, int64_t key)
 {
     const int64_t last = c->room - 1;
@@ -123,8 +123,8 @@ static int64_t table_place(const struct columns *c, int64_t key)
     return place;
 }
 
-/* Doubles the size c->room of the hash table of columns (TABLE_FIRST at first) and enters all keys again. Column
- * numbers do not change. */
+/* Doubles the size c->room of the hash table of the columns (lines of particles behind a face; TABLE_FIRST entries at
+ * first) and enters all keys again. Column numbers do not change. */
 static void table_grow(struct columns *c)
 {
     const struct columns old = *c;
@@ -142,8 +142,8 @@ static void table_grow(struct columns *c)
     memory_free(old.number);
 }
 
-/* Returns the number of the column whose position has the key `key`. If there is none, appends one if `make` is true,
- * else returns -1. */
+/* Returns the number, from 0, of the column (line of particles behind a face) whose position has the key `key` in the
+ * hash table of c. If there is none, appends a column if `make` is true, else returns -1. */
 static int32_t column_number(struct columns *c, int64_t key, bool make)
 {
     if (make && 2 * c->n >= c->room) table_grow(c);
@@ -158,8 +158,8 @@ struct span {
     int64_t from[DIM_MAX - 1], to[DIM_MAX - 1];
 };
 
-/* Returns the range of columns whose middle lines pass through the cube that represents particle i. width: edge of the
- * cube [m]. */
+/* Returns the range of columns of c (lines of particles normal to a face) whose middle lines pass through the cube that
+ * represents particle i of p. width: edge of the cube [m]. */
 static struct span span_of(const struct columns *c, const struct particles *p, int64_t i, real width)
 {
     struct span s = {{0, 0}, {1, 1}};
@@ -170,10 +170,10 @@ static struct span span_of(const struct columns *c, const struct particles *p, i
     return s;
 }
 
-/* Adds particle i to each column whose middle line passes through the cube of the particle. It is called twice for each
- * particle: with `put` false it counts the particle in c->count, with `put` true it stores the particle in c->order.
- * While counting, a particle of body c->body creates columns that do not exist yet, and a particle of another body does
- * not. */
+/* Adds particle i of p to each column of c (line of particles normal to the face of b) whose middle line passes through
+ * the cube of the particle. It is called twice for each particle: with `put` false it counts the particle in c->count,
+ * with `put` true it stores the particle in c->order. While counting, a particle of body c->body creates columns that
+ * do not exist yet, and a particle of another body does not. */
 static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
 {
     const bool make = p->body[i] == c->body && !put;
@@ -190,22 +190,23 @@ static void particle_enter(struct columns *c, const struct boundary *b, const st
         }
 }
 
-/* Returns the height of particle i: its reference coordinate along the outward normal of the face of boundary b [m]. */
+/* Returns the height of particle i of p: its reference coordinate along the outward normal of the face of boundary b
+ * [m]. */
 static real loads_columns_height(const struct boundary *b, const struct particles *p, int32_t i)
 {
     return b->side * p->X[b->face][i];
 }
 
-/* Returns true if particle i is lower than particle j along the outward normal of boundary b's face. Particles of equal
- * height are ordered by index. */
+/* Returns true if particle i of p is lower than particle j along the outward normal of the face of boundary b.
+ * Particles of equal height are ordered by index. */
 static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return loads_columns_height(b, p, i) < loads_columns_height(b, p, j) ||
            (loads_columns_height(b, p, i) == loads_columns_height(b, p, j) && i < j);
 }
 
-/* Sorts order[n], the particles of one column, by ascending height along the outward normal of boundary b's face:
- * Shell's sort with Knuth's gaps, because columns of a lattice are already in order. */
+/* Sorts order[n], the indices in p of the particles of one column, by ascending height along the outward normal of the
+ * face of boundary b: Shell's sort with Knuth's gaps, because columns of a lattice are already in order. */
 static void sort_column(const struct boundary *b, const struct particles *p, int32_t *order, int64_t n)
 {
     int64_t gap = 1;
@@ -219,9 +220,9 @@ static void sort_column(const struct boundary *b, const struct particles *p, int
         }
 }
 
-/* Makes the columns of body c->body along the normal of boundary b's face. Stores in c->order the particles of each
- * column, in ascending height along the outward normal. If b acts on all bodies, the columns include particles of
- * other bodies. */
+/* Makes the columns of body c->body (lines of particles along the normal of the face of b). Stores in c->order the
+ * particles of p in each column, in ascending height along the outward normal. If b acts on all bodies, the columns
+ * include particles of other bodies. */
 static void columns_fill(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     for (int others = 0; others < (b->body < 0 ? 2 : 1); others++)
@@ -237,8 +238,8 @@ static void columns_fill(struct columns *c, const struct boundary *b, const stru
     for (int64_t k = 0; k < c->n; k++) sort_column(b, p, c->order + c->start[k], c->start[k + 1] - c->start[k]);
 }
 
-/* Makes the columns of particles of body `body` along the normal of boundary b's face, in *c. spacing: lattice spacing
- * of the scene [m]. Release with loads_columns_free. */
+/* Makes in *c the columns of body `body` of p: lines of particles along the normal of the face of boundary b. spacing:
+ * lattice spacing of the scene [m]. Release with loads_columns_free. */
 static void loads_columns_make(struct columns *c, const struct boundary *b, const struct particles *p, int body,
                                real spacing)
 {
@@ -259,17 +260,18 @@ static void loads_columns_free(struct columns *c)
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of particle j behind particle i along the normal of boundary b's face, in units of their mean
- * width [1]. */
+/* Returns how far particle j of p is behind particle i along the normal of the face of boundary b, divided by their
+ * mean width; negative if j is in front. c: columns of the face, with the widths. */
 static real behind(const struct columns *c, const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return (loads_columns_height(b, p, i) - loads_columns_height(b, p, j)) /
            (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
-/* Returns the index in c->order of the highest exposed particle of column `column` among those with an index below
- * `from`; -1 if there is none. A particle is exposed if it is selected, and the next particle in front of it in the
- * column is more than GAP particle widths away. selected[p->n]: 1 for particles in the region of boundary b. */
+/* Returns the index in c->order of the highest exposed particle of column `column` (a line of particles normal to the
+ * face of b) among those with an index below `from`; -1 if there is none. A particle is exposed if it is selected, and
+ * the next particle in front of it in the column is more than GAP particle widths away. selected[p->n]: 1 for particles
+ * in the region of b. */
 static int64_t exposed_below(const struct columns *c, int64_t column, int64_t from, const struct boundary *b,
                              const struct particles *p, const uint8_t *selected)
 {
@@ -282,9 +284,9 @@ static int64_t exposed_below(const struct columns *c, int64_t column, int64_t fr
     return -1;
 }
 
-/* Returns the index in c->order of the exposed particle of column `column`: of its exposed particles, the first one
- * seen from outside. Returns -1 if the column has none, or if this particle belongs to another body than c->body.
- * selected[p->n]: 1 for particles in the region of boundary b. */
+/* Returns the index in c->order of the exposed particle of column `column` (a line of particles normal to the face of
+ * b): the first one seen from outside. Returns -1 if the column has none, or if this particle belongs to another body
+ * than c->body. selected[p->n]: 1 for particles in the region of b. */
 static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
                                    const struct particles *p, const uint8_t *selected)
 {
@@ -292,9 +294,9 @@ static int64_t loads_columns_shown(const struct columns *c, int64_t column, cons
     return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
-/* Returns the index in c->order of the first particle of body c->body in column `column` that is at least BENEATH
- * particle widths behind the particle with the index k. Returns -1 if there is none before the column ends or has a
- * hole of more than GAP widths. */
+/* Returns the index in c->order of the first particle of body c->body in column `column` (a line of particles normal to
+ * the face of b) that is at least BENEATH particle widths behind the particle with index k in c->order. Returns -1 if
+ * there is none before the column ends or has a hole of more than GAP widths. */
 static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
                        const struct particles *p)
 {
@@ -325,9 +327,9 @@ static void face_add(struct exposed_face *f, const struct columns *c, int64_t co
     if (m >= 0) f->along[c->order[m]] += area * -0.5;
 }
 
-/* Returns the cross-section of a column of particles [m^2]: the volume of a particle over its width c->width, or a part
- * of it if there are several columns for each particle width. Returns 0 if boundary b has no section (area or
- * thickness). dim: number of dimensions. */
+/* Returns the cross-section of a column (line of particles normal to the face of b) [m^2]: the volume of a particle
+ * divided by its width c->width, or a part of that if there are several columns for each particle width. Returns 0 if
+ * boundary b has no section (area or thickness). dim: number of dimensions. */
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;
@@ -344,9 +346,10 @@ struct faced {
     struct columns columns;
 };
 
-/* Makes in f->columns the columns of the next body that has a selected particle, and frees the previous ones. Before
- * the first call, f must be zero. selected[p->n]: 1 for particles in the region of boundary b; spacing: lattice
- * spacing [m]. Returns false after the last body, with all columns freed. */
+/* Makes in f->columns the columns (lines of particles normal to the face of b) of the next body of p that has a
+ * selected particle, and frees the previous columns. Before the first call, f must be zero. selected[p->n]: 1 for
+ * particles in the region of boundary b; spacing: lattice spacing [m]. Returns false after the last body, with all
+ * columns freed. */
 static bool faced_next(struct faced *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                        real spacing)
 {

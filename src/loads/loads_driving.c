@@ -85,9 +85,9 @@ struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boun
     return prescribed_motion_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
 }
 
-/* Returns component d of the change of `arm` in a step with prescribed rotation: (R_to R_from^T - 1) arm [m]. arm:
- * present position relative to the centre of rotation [dim] [m]; s holds the rotations R_from and R_to at start and end
- * of the step. */
+/* Returns component d of the displacement in a step with prescribed rotation: (R_to R_from^T - 1) arm [m]. arm[dim]:
+ * present position relative to the centre of rotation [m]; s: motion, with the rotations R_from and R_to at start and
+ * end of the step. */
 static real rotation_increment(const struct prescribed_motion *s, const real *arm, int d)
 {
     real own[DIM_MAX] = {0}, sum = -arm[d];
@@ -124,8 +124,8 @@ real prescribed_velocity_at(const struct prescribed_motion *motion, const real *
 
 enum { MOMENTS = 1000, PLACES = 64 };
 
-/* Returns the largest speed that load l prescribes for its particle number k between times 0 and t [s], from
- * differences between MOMENTS + 1 equidistant times [m/s]. */
+/* Returns the largest speed [m/s] that load l prescribes for its particle number k (of p) between times 0 and t [s],
+ * from differences between MOMENTS + 1 equidistant times. */
 static real formula_speed(const struct load *l, const struct particles *p, int64_t k, real t)
 {
     real before[DIM_MAX], u[DIM_MAX], most = 0;
@@ -152,8 +152,8 @@ real load_largest_displacement_speed(const struct load *l, const struct particle
 }
 
 /* Returns the magnitude of the difference between the velocity that load l prescribes for its particle number k and the
- * present velocity of the particle [m/s]. For a rotation, whose velocity changes direction, returns the difference of
- * the two speeds instead. by: motion that l prescribes in this step. */
+ * present velocity of that particle in p [m/s]. For a rotation, whose velocity changes direction, returns the
+ * difference of the two speeds instead. by: motion that l prescribes in this step. */
 static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k,
                              const struct prescribed_motion *by)
 {
@@ -190,9 +190,9 @@ real load_largest_driven_speed(const struct load *l, const struct particles *p, 
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
 
-/* Returns the magnitude of the change of the velocity that load l prescribes for its particle number k between two
- * times [m/s]. For a rotation, whose velocity changes direction, returns the change of the speed instead. by[0], by[1]:
- * prescribed motion at the earlier and the later time; at times <= 0 the velocity is the initial velocity of the
+/* Returns the magnitude of the change of the velocity that load l prescribes for its particle number k (of p) between
+ * two times [m/s]. For a rotation, whose velocity changes direction, returns the change of the speed instead. by[0],
+ * by[1]: prescribed motion at the earlier and the later time; at times <= 0 the velocity is the initial velocity of the
  * particle. */
 static real velocity_change_at(const struct load *l, const struct particles *p, int64_t k,
                                const struct prescribed_motion by[2])

@@ -6,7 +6,7 @@
 #include "loads/mirrors.h"
 #include "base/memory.h"
 
-/* Returns the step to which the coordinates along `axis` of particles with mirror images are rounded [m], so that
+/* Returns the step to which the coordinates along `axis` of particles of p with mirror images are rounded [m], so that
  * reflection at a plane of symmetry causes no round-off. Then the force of particle i on the image of j cancels that of
  * j on the image of i to the last bit; otherwise round-off would move slow bodies. Returns 0 (no rounding) if all such
  * planes are at 0. boundary[n]: boundaries of the scene; reach: length of the longest bonds [m]. */
@@ -28,10 +28,10 @@ static real stepped(const struct loads *l, int axis, real place)
     return step > 0 ? step * nearbyint(place / step) : place;
 }
 
-/* Appends to p and l->image the mirror images at the plane of symmetry of load number `which`: those of all particles
- * of its body within `reach` of the plane [m], and those of images that other planes have made, for corners. Particles
- * on the plane have no image. The positions of the sources are rounded to multiples of l->place_step. optional: set of
- * the optional arrays of p, as sum of WITH_*. */
+/* Appends to p and l->image the mirror images at the plane of symmetry of load number `which` of l: those of all
+ * particles of its body within `reach` of the plane [m], and those of images that other planes have made, for corners.
+ * Particles on the plane have no image. The positions of the particles with images are rounded to multiples of
+ * l->place_step. optional: set of the optional arrays of p, as sum of WITH_*. */
 static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
 {
     const struct boundary *b = l->load[which].boundary;
@@ -81,8 +81,8 @@ void loads_update_mirror_images(const struct loads *l, struct particles *p)
     }
 }
 
-/* Returns REFUSED, with a message, if particles of the body of mirror b are on both sides of its plane, because images
- * would coincide with particles. spacing: lattice spacing [m]. */
+/* Returns REFUSED, with a message, if particles of p in the body of mirror b are on both sides of its plane, because
+ * images would coincide with particles; else OK. spacing: lattice spacing [m]. */
 static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
 {
     bool below = false, above = false;
@@ -98,7 +98,7 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
 }
 
 /* Returns the side of mirror b on which there is no body: -1 below the plane, 1 above it. The body is on the side of
- * the mean coordinate of its particles. */
+ * the mean coordinate of its particles in p. */
 static int mirror_outside(const struct boundary *b, const struct particles *p)
 {
     real sum = 0;
@@ -122,8 +122,8 @@ static int close_mirrors(const struct boundary *b, int n, real most, int *other)
     return -1;
 }
 
-/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide. b[n]: boundaries of the scene; spacing:
- * lattice spacing [m]. */
+/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide, else OK. b[n]: boundaries of the scene;
+ * spacing: lattice spacing [m]. */
 static status mirrors_differ(const struct boundary *b, int n, real spacing)
 {
     int m;

@@ -8,14 +8,14 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* Returns the formula of component d of boundary b. A pressure has one formula for all components. */
+/* Returns the formula of component d of boundary b (not to be freed). A pressure has one formula for all components. */
 static const struct expression *formula_of(const struct boundary *b, int d)
 {
     return &b->formula[b->kind == BOUNDARY_PRESSURE ? 0 : d];
 }
 
-/* Returns the value of boundary b's formula for component d, at the reference position of particle i and time t [s], in
- * the unit of the boundary's value. Returns 1 if there is no formula. */
+/* Returns the value of the formula of boundary b for component d, at the reference position of particle i of p and time
+ * t [s], in the unit of the value of the boundary. Returns 1 if there is no formula. */
 static real formula_at(const struct boundary *b, int d, const struct particles *p, int32_t i, real t)
 {
     real X[DIM_MAX];
@@ -26,8 +26,8 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Checks that the formulas of load l have finite values at all of its particles at time t [s]. Returns `fault`, with a
- * message, if one has not, else OK. */
+/* Checks that the formulas of load l have finite values at all of its particles (indices in p) at time t [s]. Returns
+ * `fault`, with a message, if a value is not finite, else OK. */
 static status formula_finite(const struct load *l, const struct particles *p, real t, status fault)
 {
     const struct boundary *b = l->boundary;
@@ -53,8 +53,8 @@ status loads_check_formulas_are_finite(const struct loads *l, const struct parti
 }
 
 /* Allocates an array of shares for each component of load l, in place of arrays that several components have in common.
- * A share is the area, volume or mass of a particle by which the value of the load is multiplied. with: true to
- * multiply the new shares by the formula of the component at time t [s]. */
+ * A share is the area, volume or mass of a particle by which the value of the load is multiplied. p: all particles;
+ * with: true to multiply the new shares by the formula of the component at time t [s]. */
 static void shares_part(struct load *l, const struct particles *p, bool with, real t)
 {
     for (int d = p->dim; d-- > 0;) {
@@ -91,8 +91,9 @@ void load_varying_shares_free(struct load *l)
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
 /* Updates the array l->share[d] of a load whose formula changes in time, for the velocity update from t - dt to t [s].
- * The new share of a particle is its area, volume or mass l->base[d] times the mean, over both times, of the product of
- * time function and formula. half: weight of the new shares [1]; the old ones keep the weight 1 - half. */
+ * The new share of a particle of p is its area, volume or mass l->base[d] times the mean, over both times, of the
+ * product of time function and formula. half: dimensionless weight of the new shares; the old shares keep the weight 1
+ * - half. */
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
@@ -105,10 +106,10 @@ static void moving_shares(struct load *l, const struct particles *p, int d, real
         });
 }
 
-/* Updates the shares of all loads that change in time, for the velocity update from t - dt to t [s]. A share is the
- * factor by which the value of a load is multiplied for one particle: its area, volume or mass times the formula. The
- * areas of pressures that follow the surface are computed anew before. half: weight of the new shares [1]; the old ones
- * keep the weight 1 - half. */
+/* Updates the shares of all loads of l that change in time, for the velocity update from t - dt to t [s]. A share is
+ * the factor by which the value of a load is multiplied for one particle of p: its area, volume or mass times the
+ * formula. The areas of pressures that follow the surface are computed anew before. half: dimensionless weight of the
+ * new shares; the old shares keep the weight 1 - half. */
 static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
 {
     for (int b = 0; b < l->n; b++) {
@@ -125,10 +126,10 @@ void loads_average_shares_over_velocity_update(struct loads *l, const struct par
     moving_update(l, p, t, dt_velocity, 1);
 }
 
-/* Sets the shares of loads that change in time to those with which their work over the position update about time t is
- * computed [s]. A share is the factor on the value of a load for one particle: its area, volume or mass times the
- * formula. The result is the mean of the present shares, used in the velocity update before, and the shares of the
- * velocity update after it. Must be called after the position update, since the latter depend on the new positions. dt:
+/* Sets the shares of loads of l that change in time to those with which their work over the position update about time
+ * t [s] is computed. A share is the factor on the value of a load for one particle of p: its area, volume or mass times
+ * the formula. The result is the mean of the present shares, used in the velocity update before, and the shares of the
+ * velocity update after it. Call after the position update, since the shares after it depend on the new positions. dt:
  * time step [s]. */
 void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
@@ -137,8 +138,8 @@ void loads_average_shares_over_step_for_work(struct loads *l, const struct parti
 
 /* ---- totals ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle, in
- * force[dim] [N]. */
+/* Computes the force of load l on its particle number k (of p) at time t [s], from the reference position of the
+ * particle, in force[dim] [N]. */
 void load_force_on_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
 {
     const struct boundary *b = l->boundary;

@@ -25,8 +25,8 @@ struct ends {
     void *context;
 };
 
-/* Returns true if the face of particle i in the direction e->boundary->side along the axis e->boundary->face is in a
- * plane of symmetry. The body continues behind the plane, so that this is no free face. */
+/* Returns true if the face of particle i in the direction e->boundary->side (-1 or 1) along the axis e->boundary->face
+ * is in a plane of symmetry. The body continues behind the plane, so that this is no free face. */
 static bool is_mirrored(const struct ends *e, int32_t i)
 {
     const int axis = e->boundary->face;
@@ -38,9 +38,8 @@ static bool is_mirrored(const struct ends *e, int32_t i)
     return false;
 }
 
-/* Calls the function e->found for the free face of particle i, which is at an end of a column of particles. Does
- * nothing if the face is in a plane of symmetry. context: pointer to the struct ends e; area: area of the face
- * [m^2]. */
+/* Calls the function e->found for the free face of particle i, which is at an end of a column (line) of particles. Does
+ * nothing if the face is in a plane of symmetry. context: the visit e (struct ends); area: area of the face [m^2]. */
 static void end_found(void *context, int32_t i, real area)
 {
     const struct ends *e = context;
@@ -79,8 +78,8 @@ struct pressed {
 };
 
 /* Adds the free face of particle i that is normal to `axis`, outwards in the direction `side` (-1 or 1), to the area
- * vector of the particle. Also appends it to the list of faces if there is one. context: a struct pressed that holds
- * both; area: of the face [m^2]. */
+ * vector of the particle, and appends it to the list of faces if there is a list. context: area vectors and list
+ * (struct pressed); area: area of the face [m^2]. */
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
 {
     const struct pressed *a = context;
@@ -88,8 +87,8 @@ static void face_pressed(void *context, int32_t i, int axis, int side, real area
     if (a->faces) surface_face_add(a->faces, i, axis, side);
 }
 
-/* Prepares load l, a pressure on the reference surface of a body: sets its particles to those with a free face, and the
- * factors l->share of its value to their areas along the inward normal [m^2]. area[dim][p->n]: sum of the outward area
+/* Prepares load l, a pressure on the reference surface of a body of p: sets its particles to those with a free face,
+ * and the factors l->share of its value to the inward area vectors [m^2]. area[dim][p->n]: sum of the outward area
  * vectors of the free faces of each particle [m^2]. Returns false if no particle has a free face. */
 static bool pressure_shares(struct load *l, struct particles *p, real *const *area)
 {

@@ -5,8 +5,8 @@
 #include "base/memory.h"
 #include "data/extent.h"
 
-/* Returns true if particle i is in the region and body of boundary b, by its reference position. spacing: lattice
- * spacing, to which the tolerance of the region refers [m]. */
+/* Returns true if the reference position of particle i of p is in the region of boundary b and the particle in its
+ * body. spacing: lattice spacing [m], the unit of the tolerance of the region. */
 static bool selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     real X[DIM_MAX];
@@ -15,7 +15,7 @@ static bool selects(const struct boundary *b, const struct particles *p, int64_t
     return region_contains(&b->region, X, p->dim, LOADS_TOLERANCE * spacing);
 }
 
-/* Returns true if the value of boundary b has a non-zero component tangential to its face. */
+/* Returns true if the value of boundary b has a non-zero component tangential to its face, among dim components. */
 static bool has_tangential(const struct boundary *b, int dim)
 {
     bool found = false;
@@ -25,7 +25,8 @@ static bool has_tangential(const struct boundary *b, int dim)
 
 /* ---- shares ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the factor of profile f at the reference position of particle i: 1, or a sine along a direction [1]. */
+/* Returns the dimensionless factor of profile f at the reference position of particle i of p: 1 if the profile is
+ * uniform, else a sine along a direction. */
 static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX], along = 0;
@@ -35,8 +36,8 @@ static real profile_at(const struct profile *f, const struct particles *p, int64
     return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
 }
 
-/* Computes the shares of a body force l: volume of each particle [m^3], or its mass for gravity [kg], times the spatial
- * profile of the boundary at the particle. */
+/* Computes the shares of a body force l, the factors of its value: volume [m^3] of each of its particles (indices in
+ * p), or for gravity the mass [kg], times the spatial profile of the boundary at the particle. */
 static void body_shares(struct load *l, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
@@ -73,10 +74,10 @@ void load_set_particle_list_from_marks(struct load *l, const uint8_t *selected, 
     if (boundary_applies_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
-/* Sets the particles on which the traction l acts to those on the exposed face of the body, and the factors l->share of
- * its components to their areas [m^2]. The area for tangential components differs from that for the normal one, so that
- * the traction has the right moment. selected[p->n]: 1 for particles in the region of l; spacing: lattice spacing
- * [m]. */
+/* Sets the particles on which the traction l acts to those of p on the exposed face of the body, and the factors
+ * l->share of its components to their areas [m^2]. The area for tangential components differs from that for the normal
+ * one, so that the traction has the right moment. selected[p->n]: 1 for particles in the region of l; spacing: lattice
+ * spacing [m]. */
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;
@@ -91,10 +92,10 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     exposed_face_free(&face);
 }
 
-/* Sets the particles of the absorbing boundary l to those in the exposed layer of the body and in the layer behind it.
- * Stores two areas of each particle [m^2]: l->outer, which is 0 in the second layer, and l->edge, with which a sum over
- * both layers extrapolates linearly to the face. selected[p->n]: 1 for particles in the region of l; spacing: lattice
- * spacing [m]. */
+/* Sets the particles of the absorbing boundary l to those of p in the exposed layer of the body and in the layer behind
+ * it. Stores two areas of each particle [m^2]: l->outer, which is 0 in the second layer, and l->edge, with which a sum
+ * over both layers extrapolates linearly to the face. selected[p->n]: 1 for particles in the region of l; spacing:
+ * lattice spacing [m]. */
 static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;
@@ -109,8 +110,8 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
     exposed_face_free(&face);
 }
 
-/* Sets the particles of load l with prescribed motion to those in a layer of depth boundary->depth behind its face.
- * selected[p->n]: 1 for particles in its region; spacing: lattice spacing [m]. */
+/* Sets the particles of load l, which prescribes motion, to those of p in a layer of depth boundary->depth behind its
+ * face. selected[p->n]: 1 for particles in the region of the load; spacing: lattice spacing [m]. */
 static void select_layer(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     uint8_t *taken = NEW("loads.layer", p->n, uint8_t);
@@ -129,8 +130,8 @@ bool load_mark_particles_in_region(const struct boundary *b, const struct partic
     return any;
 }
 
-/* Returns true if particle i is in the plane of the clamped mirror b and in its body. Such a particle is its own image
- * and stays at rest. spacing: lattice spacing [m]. */
+/* Returns true if particle i of p is in the plane of the clamped mirror b and in its body. Such a particle is its own
+ * image and stays at rest. spacing: lattice spacing [m]. */
 static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;

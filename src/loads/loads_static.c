@@ -28,9 +28,9 @@ void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const
  * the support is then a sum over particles, not the total force times one displacement. */
 static bool works_by_place(const struct boundary *b) { return b->frozen && boundary_motion_varies_in_space(b); }
 
-/* Returns component d of the displacement [m] that load l prescribes for its particle number k at the end of a static
- * problem. by: prescribed displacement at this time. For k < 0 returns the displacement at X = 0, for loads that have
- * no particles or move all equally. */
+/* Returns component d of the displacement [m] that load l prescribes for its particle number k (of p) at the end of a
+ * static problem. by: prescribed displacement at this time. For k < 0 returns the displacement at X = 0, for loads that
+ * have no particles or move all equally. */
 static real static_displacement(const struct prescribed_displacement *by, const struct load *l,
                                 const struct particles *p, int64_t k, int d)
 {
@@ -62,8 +62,8 @@ void loads_compute_static_displacements(struct loads *l, const struct particles 
     }
 }
 
-/* Computes the moment of the applied forces about the centre of mass of a plane body, *turning [N m]. Stores in *most
- * its largest possible magnitude, the sum of |arm| |force|, to which *turning can be compared [N m]. */
+/* Computes in *turning the moment of the applied forces of l about the centre of mass of a plane body p [N m]. Stores
+ * in *most its largest possible magnitude, the sum of |arm| |force| [N m], to which *turning can be compared. */
 static void moment(const struct loads *l, const struct particles *p, real *turning, real *most)
 {
     *turning = *most = 0;
