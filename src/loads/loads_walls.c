@@ -17,8 +17,8 @@ static void constrained_add(struct constrained_set *s, int64_t node, int compone
     s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load, false};
 }
 
-/* Returns true if a load constrains component `component` of every node at position x[dim] [m]: in the region of a
- * prescribed motion, on a mirror plane or beyond it. Returns false for loads on layers behind a face, whose
+/* Returns true if `load` constrains component `component` of every node of grid g at position x[dim] [m]: in the region
+ * of a prescribed motion, on a mirror plane or beyond it. Returns false for loads on layers behind a face, whose
  * particles determine the driven nodes. tolerance: of region and plane [m]. */
 static bool node_constrained(const struct load *load, const struct grid *g, const real *x, real tolerance,
                              int component)
@@ -38,10 +38,10 @@ bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
-/* Replaces k[dim], the box indices of a node beyond the mirror plane of `load`, by the indices of its mirror image, and
- * reverses the signs in *f of components that the mirror reverses. Does nothing if the node is not beyond the plane.
- * Returns false if the image is not in the box, or at no node because the plane is neither on a node nor midway between
- * two. spacing: lattice spacing, to which tolerances refer [m]. */
+/* Replaces k[dim], the indices of a node of g beyond the mirror plane of `load`, by the indices of its mirror image,
+ * and reverses the signs in *f of components that the mirror reverses. Does nothing if the node is not beyond the
+ * plane. Returns false if the image is not in the box of nodes, or at no node because the plane is neither on a node
+ * nor midway between two; else true. spacing: lattice spacing, to which tolerances refer [m]. */
 static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;
@@ -56,8 +56,8 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
 }
 
-/* Returns true if node I is beyond planes of symmetry and moves as the mirror image of another node. Stores this node,
- * the signs of the components and the number of the plane's load in *f. */
+/* Returns true if node I of g is beyond planes of symmetry in l and moves as the mirror image of another node. Stores
+ * in *f this other node, the signs of the components and the number of the load with the plane. */
 static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I, struct mirror_node *f)
 {
     int64_t k[DIM_MAX] = {0}, image = 0;
@@ -79,8 +79,8 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
     return image != I;
 }
 
-/* Returns true if the load may constrain nodes of grid g. Where each body has a grid of its own, a load with prescribed
- * motion constrains only the grids of bodies to which its particles belong. */
+/* Returns true if `load` may constrain nodes of grid g. Where each body has a grid of its own, a load with prescribed
+ * motion constrains only the grids of bodies to which its particles (indices in p) belong. */
 static bool load_holds(const struct load *load, const struct grid *g, const struct particles *p)
 {
     bool holds = g->body == 0 || load->boundary->kind != BOUNDARY_VELOCITY;
@@ -88,8 +88,8 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
     return holds;
 }
 
-/* Computes the position x[dim] of node I [m]. mesh: the mesh whose grid g is, or NULL. Nodes doubled by slits are at
- * the position of their regular node. */
+/* Computes the position x[dim] of node I of g [m]. mesh: the mesh whose grid g is, or NULL. Nodes doubled by slits
+ * (gaps between cells) are at the position of their regular node. */
 static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
 {
     const int64_t at = mesh ? mesh_regular_node_of_doubled_node(mesh, I) : I;
@@ -138,7 +138,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     s->lasting = s->n;
 }
 
-/* Returns true if two loads prescribe the same component of motion, not necessarily of the same nodes. */
+/* Returns true if two loads of l prescribe the same component of motion (of dim), not necessarily of the same nodes. */
 static bool component_is_prescribed_twice(const struct loads *l, int dim)
 {
     uint8_t once = 0, twice = 0;
@@ -164,8 +164,8 @@ static void constrained_mark_overruled(const struct loads *l, struct constrained
     memory_free(last);
 }
 
-/* Returns true if `load` constrains the component `component` of mesh node I because of the node's position: in the
- * region of a prescribed motion, or on a plane of symmetry. */
+/* Returns true if `load` (of l) constrains the component `component` of mesh node I because of the position of the
+ * node: in the region of a prescribed motion, or on a plane of symmetry. */
 static bool constrained_by_region(const struct loads *l, const struct load *load, const struct mesh *mesh, int64_t I,
                                   int component)
 {
@@ -183,16 +183,16 @@ static bool constrained_is_current(const struct constrained_set *s, const struct
     return true;
 }
 
-/* Returns true if particle i is a material point of grid g, not of a mesh. */
+/* Returns true if particle i of p is a material point of grid g, not of a mesh. */
 static bool point_is_on(const struct grid *g, const struct particles *p, int32_t i)
 {
     return particle_moves_with_nodes(p, i) && !(p->flag[i] & FLAG_MESHED) &&
            (g->body == 0 || g->body == p->body[i] + 1);
 }
 
-/* Computes l->share[g->n] [kg]: the mass that each node of grid g receives from the material points of `load`. k:
- * interpolation kernels; half_width: half the reference edge of a particle [m]. Returns the number of points of `load`
- * on g. If it is 0, l->share is not set. */
+/* Computes l->share[g->n] [kg]: the mass that each node of grid g receives from the material points of `load`. p: all
+ * particles; k: interpolation kernels; half_width: half the reference edge of a particle [m]. Returns the number of
+ * points of `load` on g. If it is 0, l->share is not set. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
                             const struct kernels *k, real half_width)
 {
@@ -241,8 +241,8 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
                          change,     place,      .reaction = 0,  .symmetric = !drives && !b->hold_tangential};
 }
 
-/* Returns true if only the points of load number `which` can tell which nodes of g it drives: most of its particles are
- * material points, and no node with mass is in its region. s: nodes that regions constrain. */
+/* Returns true if the nodes of g that load number `which` of l drives must be found from its material points: most of
+ * its particles (of p) are material points, and no node with mass is in its region. s: nodes that regions constrain. */
 static bool points_choose_driven_nodes(const struct loads *l, int which, const struct constrained_set *s,
                                        const struct grid *g, const struct particles *p)
 {
@@ -258,7 +258,7 @@ static bool points_choose_driven_nodes(const struct loads *l, int which, const s
 #define NEARLY_LARGEST 0.9 /* share over the largest one with which nodes are driven if all have less than that */
 #define HEAVY 0.01         /* mass from points of a load, over the largest, below which a node tells nothing */
 
-/* Returns the share of its mass that a node must have from the points of a load to be driven by this load [1]: one
+/* Returns the share (0 to 1) of its mass that a node must have from the points of a load to be driven by this load: one
  * half, or, where no node has that much, nearly the largest share, so that a support between nodes drives those nearest
  * to it. share[nodes]: mass from points of the load [kg]; mask[nodes]: 0 for nodes without such mass, or NULL;
  * mass[nodes]: mass of the nodes [kg]. */
@@ -295,8 +295,8 @@ static void driven_nodes_add(const struct loads *l, int which, struct constraine
     }
 }
 
-/* Computes by[l->n], the motion that each load prescribes in the step of size dt about time t [s], and in the step
- * before. In the first step both are the same. dim: number of dimensions; reference: true if nodes move with the
+/* Computes by[l->n], the motion that each load prescribes in the step of size dt [s] about time t [s], and in the step
+ * before; for the first step both are equal. dim: number of dimensions; reference: true if nodes move with the
  * material, as on a mesh. */
 static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool reference, struct driven_by *by)
 {
@@ -354,9 +354,9 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Adds up in share[I] the mass that each mesh node I receives from the points of `load` [kg], and sets mark[I] = 1 for
- * these nodes. All marks must be 0 before. share[] need not be initialised, since the first mass of a node is stored
- * and not added. */
+/* Computes the mass that mesh nodes receive from the points of `load`: adds up share[I] [kg] and sets mark[I] = 1 for
+ * each node I with such mass. All marks must be 0 before. share[] need not be initialised, since the first mass of a
+ * node is stored and not added. p: all particles. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
@@ -371,9 +371,9 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
 }
 
 /* Lists in l->constrained_mesh the mesh nodes that load number `which` drives, for each component of the velocity that
- * it prescribes: those with at least half of their mass from its points, or, where none is in its region or has that
- * much, those with the largest share. Skips components that the load constrains already because of the node's
- * position. */
+ * it prescribes: those with at least half of their mass from its points (indices in p), or, where none is in its region
+ * or has that much, those with the largest share. Skips components that the load constrains already because of the
+ * position of the node. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];
@@ -415,8 +415,9 @@ void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_se
     constrained_mark_overruled(l, driven_nodes, g);
 }
 
-/* Replaces the prescribed nodal velocities g->wall by those of the node components in `held`, for the step of size dt
- * about time t [s]. g: a grid whose nodes move with the material; mesh: the mesh to which g belongs, or NULL. */
+/* Replaces the prescribed nodal velocities g->wall by those that loads l prescribe for the node components in `held`,
+ * for the step of size dt [s] about time t [s]. g: a grid whose nodes move with the material; mesh: the mesh to which g
+ * belongs, or NULL. */
 static void reference_walls(const struct loads *l, const struct constrained_set *held, struct grid *g,
                             const struct mesh *mesh, real t, real dt)
 {

@@ -5,21 +5,22 @@
 
 enum { MOVED = 2 }; /* forces on a node come from adjacent cells: at most one block on every side */
 
-/* Returns the first node of a block, eight consecutive nodes along x. */
+/* Returns the index of the first node of a block of the mesh: eight consecutive nodes along x. */
 static int64_t nodes_first(const struct mesh *mesh, int64_t block)
 {
     return block / mesh->segments * mesh->grid.count[0] + block % mesh->segments * LANES;
 }
 
-/* Returns the node after the last node of a block, eight consecutive nodes along x or fewer at the end of a row. */
+/* Returns the index one past the last node of a block of the mesh: eight consecutive nodes along x, or fewer at the end
+ * of a row. */
 static int64_t nodes_end(const struct mesh *mesh, int64_t block)
 {
     const int64_t end = nodes_first(mesh, block) + LANES, row = (block / mesh->segments + 1) * mesh->grid.count[0];
     return end < row ? end : row;
 }
 
-/* Returns true if no node of a block (eight nodes along x) has mass and no extra node of a slit belongs to the
- * block. */
+/* Returns true if no node of a block of the mesh (eight nodes along x) has mass and no extra node of a slit belongs to
+ * the block. (A slit is a gap between cells, along which nodes are doubled.) */
 static bool nodes_empty(const struct mesh *mesh, int64_t block)
 {
     if (mesh->slits.linked && mesh->slits.linked[block]) return false; /* cells there may have extra nodes */
@@ -30,9 +31,9 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks of nodes (eight along x) with the extra nodes that slits have made at the positions of nodes of
- * block `near`, since motion spreads to them. moves: true if nodes of `near` move; if `near` itself contains extra
- * nodes, the blocks of the nodes at their positions are then activated, too. */
+/* Activates the blocks of nodes (eight along x) that contain the second nodes which slits (gaps between cells) have
+ * made at the positions of nodes of block `near`, since motion spreads to them. moves: true if nodes of `near` move; if
+ * `near` itself contains second nodes, the blocks of the nodes at their positions are then activated, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -62,7 +63,7 @@ static void mesh_activate(struct mesh *mesh, int64_t block)
     }
 }
 
-/* Returns true if a node of the block (eight nodes along x) is displaced from its reference position. */
+/* Returns true if a node of a block of the mesh (eight nodes along x) is displaced from its reference position. */
 static bool nodes_moved(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)
@@ -81,7 +82,7 @@ static bool nodes_inactive(const struct mesh *mesh, int64_t block)
 }
 
 /* Returns true if w, a prescribed velocity component of a node, is 0 in the whole run: if it belongs to a plane of
- * symmetry, or to a boundary that prescribes the value 0. */
+ * symmetry of l, or to a boundary that prescribes the value 0. */
 static bool wall_is_fixed(const struct loads *l, const struct wall *w)
 {
     const struct boundary *b = l->load[w->load].boundary;
@@ -103,9 +104,9 @@ void active_nodes_activate_all_blocks(struct mesh *mesh)
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
 }
 
-/* Recomputes which blocks of nodes (eight along x) are active: those with a node that moves or carries a force, those
- * with a node of prescribed velocity that moves, the neighbours of these blocks, and those around exposed points
- * (points whose motion is needed in every step). */
+/* Recomputes which blocks of nodes (eight along x) of the mesh are active: those with a node that moves or carries a
+ * force, those with a node of prescribed velocity that loads l move, the neighbours of these blocks, and those around
+ * exposed points (points whose motion is needed in every step). */
 static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;

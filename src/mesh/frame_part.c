@@ -19,10 +19,10 @@
  * so that the mesh has no nodes there; APART: its nearest layer is farther than half a spacing. */
 enum plane_fit { PLANE_FITS, PLANE_MISFIT, PLANE_APART };
 
-/* Returns whether the nodes of the mesh of body `body` fit the plane of symmetry of boundary b: PLANE_MISFIT if the
- * layers of particles are not at half spacings from the plane; PLANE_APART if the nearest layer is farther than half a
- * spacing, so that the body does not reach the plane; else PLANE_FITS. any_absent: true if not all particles of the
- * bodies exist, so that the nearest layer is not known. */
+/* Returns whether the nodes of the mesh of body `body` of p fit the plane of symmetry of boundary b: PLANE_MISFIT if
+ * the layers of particles are not at half spacings from the plane; PLANE_APART if the nearest layer is farther than
+ * half a spacing, so that the body does not reach the plane; else PLANE_FITS. spacing: lattice spacing [m]; any_absent:
+ * true if not all particles of the bodies exist, so that the nearest layer is not known. */
 static enum plane_fit plane_fit_of(const struct particles *p, int body, const struct boundary *b, real spacing,
                                    bool any_absent)
 {
@@ -36,8 +36,8 @@ static enum plane_fit plane_fit_of(const struct particles *p, int body, const st
     return nearest > 0.5 && nearest < INFINITY && !any_absent ? PLANE_APART : PLANE_FITS;
 }
 
-/* Returns the first boundary of the scene that is a plane of symmetry for which plane_fit_of body `body` is `fit`; NULL
- * if there is none. any_absent: true if not all particles of the bodies exist. */
+/* Returns the first boundary of scene s that is a plane of symmetry for which plane_fit_of returns `fit` for body
+ * `body` of p; NULL if there is none. any_absent: true if not all particles of the bodies exist. */
 static const struct boundary *plane_with_fit(const struct particles *p, const struct scene *s, int body,
                                              bool any_absent, enum plane_fit fit)
 {
@@ -48,10 +48,10 @@ static const struct boundary *plane_with_fit(const struct particles *p, const st
     return NULL;
 }
 
-/* Returns the reason, as a part of a message, why a body cannot be in the reference frame; NULL if it can. Only for
- * bodies for which the scene does not choose the frame. The body must be one piece on one lattice, with two particles
- * per grid cell along each axis. mpm: its first grid gives the nodes; hollow: cells whose particles were not
- * created. */
+/* Returns the reason, as a part of a message, why the body of p cannot be in the reference frame (points whose nodes
+ * belong to a mesh of the undeformed body); NULL if it can. Only for bodies for which scene s does not choose the
+ * frame. The body must be a single piece on one lattice, with two particles per grid cell along each axis. mpm: its
+ * first grid gives the nodes; hollow: cells whose particles were not created. The text is not to be freed. */
 static const char *frame_obstacle(const struct particles *p, const struct scene *s, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {
@@ -66,8 +66,8 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
     return pieces > 1 ? "it is in separate parts, which have contact only in the current frame" : NULL;
 }
 
-/* Refuses planes of symmetry at which a body in the reference frame has no nodes. Returns OK or REFUSED, with a
- * message. */
+/* Returns REFUSED, with a message, if scene s has a plane of symmetry at which a body of p in the reference frame r (on
+ * a mesh of the undeformed body) has no nodes; else OK. */
 static status planes_check(const struct reference_frame *r, const struct particles *p, const struct scene *s)
 {
     for (int body = 0; body < s->bodies; body++) {
@@ -83,9 +83,9 @@ static status planes_check(const struct reference_frame *r, const struct particl
     return OK;
 }
 
-/* Warns if body `body`, which is in the reference frame, does not reach a plane of symmetry at the start. In this frame
- * only nodes of the undeformed body on the plane are constrained, so that the plane never acts on such a body, even if
- * the body later moves through it. */
+/* Adds a warning to *to if body `body` of p, which is in the reference frame r (on a mesh of the undeformed body), does
+ * not reach a plane of symmetry of scene s at the start. In this frame only nodes of the undeformed body on the plane
+ * are constrained, so that the plane never acts on such a body, even if the body later moves through it. */
 static void warn_of_plane_apart(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                 int body, struct warnings *to)
 {
@@ -97,9 +97,10 @@ static void warn_of_plane_apart(const struct reference_frame *r, const struct pa
                             b->name, s->body[body].name);
 }
 
-/* Warns of planes of symmetry that do not fit the nodes. In the current frame they are neither on a node nor midway
- * between two. Measured with inputs/bar_converge.yaml: displacements are 11 to 24 % off if mirrors are 0.15 and 0.25 of
- * a cell from a node, with 50 to 200 points per metre; half the spacing reduces the error by at most a third. */
+/* Adds warnings to warning_list of planes of symmetry of run e that do not fit the nodes. On a background grid these
+ * planes are neither on a node nor midway between two. Measured with inputs/bar_converge.yaml: displacements are 11 to
+ * 24 % off if mirrors are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre; half the spacing
+ * reduces the error by at most a third. */
 void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;
@@ -174,9 +175,9 @@ bool reference_frame_is_in_use(const struct reference_frame *r)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Returns an array with the elastic constants of the cells, one entry for each material. They are those of the
- * material, own[materials], or, if the scene requests it by mpm.constants, those of a full lattice of peridynamic
- * bonds. family: neighbours in this lattice. Release the array with memory_free. */
+/* Returns an array with the elastic constants of the mesh cells, one entry for each material of scene s. They are those
+ * of the material, own[materials], or, if the scene requests it by mpm.constants, those of a full lattice of
+ * peridynamic bonds. family: neighbours in this lattice. Release the array with memory_free. */
 static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
     struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
@@ -221,9 +222,10 @@ status reference_frame_make_mesh(struct run *e, const struct mesh_source *source
     return OK;
 }
 
-/* Returns the critical time step of the mesh [s]; INFINITY if it has no points. Conversion to peridynamics may later
- * leave any subset of points in a cell. With partial stress, no such cell has a smaller critical step than the initial
- * cells. With hand-shake coupling, a cell with a single point has one, which is then included. */
+/* Returns the critical time step of the mesh of r [s]; INFINITY if it has no points. Conversion to peridynamics may
+ * later leave any subset of points in a cell. With partial stress, no such cell has a smaller critical step than the
+ * initial cells. With hand-shake coupling, a cell with a single point has a smaller one, which is then included. s:
+ * scene, with the densities; coupling: how points and particles are coupled. */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
@@ -236,8 +238,8 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
-/* Updates the positions of the exposed points from the nodes, and the strain at points with state-based bonds to
- * peridynamic particles. Exposed points are those whose motion is needed in every step, as they have bonds or loads. */
+/* Updates the positions of the exposed points of p (points with bonds or loads, whose motion is needed in every step)
+ * from the mesh nodes of r, and the strain at points with state-based bonds to peridynamic particles. */
 void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);
@@ -253,9 +255,9 @@ void reference_frame_compute_forces(struct reference_frame *r, struct particles 
                                           levels_highest_level_due_in_step(&r->levels, step));
 }
 
-/* Sets the velocities that boundaries prescribe at nodes of the mesh and of the levels 1 .. due of coarse cells. A step
- * of level k is 2^k times as long as one of the mesh. due: highest level that begins a step now; middle: time in the
- * middle of the step of the mesh [s]; dt: its length [s]. */
+/* Sets the velocities that `loads` prescribe at nodes of the mesh of r and of the levels 1 .. due of coarse cells. A
+ * cell of level k has 2^k times the edge of the finest, and its step is 2^k times as long. due: highest level that
+ * begins a step now; middle: time in the middle of the step of the mesh [s]; dt: length of that step [s]. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
     loads_prescribe_mesh_velocities(loads, &r->mesh, middle, dt);
@@ -266,9 +268,10 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
     }
 }
 
-/* Adds the reactions at nodes with prescribed velocity, of the mesh and of the levels 1 .. due of coarse cells, to the
- * loads that prescribe them. due: highest level that makes a step now; dt_velocity: time over which the nodes of the
- * mesh were accelerated [s]; for level k it is 2^k times as long. */
+/* Adds the reactions at nodes with prescribed velocity, of the mesh of `frame` and of the levels 1 .. due of coarse
+ * cells, to the loads that prescribe them. A cell of level k has 2^k times the edge of the finest. due: highest level
+ * that makes a step now; dt_velocity: time over which the nodes of the mesh were accelerated [s]; for level k it is 2^k
+ * times as long. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
     loads_add_grid_reactions(loads, &frame->mesh.grid, dt_velocity);

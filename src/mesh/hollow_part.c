@@ -19,8 +19,8 @@ enum { MARGIN = 4, AHEAD = 16 };
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason in words why scene s needs all particles; NULL if those inside coarse cells need not be
- * created. */
+/* Returns the reason in words why scene s needs all particles; NULL if those inside coarse cells need not be created.
+ * The text is not to be freed. */
 const char *scene_why_all_particles_needed(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene sets this";
@@ -51,8 +51,8 @@ const char *scene_why_all_particles_needed(const struct scene *s)
     return NULL;
 }
 
-/* Stores in *box the grid of the cells around the first body, with nodes at those of the body's mesh. Returns REFUSED
- * if it has too many cells. */
+/* Stores in *box the grid of the cells around the first body of scene s, whose nodes coincide with those of the mesh of
+ * the body. Returns REFUSED, with a message, if it has too many cells. */
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
@@ -68,8 +68,8 @@ static status box_find(struct grid *box, const struct scene *s)
                      s->body[0].name);
 }
 
-/* Returns true if a pre-crack is so near the position X[dim] [m] that particles are needed there: nearer than the
- * cutoff of the bonds plus two cells. source: provides the cutoff; h: edge of a cell [m]. */
+/* Returns true if a pre-crack of scene s is so near the position X[dim] [m] that particles are needed there: nearer
+ * than the cutoff of the bonds plus two cells. source: has the cutoff; h: edge of a cell [m]. */
 static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
 {
     const real flank = source->family.cutoff + 2 * h;
@@ -86,8 +86,8 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-/* Returns true if X[dim] [m] is inside the region of a load, extended by `tolerance` [m]. Loads that act on a face of
- * their region are not considered. */
+/* Returns true if X[dim] [m] is inside the region of a load of scene s, extended by `tolerance` [m]. Loads that act on
+ * a face of their region are not considered. */
 static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -98,9 +98,10 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
     return false;
 }
 
-/* Returns true if a load on a face of the body acts at cell I. For a traction or pressure, cell I is at the face if the
- * next cell along the axis of the load is not completely inside the body; for a prescribed displacement, if the face is
- * within its depth. h: grid of cells; X[dim]: a point of cell I, which must be in the region of the load [m]. */
+/* Returns true if a load of scene s on a face of the body acts at cell I. For a traction or pressure, cell I is at the
+ * face if the next cell along the axis of the load is not completely inside the body; for a prescribed displacement, if
+ * the face is within its depth. h: grid of cells; X[dim]: a point of cell I, which must be in the region of the load
+ * [m]. */
 static bool face_loaded(const struct scene *s, const struct cells_without_particles *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -117,8 +118,8 @@ static bool face_loaded(const struct scene *s, const struct cells_without_partic
     return false;
 }
 
-/* Returns true if X[dim] is within the distance r [m] of the position of a probe or, for a probe without position, of
- * an end of a pre-crack. */
+/* Returns true if X[dim] [m] is nearer than r [m] to the position of `probe` or, for a probe without position, to an
+ * end of a pre-crack of scene s. */
 static bool near_probe(const struct scene *s, const struct probe_request *probe, const real *X, real r)
 {
     if (probe->has_at) return segment_distance_from_point(probe->at, probe->at, X, s->dim) < r;
@@ -143,9 +144,9 @@ static bool probed(const struct scene *s, const real *X, real h)
     return false;
 }
 
-/* Returns true if cell I must have particles, because it is near a pre-crack or a probe, in the region of a load, on a
- * loaded face, or near the region that is peridynamic from the start. source: provides the cutoff of bonds; h: grid of
- * the cells. */
+/* Returns true if particles must be created in cell I of h because it is near a pre-crack or a probe, in the region of
+ * a load, on a loaded face, or near the region that is peridynamic from the start of scene s. source: has the cutoff of
+ * bonds. */
 static bool cell_needed(const struct scene *s, const struct bond_source *source,
                         const struct cells_without_particles *h, int64_t I)
 {
@@ -184,8 +185,8 @@ status cells_without_particles_choose_for_scene(struct cells_without_particles *
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if a cell without particles has level 0, the finest, so that the run must be set up again with more
- * particles. new_cell_level[mesh->grid.n]: levels of the cells of the mesh. */
+/* Returns true if a cell whose particles were not created now has level 0, the finest, so that the run must be set up
+ * again with more particles. new_cell_level[mesh->grid.n]: level of each cell of the mesh, 0: finest. */
 bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell_level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
@@ -193,10 +194,10 @@ bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell
     return false;
 }
 
-/* Returns flags [box.n] that are 1 for the cells whose particles need not be created. Particles are created near cells
- * of level 0, the finest: within `margin` cells, and within `ahead` cells of those that have no particles at present. A
- * coarse cell has all of its particles or none. level: levels of the cells of the mesh. Release the flags with
- * memory_free. */
+/* Returns an array of flags [box.n] that are 1 for the cells of r->hollow.box whose particles need not be created.
+ * Particles are created near cells of level 0, the finest: within `margin` cells, and within `ahead` cells of those
+ * that have no particles at present. A coarse cell has all of its particles or none. level: level of each cell of the
+ * mesh of r. Release the flags with memory_free. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int margin, int ahead)
 {
     const struct cells_without_particles *h = &r->hollow;

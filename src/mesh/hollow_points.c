@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Sets positions, volumes, masses and materials of the points of a cell, one for each of its 2^dim integration points
- * (at a quarter or three quarters of its edge along each axis). m: materials of the scene; first: index of the first
- * point in p; point[2^dim]: receives their indices. */
+/* Sets positions, volumes, masses and materials of the points of cell `cell` of the mesh, one for each of its 2^dim
+ * integration points (at a quarter or three quarters of its edge along each axis). m: materials of the scene; first:
+ * index of the first of these points in p; point[2^dim]: receives their indices. */
 static void cell_points(struct particles *p, const struct mesh *mesh, const struct material *m, int64_t cell,
                         int64_t first, int32_t *point)
 {

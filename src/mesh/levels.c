@@ -9,7 +9,7 @@
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
 /* Stores in l->offset[0] the indices of the cell of level 0 (the finest) at the lower corner of the box around all
- * particles. */
+ * particles p. */
 static void corner_find(struct mesh_levels *l, const struct particles *p)
 {
     const struct grid *g = &l->fine->grid;
@@ -20,9 +20,9 @@ static void corner_find(struct mesh_levels *l, const struct particles *p)
     }
 }
 
-/* Makes the mesh of a level (cells with the edge of 2^level finest cells) with all nodes that its cells may have; which
- * cells exist is determined later. source: provides the number of materials; density: density of each material
- * [kg/m^3]. Returns FAILED, with a message, if the mesh has too many nodes. */
+/* Makes l->at[level].mesh, the mesh of a level (cells with the edge of 2^level finest cells), with all nodes that its
+ * cells may have; which cells exist is determined later. source: has the number of materials; density: density of each
+ * material [kg/m^3]. Returns FAILED, with a message, if the mesh has too many nodes. */
 static status level_make(struct mesh_levels *l, int level, const struct mesh_source *source, const real *density)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -79,8 +79,8 @@ void levels_free(struct mesh_levels *l)
 
 /* ---- points of coarse cells -------------------------------------------------------------------------------------- */
 
-/* Copies displacement and velocity to all ghosts of coarse levels. A ghost is a node of a coarser mesh at which the
- * next finer mesh has a node, too; it moves with that node. */
+/* Copies displacement and velocity to all ghosts of the coarse levels of l. A ghost is a node of a coarser mesh at
+ * which the next finer mesh has a node, too; it moves with that finer node. */
 void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) levels_copy_motion_to_ghosts_of_one_level(l, level);
@@ -137,7 +137,7 @@ int64_t levels_count_cells_of_level(const struct mesh_levels *l, int level)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic energy of the nodes of all coarse levels [J], without that of level 0, the finest. */
+/* Returns the kinetic energy of the nodes of all coarse levels of l [J], without that of level 0, the finest. */
 real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l)
 {
     real sum = 0;
@@ -186,9 +186,10 @@ static void stressed_put(struct mesh *mesh, const uint8_t *marks)
     for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = marks[r] != 0;
 }
 
-/* Saves to the archive a if a->saving, else restores from it, which rows of cells of one level are stressed: in which a
- * stress may exceed the one at which coarse cells are split. level: its cells have the edge of 2^level finest cells.
- * Returns FAILED if the archive does not have these flags. */
+/* Saves to the archive a if a->saving, else restores from it, which rows of cells of `mesh` are stressed: in which a
+ * stress may exceed the value at which coarse cells are split. level: coarsening level of the mesh, whose cells have
+ * the edge of 2^level finest cells; part of the name in the archive. Returns FAILED if the archive does not have these
+ * flags. */
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];
@@ -201,8 +202,9 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
     return s;
 }
 
-/* Rebuilds everything that follows from l->level, the refinement level of each of the finest cells: cells and masses of
- * the meshes of all levels, interfaces between levels, and distances to coarse cells. */
+/* Rebuilds everything that follows from l->level, the coarsening level of each of the finest cells (0: not coarsened):
+ * cells and masses of the meshes of all levels, interfaces between levels, and distances to coarse cells. p: particles;
+ * source: materials and other data of which meshes are made. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_rebuild_cells_after_level_change(l->fine, p, source, l->level);
@@ -228,9 +230,9 @@ void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles 
     }
 }
 
-/* Saves the displacements, velocities and momenta of the nodes of `mesh`, the mesh of refinement level `level`, and the
- * flags of its stressed cells to the archive `a` if a->saving, else restores them from it. Returns FAILED if the
- * archive does not have them. */
+/* Saves the displacements, velocities and momenta of the nodes of `mesh`, the mesh of coarsening level `level` (0:
+ * finest), and the flags of its stressed cells to the archive a if a->saving, else restores them from it. Returns
+ * FAILED if the archive does not have them. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
     real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};

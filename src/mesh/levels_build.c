@@ -6,9 +6,9 @@
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Makes the coarse cells from l->level, the level of each cell of level 0 (the finest): kind and material of the cells,
- * their number, and the masses of their nodes. Transfers no mass between levels; levels_add_masses_of_dependent_nodes
- * does that. */
+/* Makes the coarse cells of l from l->level, the coarsening level of each cell of level 0 (the finest): kind and
+ * material of the cells, their number, and the masses of their nodes from the particles p. Transfers no mass between
+ * levels; levels_add_masses_of_dependent_nodes does that. */
 void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
@@ -48,9 +48,9 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     return acts;
 }
 
-/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) contains a given node of the next
- * finer level and computes forces. at: indices of this node along the axes, counted from the lower corner of the body
- * in cells of the finer level. */
+/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) of l contains a given node of the
+ * next finer level and computes forces. at[dim]: indices of this node along the axes, counted from the lower corner of
+ * the body in cells of the finer level. */
 static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
 {
     const struct mesh *mesh = &l->at[level].mesh;
@@ -76,9 +76,9 @@ static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
     m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
 }
 
-/* Appends node I of the finer mesh to the hanging nodes of level m. A hanging node is in the middle of an edge or face
- * of a coarser cell, and its motion is the mean of that of the nodes at the ends or corners, its masters. odd: axes
- * along which the edge or face extends, as bits; mesh: the finer mesh. */
+/* Appends node I of `mesh`, the finer mesh, to the hanging nodes of level m. A hanging node is in the middle of an edge
+ * or face of a coarser cell, and its motion is the mean of that of the nodes at the ends or corners, its masters. odd:
+ * axes along which the edge or face extends, as bits (bit d: axis d). */
 static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
 {
     struct mesh_hanging h = {.node = (int32_t)I};
@@ -93,9 +93,9 @@ static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I
     m->hanging[m->hangings++] = h;
 }
 
-/* Finds the nodes at the interface between the cells of `level` (cells with the edge of 2^level finest cells) and finer
- * ones: ghosts, which are nodes of the coarse mesh with a finer node at their position, and hanging nodes of the finer
- * mesh, in the middle of coarse edges or faces. */
+/* Finds the nodes at the interface between the cells of `level` of l (cells with the edge of 2^level finest cells) and
+ * finer cells: ghosts, which are nodes of the coarse mesh with a finer node at their position, and hanging nodes of the
+ * finer mesh, in the middle of coarse edges or faces. */
 static void interface_find(struct mesh_levels *l, int level)
 {
     struct mesh_level *m = &l->at[level];
@@ -149,10 +149,10 @@ void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l)
 /* Adds `share` times the value of node i of one mesh to the value of node k of another: to[k] += share * from[i]. */
 static inline void give(const real *from, int64_t i, real *to, int64_t k, real share) { to[k] += share * from[i]; }
 
-/* Transfers the momentum of hanging node h along axis d to its masters. A hanging node is in the middle of an edge or
- * face of a coarser cell, and its masters are the nodes at the ends or corners. Each master receives an equal share of
- * the mass of h, with its own velocity plus the difference between the velocity of h and the mean of the masters. This
- * difference is 0 if velocities are linear along the edge. */
+/* Transfers the momentum of hanging node h of g along axis d to its masters. A hanging node is in the middle of an edge
+ * or face of a coarser cell, and its masters are the nodes at the ends or corners. Each master receives an equal share
+ * of the mass of h, with its own velocity plus the difference between the velocity of h and the mean of the masters.
+ * This difference is 0 if velocities are linear along the edge. */
 static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
 {
     const real *velocity = g->velocity[d], share = g->mass[h->node] / h->masters;

@@ -18,8 +18,9 @@ struct cell_around {
     real t[DIM_MAX];
 };
 
-/* Finds the coarse cell around node I of level 0 (the finest), which has the indices k along the axes, and the position
- * of the node in it. The level of the result is 0 if a cell of level 0 contains the node, or if no cell does. */
+/* Returns the coarse cell of l around node I of level 0 (the finest), and the position of the node in it. k[dim]:
+ * indices of the node along the axes. The member `level` of the result is 0 if a cell of level 0 contains the node, or
+ * if no cell does. */
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     const struct mesh *fine = l->fine;
@@ -42,8 +43,8 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Computes weight[2^dim], the weights by which the corners of the coarse cell *a contribute to a value at the position
- * a->t in the cell, by linear interpolation [1]. */
+/* Computes weight[2^dim], the dimensionless weights by which the corners of the coarse cell a contribute to a value at
+ * the position a->t in the cell, by linear interpolation. */
 static void coarse_corner_weights(const struct cell_around *a, int dim, real *weight)
 {
     for (int c = 0; c < 1 << dim; c++) {
@@ -62,8 +63,8 @@ static real field_at(const struct mesh *mesh, int64_t cell, const real *weight, 
     return value;
 }
 
-/* Sets displacement and velocity of node I of level 0 (the finest) by interpolation in the coarse cell around it. k:
- * indices of the node along the axes. Does nothing if no coarse cell contains the node, or if a cell of level 0
+/* Sets displacement and velocity of node I of level 0 (the finest) of l by interpolation in the coarse cell around it.
+ * k[dim]: indices of the node along the axes. Does nothing if no coarse cell contains the node, or if a cell of level 0
  * does. */
 static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
 {
@@ -79,7 +80,7 @@ static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
     }
 }
 
-/* Sets displacement and velocity of those nodes of a row of level 0 (the finest) that are inside coarse cells, by
+/* Sets displacement and velocity of those nodes of a row of level 0 (the finest) of l that are inside coarse cells, by
  * interpolation in these cells. row: number of the row of nodes along x. */
 static void row_interpolate(struct mesh_levels *l, int64_t row)
 {
@@ -108,9 +109,9 @@ void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nod
 
 /* ---- motion of the nodes of new cells ---------------------------------------------------------------------------- */
 
-/* Computes the motion of the nodes of changed cells before masses are moved between levels: mass times velocity of
- * every node of level 0 (the finest) in grid.momentum; and for coarse nodes the displacement and velocity of the node
- * of level 0 at the same position, with mass times velocity. */
+/* Samples the motion of the nodes of changed cells of l before masses are moved between levels. For every node of level
+ * 0 (the finest), stores mass times velocity in grid.momentum. For coarse nodes, stores displacement and velocity of
+ * the node of level 0 at the same position, and mass times velocity. */
 static void nodes_sample(struct mesh_levels *l)
 {
     struct mesh *fine = l->fine;
@@ -133,8 +134,9 @@ static void nodes_sample(struct mesh_levels *l)
     }
 }
 
-/* Returns the mean of a nodal field of level 0 (the finest) over the corners of all cells of level 0 inside a cell of
- * `level` (cells with the edge of 2^level finest cells). first: index of the lowest of these cells of level 0. */
+/* Returns the mean of a nodal field of level 0 (the finest) of l over the corners of all cells of level 0 inside a cell
+ * of `level` (cells with the edge of 2^level finest cells). first: index of the lowest of these cells of level 0;
+ * field: a value for each node of level 0. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
     const int dim = l->fine->grid.dim, parts = levels_fine_cells_per_cell(l, level);
