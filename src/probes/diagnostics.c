@@ -18,9 +18,9 @@ void diagnostics_make(struct diagnostics *w)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Computes the momentum of all particles and of the nodes of the grids nodes[grid_count], w->now.momentum, and raises
- * w->now.momentum_error to |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]:
- * impulse of loads and supports since the start [N s]. */
+/* Computes w->now.momentum, the momentum of all particles p and of the nodes of the grids nodes[grid_count], and raises
+ * w->now.momentum_error to |momentum - initial momentum - impulse| divided by the largest momentum so far.
+ * impulse[dim]: impulse of loads and supports since the start [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
                                  int grid_count, const real *impulse)
 {
@@ -41,8 +41,8 @@ real diagnostics_relative_energy_change(const struct diagnostics *w)
     return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
-/* Computes the error of the energy balance w->now.balance_error = (energy - initial energy - external work)/(largest
- * energy or work so far) [1]; 0 if the denominator is 0. Also updates the largest internal energy so far. */
+/* Computes the relative error of the energy balance: w->now.balance_error = (energy - initial energy - external
+ * work)/(largest energy or work so far); 0 if the denominator is 0. Also updates the largest internal energy so far. */
 static void balance_of(struct diagnostics *w)
 {
     const real *momentum = w->now.momentum;
@@ -91,8 +91,8 @@ int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, cons
     return ends;
 }
 
-/* Returns true if a particle with prescribed motion has just lost a bond. Examines all particles without an early exit,
- * so that the loop is compiled to vector instructions. */
+/* Returns true if a particle of p with prescribed motion has just lost a bond. Examines all particles without an early
+ * exit, so that the loop is compiled to vector instructions. */
 static bool driven_breaks(const struct particles *p)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
@@ -117,7 +117,7 @@ bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particl
 
 /* ---- stability check --------------------------------------------------------------------------------------------- */
 
-/* Returns true if particle i has diverged: its position or velocity is not finite, or its speed exceeds `limit`
+/* Returns true if particle i of p has diverged: its position or velocity is not finite, or its speed exceeds `limit`
  * [m/s]. */
 static bool diagnostics_particle_diverged(const struct particles *p, int64_t i, real limit)
 {
@@ -125,8 +125,8 @@ static bool diagnostics_particle_diverged(const struct particles *p, int64_t i, 
     return particles_diverged(p, alone, 1, limit);
 }
 
-/* Returns FAILED with a message that contains particle i, its position, the step, the time t [s] and the cause: a speed
- * above `limit` [m/s], or a value that is not finite. */
+/* Returns FAILED with a message that contains particle i of p, its position, the step, the time t [s] and the cause: a
+ * speed above `limit` [m/s], or a value that is not finite. */
 static status divergence_report(const struct particles *p, int64_t i, real limit, int64_t step, real t)
 {
     real speed2 = 0;
@@ -140,8 +140,8 @@ static status divergence_report(const struct particles *p, int64_t i, real limit
                       (int)p->id[i], particle_position_text(p, i, 6).text, what);
 }
 
-/* Returns the first of the particles list[n] that has diverged, or p->n_all if none has. limit: largest speed that a
- * stable particle can have [m/s]. */
+/* Returns the first of the particles list[n] (indices in p) that has diverged, or p->n_all if none has. limit: largest
+ * speed that a stable particle can have [m/s]. */
 static int64_t first_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit)
 {
     if (!particles_diverged(p, list, n, limit)) return p->n_all;

@@ -6,8 +6,8 @@
 #include "probes/diagnostics.h"
 #include "run/part.h"
 
-/* Writes the energies, the external work and the errors of the balances of energy, momentum and angular momentum to
- * the JSON object j. */
+/* Writes the energies, the external work and the errors of the balances of energy, momentum and angular momentum in l
+ * to the JSON object j. */
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
@@ -19,8 +19,8 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_write_real(j, "angular_momentum_error", l->spin_error);
 }
 
-/* Writes the time t of an event [s] under the key `what`_time. In runs in load steps, writes the number of the step
- * under `what`_step instead, or nothing if t is NAN. */
+/* Writes the time t of an event [s] to j under the key `what`_time. In runs in load steps, which the scene selects,
+ * writes the number of the step of `clock` under `what`_step instead, or nothing if t is NAN. */
 static void put_when(struct json *j, const struct scene *scene, const struct run_clock *clock, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];
@@ -32,8 +32,8 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
         json_write_integer(j, key, (int64_t)floor(t / clock->dt + 0.5));
 }
 
-/* Writes body, origin, position, growth, angle, times and speeds of a crack tip as an element of a JSON array. Runs in
- * load steps have step numbers instead of times, and no speeds. */
+/* Writes body, origin, position, growth, angle, times and speeds of the crack tip `tip` to j as an element of a JSON
+ * array. Runs in load steps (scene s, clock) have step numbers instead of times, and no speeds. */
 static void put_tip(struct json *j, const struct scene *s, const struct run_clock *clock, const struct crack_tip *tip)
 {
     const int dim = s->dim;
@@ -50,7 +50,8 @@ static void put_tip(struct json *j, const struct scene *s, const struct run_cloc
     json_close(j, '}');
 }
 
-/* Returns the number of broken bonds of particles with prescribed motion; a bond between two of them counts twice. */
+/* Returns the number of broken bonds in b of particles of p with prescribed motion; a bond between two of them counts
+ * twice. */
 static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
 {
     int64_t broken = 0;
@@ -59,8 +60,8 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
     return broken;
 }
 
-/* Writes the JSON object "crack": time and place of the first breaks, growth, angle and speeds of the longest crack,
- * and the list of all crack tips. */
+/* Writes the JSON object "crack" of run e to j: time and position of the first breaks, growth, angle and speeds of the
+ * longest crack, and the list of all crack tips. */
 static void put_crack(struct json *j, const struct run *e)
 {
     const struct crack_tip *longest = tips_find_tip_with_largest_growth(&e->fracture->tips);

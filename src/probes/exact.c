@@ -10,19 +10,19 @@ static real wave_speed(const struct exact *e) { return sqrt(e->young / e->densit
 static real plastic_speed(const struct exact *e) { return sqrt(e->tangent / e->density); }
 static real length(const struct exact *e) { return e->right - e->left; }
 
-/* Returns the distance of coordinate X from the loaded end of the bar [m]. */
+/* Returns the distance of coordinate X [m] from the loaded end of the bar e [m]. */
 static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->right - X : X - e->left; }
 
-/* Returns the coordinate of the point at distance s from the loaded end of the bar [m]. */
+/* Returns the coordinate of the point at distance s [m] from the loaded end of the bar e [m]. */
 static real exact_position(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
 
-/* Returns the reflection factor of the end opposite to the loaded one: 1 at a fixed end, -1 at a free one. */
+/* Returns the reflection factor of the end of bar e opposite to the loaded end: 1 if it is fixed, -1 if it is free. */
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
-/* Adds the jumps across a stress front to *v, the values at a position. jump: stress behind minus stress ahead [Pa];
- * modulus: stress over strain in the front [Pa]; speed: of the front [m/s]; sign: 1 or -1, direction of travel along x;
- * age: time since the front passed the position, nothing is added if it is negative [s]. The jump of velocity follows
- * from the balance of momentum, -sign jump/(rho speed). */
+/* Adds the jumps across a stress front in the bar e to *v, the values at a position. jump: stress behind minus stress
+ * ahead [Pa]; modulus: stress divided by strain in the front [Pa]; speed: speed of the front [m/s]; sign: 1 or -1,
+ * direction of travel along x; age: time since the front passed the position [s], nothing is added if it is negative.
+ * The jump of velocity follows from the balance of momentum, -sign jump/(rho speed). */
 static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int sign,
                       real age)
 {
@@ -36,8 +36,8 @@ static void add_front(struct exact_values *v, const struct exact *e, real jump, 
 
 /* ---- loaded bars ------------------------------------------------------------------------------------------------- */
 
-/* Returns displacement, velocity, stress and strain at distance s [m] from the loaded end of an elastic bar at time t
- * [s]: the sum of all fronts that have passed, with their reflections at both ends. */
+/* Returns displacement, velocity, stress and strain at distance s [m] from the loaded end of the elastic bar e at time
+ * t [s]: the sum of all fronts that have passed, with their reflections at both ends. */
 static struct exact_values step_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -49,12 +49,12 @@ static struct exact_values step_bar(const struct exact *e, real s, real t)
     return v;
 }
 
-/* Returns the stress of the elastic precursor [Pa]: the load, limited by the yield stress, with the sign of the
- * load. */
+/* Returns the stress of the elastic precursor (the front ahead of the plastic front) in bar e [Pa]: the load, limited
+ * by the yield stress, with the sign of the load. */
 static real precursor(const struct exact *e) { return copysign(real_min(fabs(e->load), e->yield), e->load); }
 
-/* Returns displacement, velocity, stress and strain at distance s [m] from the loaded end of an elastic-plastic bar at
- * time t [s]: the sum of the elastic precursor, the front at the yield stress, and the plastic front. All values are
+/* Returns displacement, velocity, stress and strain at distance s [m] from the loaded end of the elastic-plastic bar e
+ * at time t [s]: the sum of the elastic precursor, a front at the yield stress, and the plastic front. All values are
  * NAN once the precursor has reached the other end. */
 static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 {
@@ -69,9 +69,9 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* Adds displacement, velocity and strain of the wave pulse p in an infinite bar to *v, at the distance eta [m] ahead of
- * the centre of the pulse. sign: direction of travel along x, 1 or -1; factor: sign of the displacement after all
- * reflections. */
+/* Adds displacement, velocity and strain of the wave pulse p in an infinite bar with the constants of e to *v, at the
+ * distance eta [m] ahead of the centre of the pulse. sign: direction of travel along x, 1 or -1; factor: sign of the
+ * displacement after all reflections. */
 static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int sign,
                       real factor)
 {
@@ -83,8 +83,8 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     v->strain += factor * sign * wave.strain;
 }
 
-/* Adds pulse p and its reflections at the ends of the bar to *v, at coordinate X [m] and time t [s]. The reflections
- * are images of the pulse, each a length of the bar farther; the displacement changes its sign at a fixed end. */
+/* Adds pulse p and its reflections at the ends of the bar e to *v, at coordinate X [m] and time t [s]. The reflections
+ * are images of the pulse, each a length of the bar farther away; the displacement changes its sign at a fixed end. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;
@@ -98,8 +98,8 @@ static void one_pulse(struct exact_values *v, const struct exact *e, const struc
     }
 }
 
-/* Returns displacement, velocity, stress and strain at coordinate X [m] and time t [s]: the sum of all initial pulses
- * and their reflections at the ends. */
+/* Returns displacement, velocity, stress and strain of the bar e at coordinate X [m] and time t [s]: the sum of all
+ * initial pulses and their reflections at the ends. */
 static struct exact_values pulses(const struct exact *e, real X, real t)
 {
     struct exact_values v = {0};
@@ -108,8 +108,8 @@ static struct exact_values pulses(const struct exact *e, real X, real t)
     return v;
 }
 
-/* Returns the manufactured solution at coordinate X [m] and time t [s]: displacement u = amplitude sin^2(pi t/period)
- * sin(k (X - origin)) with k = 2 pi/wavelength, its velocity, strain and elastic stress. */
+/* Returns the manufactured solution of e at coordinate X [m] and time t [s]: displacement u = amplitude sin^2(pi
+ * t/period) sin(k (X - origin)) with k = 2 pi/wavelength, its velocity, strain and elastic stress. */
 static struct exact_values manufactured(const struct exact *e, real X, real t)
 {
     real k = 2 * pi / e->wavelength, phase = k * (X - e->origin), grown = square(sin(pi * t / e->period));
@@ -138,8 +138,8 @@ struct exact_values exact_solution_at(const struct exact *e, real X, real t)
 
 /* ---- fronts and plateaus ----------------------------------------------------------------------------------------- */
 
-/* Returns position, direction and stresses of the elastic front in a bar under a sudden constant load at time t [s].
- * The front is reflected at both ends. The stress behind it is the sum of its jumps in all passages. */
+/* Returns position, direction and stresses of the elastic front in the bar e under a sudden constant load at time t
+ * [s]. The front is reflected at both ends. The stress behind it is the sum of its jumps in all passages. */
 static struct exact_front step_front(const struct exact *e, real t)
 {
     real L = length(e), gone = wave_speed(e) * t, m = floor(gone / L);

@@ -13,18 +13,18 @@
 
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
-/* Returns the rank of particle i: its index in the order of the bar's particles from left to right, or -1 (left) or
- * b->n (right) for a mirror image beyond an end. */
+/* Returns the rank of particle i of p: its position in the order of the particles of bar b from left to right, from 0;
+ * -1 (left) or b->n (right) for a mirror image beyond an end. */
 static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
     return p->X[0][i] < b->exact.left ? -1 : b->n;
 }
 
-/* Adds the forces of all intact bonds of a bar, each bond once, to the arrays from which the stress follows.
- * between[n + 1]: the force of a bond is added after its left particle and subtracted at its right one, so that
- * prefix sums are the forces of the bonds that cross each particle [N]. end[n]: half the force of the bonds that end
- * at each particle [N]. */
+/* Adds the forces of all intact bonds of bar b in run o, each bond once, to the arrays from which the stress follows.
+ * between[n + 1]: the force of a bond is added after its left particle and subtracted at its right one, so that prefix
+ * sums are the forces of the bonds that cross each particle [N]. end[n]: half the force of the bonds that end at each
+ * particle [N]. */
 static void add_bonds(const struct bar *b, const struct observed_run *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
@@ -57,8 +57,8 @@ void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct obse
     memory_free(end);
 }
 
-/* Computes b->strain of each particle: central differences of displacement over its neighbours in the bar, one-sided at
- * the ends. */
+/* Computes b->strain of each particle of the bar b: central differences of displacement over its neighbours in the bar,
+ * one-sided at the ends. p: all particles. */
 static void measure_strain(struct bar *b, const struct particles *p)
 {
     for (int64_t k = 0; k < b->n; k++) {
@@ -181,8 +181,9 @@ struct column bar_probe_value_column(enum exact_form closed_form, int value_numb
     return c;
 }
 
-/* Computes the errors of a bar against the closed form and stores them at their indices in value[FIGURES]: L1 (mean
- * |error|) and L2 (root mean square) of stress, E x strain and velocity, and L2 of displacement. */
+/* Computes the errors of the bar b in run o against the closed form and stores them at their indices (enum figure) in
+ * value[FIGURES]: L1 (mean |error|) and L2 (root mean square) of stress, E x strain and velocity, and L2 of
+ * displacement. */
 static void errors(const struct bar *b, const struct observed_run *o, real *value)
 {
     real sum[7] = {0};
@@ -203,10 +204,10 @@ static void errors(const struct bar *b, const struct observed_run *o, real *valu
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Returns the measured position of the front f in a bar [m]: the coordinate at which factor * field passes the mean of
- * the exact stresses before and behind the front, interpolated between particles. If there are several, returns the one
- * nearest to the exact front; NAN if there is none. field[b->n]: stress or strain of the particles from left to right;
- * factor: 1 for a stress, or the modulus that makes it of a strain [Pa]. The outermost particles are left out: the load
+/* Returns the measured position of the front f in a bar b [m]: the coordinate at which factor * field passes the mean
+ * of the exact stresses before and behind the front, interpolated between particles of p. If there are several, returns
+ * the one nearest to the exact front; NAN if there is none. field[b->n]: stress or strain of the particles from left to
+ * right; factor: 1 for a stress, the elastic modulus [Pa] for a strain. The outermost particles are left out: the load
  * acts on them, and their bonds transmit only half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
@@ -221,8 +222,8 @@ static real front_of(const struct bar *b, const struct particles *p, const struc
     return found;
 }
 
-/* Returns the mean of field[b->n], values of the particles from left to right, over coordinates from `from` to `to`
- * [m]; NAN if no particle is there. */
+/* Returns the mean of field[b->n], values of the particles of bar b from left to right, over coordinates in p from
+ * `from` to `to` [m]; NAN if no particle is there. */
 static real mean_between(const struct bar *b, const struct particles *p, const real *field, real from, real to)
 {
     real sum = 0, tolerance = 1e-9 * (b->exact.right - b->exact.left);
@@ -234,8 +235,9 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
     return n > 0 ? sum / (real)n : NAN;
 }
 
-/* Computes positions of stress fronts, and stresses and strains of the plateaus behind them, and stores them at their
- * indices in value[FIGURES]. Entries of fronts that do not exist at this time keep their value. */
+/* Computes positions of stress fronts of bar b in run o, and stresses and strains of the plateaus behind them, and
+ * stores them at their indices (enum figure) in value[FIGURES]. Entries of fronts that do not exist at this time keep
+ * their value. */
 static void fronts(const struct bar *b, const struct observed_run *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];

@@ -30,8 +30,8 @@ static int probes_bar_make_by_position(const void *a, const void *b)
     return p->i < q->i ? -1 : 1;
 }
 
-/* Computes b->order, the particles of the bar from left to right, and b->rank, the index of each particle in that
- * order. */
+/* Computes b->order, the particles of p from left to right, and b->rank, the position of each particle in that order,
+ * from 0. */
 static void find_order(struct bar *b, const struct particles *p)
 {
     struct located *sorted = NEW("probes.place", p->n, struct located);
@@ -41,9 +41,9 @@ static void find_order(struct bar *b, const struct particles *p)
     memory_free(sorted);
 }
 
-/* Finds the particles of the bar of an EXACT probe, allocates its arrays, and stores its ends and material constants.
- * Returns REFUSED, with a message, unless the scene is one row of particles in 1D, of one material and without a
- * gap. */
+/* Finds the particles of run o that form the bar of EXACT probe q, allocates its arrays, and stores its ends and
+ * material constants. Returns REFUSED, with a message, unless the scene is one row of particles in 1D, of one material
+ * and without a gap. */
 static status find_bar(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -77,7 +77,7 @@ static status find_bar(struct probe *q, const struct observed_run *o)
 
 /* ---- ends and loads ---------------------------------------------------------------------------------------------- */
 
-/* Returns true if load l acts on particle number `particle`, i.e. if it is in the load's particle list. */
+/* Returns true if load l acts on particle number `particle`: if the particle is in the list of the load. */
 static bool acts_on(const struct load *l, int32_t particle)
 {
     for (int64_t k = 0; k < l->n; k++)
@@ -85,8 +85,9 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Stores the reflection factor of both ends of the bar: 1 (fixed) at a mirror or where the outermost particle is
- * constrained, else -1 (free). Returns REFUSED, with a message, if a boundary drives the bar with a velocity. */
+/* Stores the reflection factor of both ends of the bar of probe q: 1 (fixed) at a mirror or where a load of run o
+ * constrains the outermost particle, else -1 (free). Returns REFUSED, with a message, if a boundary drives the bar with
+ * a velocity. */
 static status find_ends(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
@@ -107,7 +108,7 @@ static status find_ends(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Returns true if all particles are at their reference positions with zero velocity. */
+/* Returns true if all particles of p are at their reference positions with zero velocity. */
 static bool probes_bar_make_at_rest(const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -115,7 +116,7 @@ static bool probes_bar_make_at_rest(const struct particles *p)
     return true;
 }
 
-/* Returns true if the initial velocities of all particles equal the sum of the scene's pulses, within 1e-6 of the sum
+/* Returns true if the initial velocities of all particles of p equal the sum of the pulses of e, within 1e-6 of the sum
  * of their amplitudes. They do not if a pulse is cut off by its region or by an end, or if there is other motion. */
 static bool starts_with_pulses(const struct exact *e, const struct particles *p)
 {
@@ -136,9 +137,9 @@ static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_
     return n;
 }
 
-/* Finds the traction on one end of the bar and stores the end in exact.loaded and the stress in exact.load, positive in
- * tension [Pa]. Returns REFUSED, with a message, unless there is exactly one traction, on a free end, constant in time
- * and not 0. */
+/* Finds the traction of run o on one end of the bar of probe q and stores the end in exact.loaded and the stress in
+ * exact.load, positive in tension [Pa]. Returns REFUSED, with a message, unless there is exactly one traction, on a
+ * free end, constant in time and not 0. */
 static status find_traction(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
@@ -158,8 +159,8 @@ static status find_traction(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Stores the ends of the bar, and the traction or the initial pulses that its closed form requires. Returns REFUSED,
- * with a message, for loads, initial motion or materials that the closed form does not describe. */
+/* Stores the ends of the bar of probe q, and the traction or the initial pulses that its closed form requires. Returns
+ * REFUSED, with a message, for loads, initial motion or materials of run o that the closed form does not describe. */
 static status find_load(struct probe *q, const struct observed_run *o)
 {
     const struct load *other = NULL;

@@ -17,15 +17,15 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
 };
 
-/* Returns the number of stress components that a probe reports of a particle. In plane strain this includes zz, as
+/* Returns the number of stress components that a probe reports of a particle of p. In plane strain this includes zz, as
  * the last one. */
 static int stresses_count(const struct particles *p)
 {
     return symmetric_component_count(p->dim) + (p->plane_strain != NULL);
 }
 
-/* Returns how many values a probe reports of a particle because materials yield: plastic strain, and temperature if
- * they heat. */
+/* Returns how many values a probe reports of a particle of p because materials yield: plastic strain, and temperature
+ * if they heat (0 to 2). */
 static int law_readings_count(const struct particles *p)
 {
     return (p->plastic_work != NULL) + (p->temperature != NULL);
@@ -59,8 +59,8 @@ struct column particle_probe_value_column(const struct particles *p, int value_n
     return c;
 }
 
-/* Returns the plastic strain of particle i [1]: for a peridynamic particle with plastic bonds the mean plastic path
- * of its bonds, else the plastic strain of the material point. */
+/* Returns the plastic strain of particle i of run o: for a peridynamic particle with plastic bonds the mean plastic
+ * path of its bonds, else the plastic strain of the material point. */
 static real plastic_strain_reading(const struct observed_run *o, int64_t i)
 {
     const struct bonds *b = o->bonds;
@@ -91,9 +91,9 @@ void growing_crack_compute_probe_values(const struct growing_crack *g, real *val
 
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
-/* Returns the crack tip that a TIP probe currently follows: the one whose origin is nearest to the position `at` of the
- * probe. Without `at` it is that of the longest crack, or the first one if no crack has grown. Returns NULL if there
- * are no tips. The tip is part of *tips. */
+/* Returns the crack tip that TIP probe q currently follows: the tip of *tips whose origin is nearest to the position
+ * `at` of the probe. Without `at` it is the tip of the longest crack, or the first tip if no crack has grown. Returns
+ * NULL if there are no tips. The result points into *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips)
 {
     if (tips->n == 0) return NULL;
@@ -134,16 +134,16 @@ struct region_sum {
     const real *row_energy; /* [bonds->rows] share of each row in the elastic energy of the bonds [J] */
 };
 
-/* Returns a component of the momentum of particle number k of a probe [kg m/s]. context: a struct region_sum, with the
- * probe, the run and the component. */
+/* Returns one component of the momentum of particle number k (from 0) of a probe [kg m/s]. context: a struct
+ * region_sum, with the probe, the run and the component. */
 static real momentum_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
     return s->o->part->mass[s->q->list[k]] * probe_particle_velocity_component(s->q, s->o->part, s->component, k);
 }
 
-/* Returns the kinetic energy of particle number k of a probe [J]. context: a struct region_sum, with the probe and
- * the run. */
+/* Returns the kinetic energy of particle number k (from 0) of a probe [J]. context: a struct region_sum, with the probe
+ * and the run. */
 static real kinetic_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -153,15 +153,16 @@ static real kinetic_term(const void *context, int64_t k)
     return 0.5 * p->mass[s->q->list[k]] * speed2;
 }
 
-/* Returns the row of bonds of particle number k in the list of the probe s->q, or -1 if it has none. */
+/* Returns the row of bonds of particle number k (from 0) in the list of the probe s->q, or -1 if the particle has no
+ * bonds. */
 static int64_t row_at(const struct region_sum *s, int64_t k)
 {
     const struct bonds *b = s->o->bonds;
     return b && b->rows > 0 ? b->row_of[s->q->list[k]] : -1;
 }
 
-/* Returns the share of particle number k of a probe in the elastic energy of the bonds [J]. context: a struct
- * region_sum, with the probe, the run and the energy of each row. */
+/* Returns the share of particle number k (from 0) of a probe in the elastic energy of the bonds [J]. context: a struct
+ * region_sum, with the probe, the run and the energy of each row of bonds. */
 static real bond_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -169,8 +170,8 @@ static real bond_term(const void *context, int64_t k)
     return row >= 0 ? s->row_energy[row] : 0;
 }
 
-/* Returns the energy dissipated by the bonds of particle number k of a probe, broken or softened [J]. context: a struct
- * region_sum, with the probe and the run. */
+/* Returns the energy dissipated by the broken or softened bonds of particle number k (from 0) of a probe [J]. context:
+ * a struct region_sum, with the probe and the run. */
 static real fracture_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -178,8 +179,8 @@ static real fracture_term(const void *context, int64_t k)
     return row >= 0 ? bonds_row_fracture_energy(s->o->bonds, row) : 0;
 }
 
-/* Returns the number of broken bonds of particle number k of a probe; 0 if its motion is prescribed. A bond counts
- * at both of its particles. context: a struct region_sum, with the probe and the run. */
+/* Returns the number of broken bonds of particle number k (from 0) of a probe; 0 if its motion is prescribed. A bond
+ * counts at both of its particles. context: a struct region_sum, with the probe and the run. */
 static real broken_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -240,8 +241,8 @@ static void put_position(const struct emitter *e, const real *X)
     for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);
 }
 
-/* Reports the crack tip of a TIP probe: start, arrest, growth, angle, speeds, position, and the number of tips that are
- * equally long. Reports nothing without a tip. */
+/* Reports the crack tip of a TIP probe to e->emit: start, arrest, growth, angle, speeds, position, and the number of
+ * tips that are equally long. Reports nothing without a tip. */
 static void figures_tip(const struct emitter *e)
 {
     const struct crack_tip *tip = probe_find_followed_crack_tip(e->q, e->o->tips);
@@ -258,8 +259,8 @@ static void figures_tip(const struct emitter *e)
                        (real)(e->q->request.has_at ? tip->ends : tips_count_ends_with_largest_growth(e->o->tips)));
 }
 
-/* Reports time (or load step) and position of the first break in the region of a BREAK probe, and the number of broken
- * bonds, each counted once. Reports nothing before the first break. */
+/* Reports time (or load step) and position of the first break in the region of a BREAK probe to e->emit, and the number
+ * of broken bonds, each counted once. Reports nothing before the first break. */
 static void figures_break(const struct emitter *e)
 {
     if (isnan(e->q->memory.first_time)) return;
@@ -274,7 +275,7 @@ static void figures_break(const struct emitter *e)
 }
 
 /* Reports the largest and the root-mean-square reaction force of a REACTION probe [N] and the present displacement of
- * its boundary [m]. */
+ * its boundary [m] to e->emit. */
 static void figures_reaction(const struct emitter *e)
 {
     const struct probe_memory *m = &e->q->memory;
@@ -290,9 +291,9 @@ static void figures_reaction(const struct emitter *e)
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
-/* Reports residual_max of a PATCH probe, a patch test under uniform initial stress [1]: the largest nodal force in the
- * region of the probe in the first step, over the force of the largest initial stress component on one face of a grid
- * cell. */
+/* Reports residual_max of a PATCH probe (a patch test under uniform initial stress) to e->emit: the largest nodal force
+ * in the region of the probe in the first step, divided by the force of the largest initial stress component on one
+ * face of a grid cell. */
 static void figures_patch(const struct emitter *e)
 {
     const struct observed_run *o = e->o;
@@ -301,8 +302,8 @@ static void figures_patch(const struct emitter *e)
     probes_figures_put(e, "residual_max", reference > 0 ? o->residual_step0 / reference : NAN);
 }
 
-/* Reports position and time of the separation that a SPALL probe has found, and the mean speeds of both parts of the
- * body. Reports nothing before separation. */
+/* Reports position and time of the separation that a SPALL probe has found to e->emit, and the mean speeds of both
+ * parts of the body. Reports nothing before separation. */
 static void figures_spall(const struct emitter *e)
 {
     real speed, rest;
@@ -324,8 +325,8 @@ static void figures_point(const struct emitter *e)
         probes_figures_put(e, particle_probe_value_column(p, k).name, value[k]);
 }
 
-/* Reports the smallest and the largest value of each quantity of a LINE probe over those of its stations, equidistant
- * points of the line, that are inside the bodies. */
+/* Reports the smallest and the largest value of each quantity of a LINE probe to e->emit, over those of its stations
+ * (equidistant points of the line) that are inside the bodies. */
 static void figures_line(const struct emitter *e)
 {
     const struct particles *p = e->o->part;

@@ -11,7 +11,7 @@
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-/* Appends a column named `<probe>.<quantity>` with this unit to the columns of the history that belong to probe q. */
+/* Appends a column to the history s, named `<probe>.<quantity>`, with the unit `unit`. It belongs to probe q. */
 static void column_add(struct probes *s, struct probe *q, const char *quantity, const char *unit)
 {
     GROW("probes.column", s->column, s->columns + 1);
@@ -21,8 +21,8 @@ static void column_add(struct probes *s, struct probe *q, const char *quantity, 
     q->columns++;
 }
 
-/* Appends dim columns to the history that belong to probe q, one for each component of a vector. Their names consist of
- * `prefix` and the axis x, y or z. */
+/* Appends dim columns of probe q to the history s, one for each component of a vector. The name of a column consists of
+ * `prefix` and the axis x, y or z; unit: unit of all columns. */
 static void columns_by_axis(struct probes *s, struct probe *q, const char *prefix, int dim, const char *unit)
 {
     for (int d = 0; d < dim; d++) {
@@ -32,8 +32,9 @@ static void columns_by_axis(struct probes *s, struct probe *q, const char *prefi
     }
 }
 
-/* Appends the history columns of probe q, which depend on its kind, and stores the index of the first one in
- * q->first. Some kinds of probe have no columns, only values in the summary. */
+/* Appends the columns of probe q, which depend on its kind and on the quantities that particles p have, to the history
+ * s, and stores the index of the first column in q->first. Some kinds of probe have no columns, only values in the
+ * summary. */
 static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
 {
     const int dim = p->dim;
@@ -83,8 +84,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* Makes the particle nearest to the point of a POINT probe its only particle. Returns REFUSED, with a message, if the
- * point is outside the bodies. */
+/* Makes the particle of run o nearest to the point of POINT probe q its only particle. Returns REFUSED, with a message,
+ * if the point is outside the bodies. */
 static status bind_point(struct probe *q, const struct observed_run *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
@@ -95,9 +96,9 @@ static status bind_point(struct probe *q, const struct observed_run *o)
         q->request.name, position_text(q->request.at, o->part->dim, 6).text, particles_extent_text(o->part).text);
 }
 
-/* Makes the particles nearest to the stations of a LINE probe its particles, -1 for stations outside the bodies.
- * Stations are equidistant points from one end of the line to the other. Returns REFUSED, with a message, if all are
- * outside. */
+/* Makes the particles of run o nearest to the stations of LINE probe q its particles, -1 for stations outside the
+ * bodies. Stations are equidistant points from one end of the line to the other. Returns REFUSED, with a message, if
+ * all are outside. */
 static status bind_line(struct probe *q, const struct observed_run *o)
 {
     int dim = o->part->dim, inside = 0;
@@ -117,8 +118,8 @@ static status bind_line(struct probe *q, const struct observed_run *o)
                       q->request.name, particles_extent_text(o->part).text);
 }
 
-/* Makes the particles in the region of probe q its particles; those on the surface of the region, up to round-off, are
- * included. Returns REFUSED, with a message, if there is none. */
+/* Makes the particles of run o in the region of probe q its particles; those on the surface of the region, up to
+ * round-off, are included. Returns REFUSED, with a message, if there is none. */
 static status bind_region(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -133,8 +134,8 @@ static status bind_region(struct probe *q, const struct observed_run *o)
                       q->request.name);
 }
 
-/* Returns REFUSED, with a message, unless the boundary that a REACTION probe names prescribes a motion or, in load
- * steps, a force. If no boundary has this name, the message lists those that a probe can name. */
+/* Returns REFUSED, with a message, unless the boundary of run o that REACTION probe q names prescribes a motion or, in
+ * load steps, a force; else OK. If no boundary has this name, the message lists those that a probe can name. */
 static status bind_support(const struct probe *q, const struct observed_run *o)
 {
     char known[512] = "";
@@ -158,8 +159,8 @@ static status bind_support(const struct probe *q, const struct observed_run *o)
                       q->request.boundary, used > 0 ? known : "none");
 }
 
-/* Sets q->growth to the index of the growing crack that a GROWTH probe measures: the one that the probe names, or
- * the first one if it names none. Returns OK. */
+/* Sets q->growth to the index of the growing crack of run o that GROWTH probe q measures: the crack that the probe
+ * names, or the first one if it names none. Always returns OK. */
 static status bind_growth(struct probe *q, const struct observed_run *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
@@ -167,8 +168,8 @@ static status bind_growth(struct probe *q, const struct observed_run *o)
     return OK; /* the scene reader has checked that the boundary exists */
 }
 
-/* Binds probe q to the particles, supports or cracks that it measures, by its kind. Returns REFUSED, with a message, if
- * there are none or the probe does not fit the scene. */
+/* Binds probe q to the particles, supports or cracks of run o that it measures, by its kind. Returns REFUSED, with a
+ * message, if there are none or the probe does not fit the scene. */
 static status probe_bind(struct probe *q, const struct observed_run *o)
 {
     switch (q->request.kind) {
@@ -198,7 +199,7 @@ static status probe_bind(struct probe *q, const struct observed_run *o)
     }
 }
 
-/* Returns true if a REACTION probe measures the boundary called `boundary`. */
+/* Returns true if a REACTION probe of s measures the boundary called `boundary`. */
 static bool reaction_is_measured(const struct probes *s, const char *boundary)
 {
     bool measured = false;
@@ -207,8 +208,8 @@ static bool reaction_is_measured(const struct probes *s, const char *boundary)
     return measured;
 }
 
-/* Writes the name of the columns of a support to name[]: that of its boundary, preceded by `reaction_` if a probe of
- * the scene has that name. */
+/* Writes the name of the columns of a support to name[NAME_MAX_LENGTH]: that of its boundary, preceded by `reaction_`
+ * if a probe of s has that name. */
 static void support_name(const struct probes *s, const char *boundary, char name[NAME_MAX_LENGTH])
 {
     bool taken = false;
@@ -216,9 +217,9 @@ static void support_name(const struct probes *s, const char *boundary, char name
     snprintf(name, NAME_MAX_LENGTH, "%s%.54s", taken ? "reaction_" : "", boundary);
 }
 
-/* Appends a REACTION probe for each boundary that prescribes a motion and that no probe of the scene measures, so
- * that history.csv has the force of every support, and its displacement unless it is at rest. These probes have no
- * values in the summary. */
+/* Appends to s a REACTION probe for each boundary of run o that prescribes a motion and that no probe of the scene
+ * measures, so that history.csv has the force of every support, and its displacement unless it is at rest. These probes
+ * have no values in the summary. */
 static void supports_observe(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; o->loads && k < o->loads->n; k++) {

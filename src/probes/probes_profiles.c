@@ -6,8 +6,8 @@
 #include "base/memory_stream.h"
 #include "probes_parts.h"
 
-/* Writes the header line of a LINE profile to file: distance s along the line, coordinates, and the quantities of a
- * particle, each with its unit. */
+/* Writes the header line of a LINE profile to file: distance s along the line, coordinates, and the quantities that
+ * particles p have, each with its unit. */
 static void profile_header(FILE *file, const struct particles *p)
 {
     fprintf(file, "s [m]");
@@ -19,8 +19,8 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes a CSV row for each station of a LINE probe (equidistant points of the line) that is inside a body: distance
- * from the first station [m], position, and the values of the nearest particle. */
+/* Writes to file a CSV row for each station of LINE probe q (equidistant points of the line) that is inside a body of
+ * run o: distance from the first station [m], position, and the values of the nearest particle. */
 static void profile_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -39,8 +39,8 @@ static void profile_rows(FILE *file, const struct probe *q, const struct observe
     }
 }
 
-/* Writes the profile of an EXACT probe as CSV, with a header: computed and exact values of all particles from left to
- * right. */
+/* Writes the profile of EXACT probe q to file as CSV, with a header: computed and exact values of all particles of run
+ * o from left to right. */
 static void bar_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     real value[BAR_READINGS];
@@ -55,7 +55,7 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed_ru
     }
 }
 
-/* Writes the profile of a LINE or EXACT probe to file as CSV, with a header line. */
+/* Writes the profile of the LINE or EXACT probe q of run o to file as CSV, with a header line. */
 static void profile_text(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     if (q->request.kind == PROBE_EXACT) {

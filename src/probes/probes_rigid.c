@@ -19,9 +19,9 @@ struct rigid_sum {
     real centre[2], centre_reference[2];
 };
 
-/* Adds to sum[5], over the particles first .. end - 1 of a probe: mass [kg], mass times present position and mass
- * times reference position (x and y each) [kg m]. context: a struct rigid_sum. A block function of
- * reproducible_sums. */
+/* Adds to sum[5], over the particles first .. end - 1 of a probe: mass [kg], mass times present position (x, y) and
+ * mass times reference position (x, y) [kg m]. context: a struct rigid_sum. reproducible_sums calls it for each block
+ * of particles. */
 static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -38,7 +38,7 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
 
 /* Adds to sum[5], over the particles first .. end - 1 of a probe: m X . x and m X x x, which give the best-fit
  * rotation, angular momentum, |m x x v| and kinetic energy. X, x: reference and current position relative to the
- * centres of mass. context: a struct rigid_sum. A block function of reproducible_sums. */
+ * centres of mass. context: a struct rigid_sum. reproducible_sums calls it for each block of particles. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -58,10 +58,10 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-/* Returns the angle [rad] of the best-fit rotation R of the particles of a probe, which minimises sum m |x - R X|^2
- * (Kabsch 1976, in the plane), with reference positions X and current positions x relative to the centres of mass. Also
- * computes the angular momentum *spin and its scale *spin_scale = sum |m x x v| [kg m^2/s], and the kinetic energy
- * *kinetic [J]. */
+/* Returns the angle [rad] of the best-fit rotation R of the particles of probe q (indices in p), which minimises sum m
+ * |x - R X|^2 (Kabsch 1976, in the plane), with reference positions X and current positions x relative to the centres
+ * of mass. Also computes the angular momentum *spin and its scale *spin_scale = sum |m x x v| [kg m^2/s], and the
+ * kinetic energy *kinetic [J]. */
 static real probes_rigid_turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale,
                               real *kinetic)
 {
@@ -85,7 +85,7 @@ status rigid_probe_store_initial_motion(struct probe *q, const struct observed_r
 }
 
 /* Computes the largest absolute principal stress, *stress, and the largest in-plane shear stress, *shear, of the
- * particles of a probe [Pa]. */
+ * particles of probe q (indices in p) [Pa]. */
 static void stresses(const struct probe *q, const struct particles *p, real *stress, real *shear)
 {
     *stress = *shear = 0;
@@ -100,16 +100,16 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
 
 enum { RIGID_PLACES = 3 }; /* number of figures that depend on positions only */
 
-/* Raises m->most[k], the largest |value[k]| so far, to that of value[] for k = first .. end - 1. It becomes NAN if
- * value[k] is NAN. */
+/* Raises m->most[k], the largest |value[k]| so far, to the present |value[k]| for k = first .. end - 1. m->most[k]
+ * becomes NAN if value[k] is NAN. */
 static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)
 {
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the rotation angle value[0] of a RIGID probe's body [rad], its largest absolute principal stress value[1]
- * and its largest in-plane shear stress value[2] [Pa]. The angle continues beyond half a turn if the body rotates by
- * less than half a turn between samples. */
+/* Computes the figures of RIGID probe q of run o that depend on positions: value[0], the rotation angle of the body
+ * [rad]; value[1], its largest absolute principal stress [Pa]; value[2], its largest in-plane shear stress [Pa]. The
+ * angle continues beyond half a turn if the body rotates by less than half a turn between samples. */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;

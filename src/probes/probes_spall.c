@@ -21,8 +21,8 @@ static int64_t probes_spall_column_of(const struct columns *c, real X)
     return k < 0 ? 0 : k >= c->n ? c->n - 1 : k;
 }
 
-/* Allocates the columns of body number `body`: slices along x, one spacing wide. Returns false if there are fewer
- * than two. Release with probes_spall_columns_free in both cases. */
+/* Allocates in *c the columns of body number `body` of run o: slices along x, one spacing wide. Returns false if there
+ * are fewer than two. Release with probes_spall_columns_free in both cases. */
 static bool probes_spall_columns_make(struct columns *c, const struct observed_run *o, int body)
 {
     const struct particles *p = o->part;
@@ -57,9 +57,9 @@ static void count_across(int32_t *count, int64_t a, int64_t b)
     count[a < b ? b : a]--;
 }
 
-/* Counts the intact and the broken bonds of a body across each plane between columns (slices along x), in c->intact
- * and c->cut. Each bond counts once for each of its two particles. Stores the length of the longest bond in
- * c->longest [m]. */
+/* Counts the intact and the broken bonds of body number `body` of run o across each plane between columns (slices along
+ * x), in c->intact and c->cut. Each bond counts once for each of its two particles. Stores the length of the longest
+ * bond in c->longest [m]. */
 static void columns_bonds(struct columns *c, const struct observed_run *o, int body)
 {
     const struct bonds *b = o->bonds;
@@ -80,9 +80,9 @@ static void columns_bonds(struct columns *c, const struct observed_run *o, int b
     for (int64_t k = 1; k < c->n; k++) c->intact[k] += c->intact[k - 1], c->cut[k] += c->cut[k - 1];
 }
 
-/* Computes the material points of a body that are next to each plane between columns (slices along x): c->last[k],
- * the largest x left of plane k, and c->next[k], the smallest x right of it [m]. If both are close, the grid
- * connects them. Points that have just lost a bond are ignored, as they are about to become peridynamic. */
+/* Finds the material points of body number `body` of p that are next to each plane between columns (slices along x):
+ * c->last[k], the largest x left of plane k, and c->next[k], the smallest x right of it [m]. If both are close, the
+ * grid connects them. Points that have just lost a bond are ignored, as they are about to become peridynamic. */
 static void columns_points(struct columns *c, const struct particles *p, int body)
 {
     for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;
@@ -96,8 +96,9 @@ static void columns_points(struct columns *c, const struct particles *p, int bod
     for (int64_t k = c->n - 2; k >= 0; k--) c->next[k] = real_min(c->next[k], c->next[k + 1]);
 }
 
-/* Returns true if the body is separated at plane number `plane`: no bond across the plane is intact, at least one is
- * broken, and the material points on its two sides are more than a bond length apart. */
+/* Returns true if the body of c is separated at plane number `plane` (between columns `plane` and plane + 1, slices
+ * along x): no bond across the plane is intact, at least one is broken, and the material points on its two sides are
+ * more than a bond length apart. */
 static bool probes_spall_is_apart(const struct columns *c, int64_t plane)
 {
     return c->intact[plane] == 0 && c->cut[plane] > 0 && !(c->next[plane] - c->last[plane] <= c->longest);
