@@ -8,8 +8,8 @@
 /* Returns true if load number `load` of l may move a particle at rest. All loads but planes of symmetry may. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
-/* Returns true if material point i is at rest and nothing moves it: no load, bond, velocity, force or stress.
- * has_gradient: velocity gradients (APIC) must be zero too. */
+/* Returns true if material point i of p is at rest and nothing moves it: it has no load of l, bond of b, velocity,
+ * force or stress. has_gradient: true if velocity gradients (APIC) must be zero, too. */
 static bool active_points_is_inactive(const struct loads *l, const struct particles *p, const struct bonds *b,
                                       int32_t i, bool has_gradient)
 {
@@ -22,8 +22,8 @@ static bool active_points_is_inactive(const struct loads *l, const struct partic
     return inactive;
 }
 
-/* Returns the index of the grid cell of particle i, by its lowest node. The particle must be inside the box of
- * nodes. */
+/* Returns the index of the cell of grid g that contains particle i of p, by its lowest node. The particle must be
+ * inside the box of nodes. */
 static int64_t active_points_cell_of(const struct grid *g, const struct particles *p, int32_t i)
 {
     int64_t I = 0;
@@ -52,18 +52,19 @@ static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int ax
     }
 }
 
-/* Returns the number of cells by which motion can spread in the ACTIVE_POINTS_STEPS steps between two searches. In a
- * step it spreads by one cell through shared nodes, or by three if shape functions reach beyond a cell. FLIP doubles
- * this number, because it maps twice. Planes of symmetry, which connect nodes on both sides, add two. */
+/* Returns the number of cells of g by which motion can spread in the ACTIVE_POINTS_STEPS steps between two searches. In
+ * a step it spreads by one cell through shared nodes, or by three if the shape functions `shape` reach beyond a cell.
+ * The transfer method FLIP doubles this number, because it maps twice. Planes of symmetry, which connect nodes on both
+ * sides, add two. */
 static int64_t active_points_reach_of(const struct grid *g, enum shape shape, enum transfer transfer)
 {
     const int shared = shape == SHAPE_LINEAR ? 1 : 3;
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Sets r->active_cell to 1 for cells with a point that moves or is loaded, and for cells whose lowest node has a
- * prescribed velocity other than 0, else to 0. now: sorted points to be examined, since points outside this list are
- * still at rest; has_gradient: true if points have velocity gradients (APIC). */
+/* Sets r->active_cell to 1 for the cells of g with a point of p that moves or is loaded (by l or bonds b), and for
+ * cells whose lowest node has a prescribed velocity other than 0, else to 0. now: sorted points to be examined, since
+ * points outside this list are still at rest; has_gradient: true if points have velocity gradients (APIC). */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
@@ -88,8 +89,8 @@ static void make_room(struct active_points *r, const struct grid *g)
     r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
-/* Makes r->active, the list of the points in active cells sorted by cell, from `all`, the sorted list of all points.
- * Cells and points keep their sequence. */
+/* Makes r->active, the list of the points of p in active cells of g sorted by cell, from `all`, the sorted list of all
+ * points. Cells and points keep their sequence. */
 static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
                                const struct grid *g)
 {

@@ -29,7 +29,8 @@ struct shared {
     int64_t first[DIM_MAX], count[DIM_MAX], n;
 };
 
-/* Computes the box of nodes *s that points of both bodies a and b may reach. Returns false if it is empty. */
+/* Computes the box *s of nodes that points of both bodies a and b may reach. Returns false if it is empty: the bodies
+ * are then apart. */
 static bool shared_find(struct shared *s, const struct grid_contact_side *a, const struct grid_contact_side *b)
 {
     s->n = 1;
@@ -70,8 +71,8 @@ static void mass_slope_find(struct grid_contact_node *node, const struct grid *a
     for (int d = 0; d < a->dim; d++) node->mass_slope[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
 }
 
-/* Appends a node without contact data to the list of contact nodes. Returns a pointer to it, which is valid until the
- * next call. */
+/* Appends a node without contact data to the list of contact nodes of c. Returns a pointer to the new node, which is
+ * valid until the next call. */
 static struct grid_contact_node *node_add(struct grid_contact *c)
 {
     GROW("contact.nodes", c->node, c->nodes + 1);
@@ -80,9 +81,9 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
     return node;
 }
 
-/* Appends to the list of contact nodes those nodes at which both bodies have more than the smallest mass. s: box of the
- * nodes that points of both bodies may reach; a, b: indices of the bodies in `side`; slot[s->n]: receives the position
- * in the list of each node of the box, -1: not listed. */
+/* Appends to the list of contact nodes of c those nodes at which both bodies have more than the smallest mass. s: box
+ * of the nodes that points of both bodies may reach; a, b: indices of the bodies in side[]; slot[s->n]: receives the
+ * position in the list of each node of the box, -1: not listed. */
 static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *side,
                               int a, int b, int32_t *slot)
 {
@@ -99,10 +100,10 @@ static void shared_nodes_find(struct grid_contact *c, const struct shared *s, co
     }
 }
 
-/* Computes the unit normal of each listed contact node from the mass gradients of both bodies, summed over nodes up to
+/* Computes the unit normal of each contact node of c from the mass gradients of both bodies, summed over nodes up to
  * AROUND cells away. Gradients at a single node follow the lattices of both bodies and are up to 10 degrees off on
- * curved faces. s: box of the nodes that points of both bodies may reach; slot[s->n]: position in the list of each node
- * of the box, -1: not listed. */
+ * curved faces. s: box of the nodes that points of both bodies may reach; dim: number of components; slot[s->n]:
+ * position in the list of each node of the box, -1: not listed. */
 static void normals_find(struct grid_contact *c, const struct shared *s, int dim, const int32_t *slot)
 {
     for (int64_t k = 0; k < s->n; k++) {
@@ -124,10 +125,11 @@ static void normals_find(struct grid_contact *c, const struct shared *s, int dim
 
 /* ---- gaps -------------------------------------------------------------------------------------------------------- */
 
-/* Updates the gap at contact nodes by one material point i: for each listed node that its shape function reaches,
- * raises node->reach[0] to the coordinate of the point along the normal of the node if the point belongs to the first
- * body (side 0), or lowers node->reach[1] to it for the second body (side 1). g: grid of the body; s: box of the nodes
- * that points of both bodies may reach; slot[s->n]: position in the list of each node of the box, -1: not listed. */
+/* Updates the gap at contact nodes of c by material point i of p. For each listed node that the shape function of the
+ * point reaches: raises node->reach[0] to the coordinate of the point along the normal of the node if the point belongs
+ * to the first body (side 0), or lowers node->reach[1] to it for the second body (side 1). g: grid of the body; s: box
+ * of the nodes that points of both bodies may reach; slot[s->n]: position in the list of each node of the box, -1: not
+ * listed. */
 static void point_reach(struct grid_contact *c, const struct shared *s, const struct grid *g, const struct particles *p,
                         int32_t i, int side, const int32_t *slot)
 {
@@ -150,10 +152,10 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
             }
 }
 
-/* Updates the gaps at contact nodes by all points of body a, one of the two bodies of a pair. node->reach[side] becomes
- * the coordinate along the normal of the node up to which the points of the body extend: the largest one for the first
- * body (side 0), the smallest one for the second (side 1). s: box of the nodes that points of both bodies may reach;
- * slot[s->n]: position in the list of each node of the box, -1: not listed. */
+/* Updates the gaps at contact nodes of c by all points (of p) of body a, one of the two bodies of a pair.
+ * node->reach[side] becomes the coordinate along the normal of the node up to which the points of the body extend: the
+ * largest one for the first body (side 0), the smallest one for the second (side 1). s: box of the nodes that points of
+ * both bodies may reach; slot[s->n]: position in the list of each node of the box, -1: not listed. */
 static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *a,
                          const struct particles *p, int side, const int32_t *slot)
 {
@@ -172,7 +174,8 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
 
 /* ---- the list of a step ------------------------------------------------------------------------------------------ */
 
-/* Allocates the sums of the energy dissipated by contact, one for each pair of the `body_count` bodies, all 0. */
+/* Allocates in c the sums of the energy dissipated by contact [J], one for each pair of the `body_count` bodies, all 0.
+ * Release with grid_contact_free. */
 void grid_contact_make(struct grid_contact *c, int body_count)
 {
     memory_free(c->dissipated);
@@ -234,9 +237,9 @@ static real speed_taken(const real *before, const real *now, const real *along, 
     return real_max(0, dot(now, along, dim) + PARTING_SHARE * real_min(0, parting));
 }
 
-/* Computes the contact impulse at a node over the reduced mass of both bodies, taken[dim] [m/s]. It stops the approach
- * of the bodies and, up to friction, their sliding. before, now: relative velocity of the bodies before and after the
- * forces of the step [m/s]. Returns false if they separate or do not touch. */
+/* Computes the contact impulse at node `node` of c divided by the reduced mass of both bodies, taken[dim] [m/s]. It
+ * stops the approach of the bodies and, up to friction, their sliding. before, now: relative velocity of the bodies
+ * before and after the forces of the step [m/s]. Returns false if they separate or do not touch. */
 static bool exchange_of(const struct grid_contact *c, const struct grid_contact_node *node, const real *before,
                         const real *now, int dim, real *taken)
 {
@@ -256,17 +259,17 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     return true;
 }
 
-/* Sets g->held[I] to `mark` (0 or 1) for the nodes I of all grids whose velocity is prescribed by walls. side: grids of
- * the bodies, `sides` elements. */
+/* Sets held[I] of each grid to `mark` (0 or 1) for the nodes I whose velocity is prescribed by walls. side[sides]: the
+ * bodies, each with its grid. */
 static void walls_mark(const struct grid_contact_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
 }
 
-/* Returns the mass with which node I takes part in a contact [kg], INFINITY if walls prescribe its velocity mainly
- * along `normal`. before[dim], now[dim]: its velocities before and after the forces of the step [m/s]; prescribed
- * components are replaced by the velocities of the walls. */
+/* Returns the mass with which node I of grid g takes part in a contact with the unit normal `normal` [kg]; INFINITY if
+ * walls prescribe its velocity mainly along the normal. before[dim], now[dim]: velocities of the node before and after
+ * the forces of the step [m/s]; in both, prescribed components are replaced by the velocities of the walls. */
 static real mass_against(const struct grid *g, int64_t I, const real *normal, real *before, real *now)
 {
     real held2 = 0;

@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 
-/* Returns the index of the grid cell of particle i, by its lowest node, or -1 if the particle is outside the box of
- * nodes. k: receives the position of the cell in the box along each axis [dim]. */
+/* Returns the index of the cell of grid g that contains particle i of p, by its lowest node, or -1 if the particle is
+ * outside the box of nodes. k[dim]: receives the position of the cell in the box along each axis. */
 static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid *g, int64_t i, int64_t *k)
 {
     int64_t cell = 0;
@@ -19,7 +19,7 @@ static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid
     return cell;
 }
 
-/* Sets c->occupied to 1 for the cells of the grid that contain material points, else to 0. */
+/* Sets c->occupied to 1 for the cells of grid g that contain material points of p, else to 0. */
 static void mark_occupied(struct grid_coupled *c, const struct particles *p, const struct grid *g)
 {
     int64_t k[DIM_MAX];
@@ -31,8 +31,8 @@ static void mark_occupied(struct grid_coupled *c, const struct particles *p, con
     }
 }
 
-/* Returns true if the cell at position k[dim] in the box of nodes, or one that shares a node with it, contains a
- * material point. */
+/* Returns true if the cell of grid g at position k[dim] in the box of nodes, or a cell that shares a node with it,
+ * contains a material point (c->occupied). */
 static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct grid *g, const int64_t *k)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, stride[DIM_MAX] = {0};

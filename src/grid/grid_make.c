@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Returns the coordinate of a node along an axis, from which those of all nodes follow [m]: that of mpm.origin, else of
- * the first mirror across the axis, else `corner`, the lower corner of the body. Nodes beyond a mirror move as exact
- * images only if the mirror is on a node or midway between two. */
+/* Returns the coordinate of one node along `axis` [m], from which those of all nodes follow: mpm.origin of scene s if
+ * it is given, else the position of the first mirror across the axis, else `corner`, the lower corner of the body [m].
+ * Nodes beyond a mirror move as exact images only if the mirror is on a node or midway between two. */
 static real node_coordinate(const struct scene *s, int axis, real corner)
 {
     if (s->has_grid_origin) return s->grid_origin[axis];
@@ -15,8 +15,8 @@ static real node_coordinate(const struct scene *s, int axis, real corner)
     return corner;
 }
 
-/* Returns `anchor`, the coordinate of a node, shifted by at most half a spacing so that it is midway between two
- * particles of a lattice [m]. site: coordinate of a particle of this lattice [m]; spacing [m]. */
+/* Returns `anchor`, the coordinate of a node [m], shifted by at most half a spacing so that it is midway between two
+ * particles of a lattice. site: coordinate of a particle of this lattice [m]; spacing: lattice spacing [m]. */
 static real between_particles(real anchor, real site, real spacing)
 {
     const real steps = (site - anchor) / spacing - 0.5;
@@ -40,8 +40,8 @@ int joined_bodies_first_body_of_group(const struct scene *s, int k)
     return -1;
 }
 
-/* Allocates the grids: one for each body (joined bodies count as one) if material points of several bodies may be in
- * contact, else a single one. */
+/* Allocates the grids of `grid` for scene s: one for each body (joined bodies count as one) if material points of
+ * several bodies may be in contact, else a single grid. */
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
     const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
@@ -60,10 +60,10 @@ real grid_shape_reach_beyond_cell(const struct scene *s)
                                          : 0.5 * s->spacing;
 }
 
-/* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids.
- * nodes_midway_between_particles: true if bodies have meshes of the reference frame. Unless mpm.origin or a mirror
- * determines the position of the nodes, a node is at the lower corner of the first body's shape, or of the particles of
- * its list. */
+/* Sets up the background grids mpm of scene s with particles p: position of the nodes, smallest masses, contact between
+ * grids. nodes_midway_between_particles: true if bodies have meshes of the reference frame. Unless mpm.origin or a
+ * mirror determines the position of the nodes, a node is at the lower corner of the shape of the first body, or of the
+ * particles of its list. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p,
                            bool nodes_midway_between_particles)
 {

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Extends the box from[dim] .. to[dim] [m] to the positions of the particles list[n]. */
+/* Extends the box from[dim] .. to[dim] [m] to the positions of the particles list[n] of p. */
 static void bounds_widen(const struct particles *p, const int32_t *list, int64_t n, real *from, real *to)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -20,7 +20,7 @@ static void bounds_widen(const struct particles *p, const int32_t *list, int64_t
     }
 }
 
-/* Lists in f->list the material points of the body, or of the joined bodies, to which the grid of f belongs. */
+/* Lists in f->list the material points of p that belong to the body, or the joined bodies, of the grid f. */
 static void field_list(struct grid_field *f, const struct particles *p)
 {
     if (!f->list) f->list = NEW("engine.field", p->n, int32_t);
@@ -29,9 +29,9 @@ static void field_list(struct grid_field *f, const struct particles *p)
         if (p->body[p->list_free[k]] + 1 == f->grid.body) f->list[f->n++] = p->list_free[k];
 }
 
-/* Extends the grid of field f over its particles and sorts its material points by cells. *lost: set to true if
- * positions are not finite; nothing is sorted then, and OK is returned. Returns FAILED or REFUSED, with a message, if
- * the grid would need too many nodes. */
+/* Extends the grid f over its particles (of p) and sorts its material points by cells. coupling: coupling of
+ * peridynamic particles and points. *lost: set to true if positions are not finite; nothing is sorted then, and OK is
+ * returned. Returns FAILED or REFUSED, with a message, if the grid would need too many nodes. */
 static status field_sort(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -55,8 +55,9 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
     return OK;
 }
 
-/* Sorts the points of all grids into cells; does nothing while no particle has left its cell. *lost is set to true if
- * positions are not finite. Returns an error, with a message, if a grid would need too many nodes. */
+/* Sorts the points of p on all grids of mpm into cells; does nothing while no particle has left its cell. coupling:
+ * coupling of peridynamic particles and points. *lost: set to true if positions are not finite. Returns FAILED or
+ * REFUSED, with a message, if a grid would need too many nodes. */
 static status points_sort(struct grid_method *mpm, const struct particles *p, enum coupling coupling, bool *lost)
 {
     if (!mpm->sort_needed) return OK;
@@ -66,8 +67,8 @@ static status points_sort(struct grid_method *mpm, const struct particles *p, en
     return OK;
 }
 
-/* Updates the list of active points (active_points.h), so that transfers skip cells that are still at rest. Does
- * nothing if the scene or the method does not allow this. */
+/* Updates the list of active points of run e (active_points.h), so that transfers skip cells that are still at rest.
+ * Does nothing if the scene or the method does not allow this. */
 static void update_active_points(struct run *e)
 {
     const struct grid_method *mpm = e->grid;
@@ -94,8 +95,8 @@ status grid_sort_points_into_cells(struct run *e, bool *position_not_finite)
     return OK;
 }
 
-/* Returns the parameters of transfers between the grid and those peridynamic particles that the grid moves (couplings
- * pm .. pgg). They differ from those of material points in that no stress is transferred or updated. */
+/* Returns the parameters of transfers between the grid of mpm and those peridynamic particles that the grid moves
+ * (couplings pm .. pgg). They differ from those of material points in that no stress is transferred or updated. */
 static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
 {
     struct transfer_data grid_coupled = mpm->transfer;
@@ -112,10 +113,11 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
     return own;
 }
 
-/* Returns true if any particle moves with a grid of the current frame, as a material point or coupled to the grid. */
+/* Returns true if a particle of `part` moves with a background grid, as a material point or coupled to the grid. */
 static bool grid_holds(const struct particles *part) { return part->n_free + part->n_grid_coupled > 0; }
 
-/* Maps mass, momentum and force of all particles on the grids to the nodes, which are cleared first. */
+/* Maps mass, momentum and force of all particles p on the grids of mpm to the nodes, which are cleared first. kernels:
+ * transfer functions for the dimension and shape. */
 static void grid_receive(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(mpm);
@@ -128,9 +130,9 @@ static void grid_receive(struct grid_method *mpm, struct particles *p, const str
     if (p->n_grid_coupled > 0) kernels->p2g(&mpm->field[0].grid, p, &grid_coupled);
 }
 
-/* Lists in mpm->contact the nodes at which bodies with separate grids may be in contact in this step. Returns an array
- * [mpm->fields] with the data of each grid that contact needs, which the caller frees; NULL if there is a single
- * grid. */
+/* Lists in mpm->contact the nodes at which bodies of `part` with separate grids may be in contact in this step. Returns
+ * an array [mpm->fields] with the data of each grid that contact needs, which the caller frees with memory_free; NULL
+ * if there is a single grid. */
 static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct particles *part)
 {
     if (mpm->fields < 2) return NULL;
@@ -141,9 +143,9 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     return side;
 }
 
-/* Advances the velocities of all nodes under forces, contact, prescribed velocities (walls) and mirrors. side: grids of
- * the bodies for contact, from meeting_find; NULL: no contact; middle: time in the middle of the step [s]; dt: duration
- * of the velocity update [s]. */
+/* Advances the velocities of all grid nodes of run e under forces, contact, prescribed velocities (walls) and mirrors.
+ * side: grids of the bodies for contact, from meeting_find; NULL: no contact; middle: time in the middle of the step
+ * [s]; dt: duration of the velocity update [s]. */
 static void grids_move(struct run *e, const struct grid_contact_side *side, real middle, real dt)
 {
     struct grid_method *mpm = e->grid;
@@ -191,8 +193,8 @@ static void field_set_flight(struct grid_field *f, const struct rotation_groups 
         memset(g->ahead, 0, sizeof g->ahead);
 }
 
-/* Adds the change of the nodal velocities to the points and maps the momentum of the points to the nodes again (MUSL).
- * side: grids of the bodies for contact, from meeting_find; NULL: no contact. */
+/* Adds the change of the nodal velocities to the points of run e and maps the momentum of the points to the nodes again
+ * (MUSL). side: grids of the bodies for contact, from meeting_find; NULL: no contact. */
 static void grids_remap(struct run *e, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
@@ -227,7 +229,8 @@ void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, cons
     timer_add_elapsed_to_section(timers, TIMER_SCATTER);
 }
 
-/* Adds `share` of the mean dilatation of the cells of this step to all points (points_add_mean_dilatation). */
+/* Adds `share` times the mean dilatation of the cells of this step to all points of p on the grids mpm
+ * (points_add_mean_dilatation), against volumetric locking. */
 static void mean_dilatation_add(struct grid_method *mpm, struct particles *p, real share)
 {
     for (int k = 0; k < mpm->fields; k++) {
@@ -236,9 +239,11 @@ static void mean_dilatation_add(struct grid_method *mpm, struct particles *p, re
     }
 }
 
-/* Sorts points of which some have left their cells, and gives those with a mean dilatation half of that of the new
- * cells in place of half of that of the old ones. Positions that are not finite are left to the next step. Not for
- * materials that yield: a bar that hits a wall loses 0.4 % of its energy with it and gains 0.14 % without. */
+/* Sorts points of p of which some have left their cells on the grids mpm. For points with a mean dilatation of cells,
+ * replaces half of that of the old cells by half of that of the new cells. coupling: coupling of peridynamic particles
+ * and points. Positions that are not finite are left to the next step. Not for materials that yield: a bar that hits a
+ * wall loses 0.4 % of its energy with it and gains 0.14 % without. Returns FAILED or REFUSED, with a message, if a grid
+ * would need too many nodes. */
 static status points_enter_cells(struct grid_method *mpm, struct particles *p, enum coupling coupling)
 {
     bool lost = false;
@@ -272,9 +277,9 @@ status grid_advance_material_points_one_step(struct run *e, real t_middle)
     return points_enter_cells(e->grid, p, e->coupling_kind);
 }
 
-/* Returns the power of the forces on the grids at the start of a step [W]: the sum of P . f/m over the nodes before
- * they move, with the nodal momentum P, nodal mass m, and f the change of momentum per time by forces, contact and
- * walls. t_middle: time in the middle of the step [s]. Returns 0 if no particle is on a grid. */
+/* Returns the power of the forces on the grids of run e at the start of a step [W]: the sum of P . f/m over the nodes
+ * before they move, with the nodal momentum P, nodal mass m, and f the change of momentum per time by forces, contact
+ * and walls. t_middle: time in the middle of the step [s]. Returns 0 if no particle is on a grid. */
 real grid_power_of_forces(struct run *e, real t_middle)
 {
     real power = 0;

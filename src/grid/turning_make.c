@@ -5,16 +5,16 @@
 #include "grid/grid_part.h"
 #include "data/turning.h"
 
-/* Returns the lowest number of the bodies that share a grid with body b. If there are several grids, these are the
- * bodies joined to it, else all bodies. */
+/* Returns the lowest number of the bodies of the scene that share a grid with body number b. If there are several
+ * grids, these are the bodies joined to it, else all bodies. */
 static int first_of(const struct grid_method *grid, const struct scene *scene, int b)
 {
     return grid->fields > 1 ? scene->body[b].joined : 0;
 }
 
-/* Marks the bodies on which a boundary condition with prescribed motion acts, rotations left out: their points do not
- * rotate in groups. For each such body b sets held[one[b]] to true, where one[b] is the lowest number of the bodies
- * that share a grid with body b. */
+/* Finds the bodies of p on which a boundary condition of `loads` with prescribed motion acts, rotations left out: their
+ * points do not rotate in groups. For each such body b sets held[one[b]] to true, where one[b] is the lowest number of
+ * the bodies that share a grid with body b. */
 static void mark_held(const struct loads *loads, const struct particles *p, const int *one, bool *held)
 {
     for (int b = 0; b < loads->n; b++) {

@@ -14,7 +14,7 @@
 #include "step/sample.h"
 #include "loads/mirrors.h"
 
-/* Returns the parts of the run that the solvers read and change, as pointers into *e. */
+/* Returns the parts of run e that the solvers of a static equilibrium read and change, as pointers into *e. */
 static struct static_body static_body_of(struct run *e)
 {
     return (struct static_body){&e->part,
@@ -45,8 +45,8 @@ status engine_static_solver_make(struct run *e)
     return OK;
 }
 
-/* Returns the number of intact bonds whose stretch exceeds the critical one, each bond once. limit: critical stretches
- * of an explicit run; in a static solution no bond breaks. */
+/* Returns the number of intact bonds of b whose stretch exceeds the critical stretch, each bond once. p: particles;
+ * limit: critical stretches of an explicit run; in a static solution no bond breaks. */
 static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     int64_t past = 0;
@@ -60,7 +60,8 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
     return past;
 }
 
-/* Warns that `past` bonds exceed their critical stretch in a static solution. Does nothing if past = 0. */
+/* Adds a warning to *to that `past` bonds exceed their critical stretch in a static solution. Does nothing if past =
+ * 0. */
 static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[200];
@@ -73,9 +74,9 @@ static void warn_past_limit(struct warnings *to, int64_t past)
 
 #define TURN_STRAIN_MOST 0.05 /* share of the largest stretch that rotations may falsify: as the energy balance */
 
-/* Warns of rotations that falsify the stresses of conjugate gradients. They solve linear equations, by which a bond
- * that rotates by the angle a is longer than before, by a^2/2 of its length: compares the largest such difference
- * between the stretch in the solution and the linear one with the largest linear one. */
+/* Adds a warning to *to if rotations falsify the stresses of the conjugate-gradient solution of b and p. The linear
+ * equations lengthen a bond that rotates by the angle a by a^2/2 of its length: compares the largest such difference
+ * between the stretch in the solution and the linear stretch with the largest linear stretch. */
 static void warn_large_rotation(struct warnings *to, const struct bonds *b, const struct particles *p)
 {
     real falsified = 0, largest = 0;
@@ -104,8 +105,9 @@ static void warn_large_rotation(struct warnings *to, const struct bonds *b, cons
     0.1 /* strain above which linear elasticity does not describe a solid [1]; a limit by judgement                    \
          */
 
-/* Warns of stresses above STRAIN_LARGE times Young's modulus, beyond the strength of any solid: a linear elastic body
- * has an equilibrium under any load. */
+/* Adds a warning to *to if a stress of particles p exceeds STRAIN_LARGE times Young's modulus of its material, beyond
+ * the strength of any solid: a linear elastic body has an equilibrium under any load. material: materials of the
+ * scene. */
 static void warn_large_strain(struct warnings *to, const struct particles *p, const struct material *material)
 {
     real most = 0;
@@ -131,7 +133,8 @@ struct closing {
     real most, place[DIM_MAX], strain;
 };
 
-/* Returns the first of the cracks of bond source s that lies between particles i and j, or NULL if there is none. */
+/* Returns the first of the pre-cracks of bond source s that lies between particles i and j of p, or NULL if there is
+ * none. */
 static const struct crack *crack_between(const struct bond_source *s, const struct particles *p, int64_t i, int64_t j)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -142,7 +145,8 @@ static const struct crack *crack_between(const struct bond_source *s, const stru
     return NULL;
 }
 
-/* Updates *closing by particles i and j, neighbours on the lattice. s: bond source with the cracks. */
+/* Updates *closing, the largest closing of crack faces and the largest strain, by the pair i and j of p, neighbours on
+ * the lattice. s: bond source with the cracks. */
 static void closing_update(struct closing *closing, const struct bond_source *s, const struct particles *p, int64_t i,
                            int64_t j)
 {
@@ -160,9 +164,9 @@ static void closing_update(struct closing *closing, const struct bond_source *s,
     for (int d = 0; d < p->dim; d++) closing->place[d] = 0.5 * (p->x[d][i] + p->x[d][j]);
 }
 
-/* Adds and prints a warning if faces of a crack have closed in a static equilibrium, where they pass through each
- * other: their particles have approached by more than the strain of the body explains. source: bond source with the
- * cracks and the search cells of the particles p. */
+/* Adds and prints a warning (*to) if faces of a crack of scene s have closed in a static equilibrium, where they pass
+ * through each other: their particles have approached by more than the strain of the body explains. source: bond source
+ * with the cracks and the search cells of the particles p. */
 static void warn_of_closed_faces(const struct scene *s, const struct particles *p, const struct bond_source *source,
                                  struct warnings *to)
 {
@@ -185,8 +189,8 @@ static void warn_of_closed_faces(const struct scene *s, const struct particles *
     warnings_add_and_print(to, text);
 }
 
-/* Completes a static solution: sets velocities to 0 and the time to the end of the duration, and updates work,
- * stresses, probes and warnings. */
+/* Completes the static solution of run e: sets velocities to 0 and the time to the end of the duration, and updates
+ * work, stresses, probes and warnings. */
 static void solver_finish(struct run *e)
 {
     struct particles *p = &e->part;
@@ -210,8 +214,8 @@ static void solver_finish(struct run *e)
     if (e->scene->solver == SOLVER_CG) warn_large_rotation(&e->warnings, &e->bonds, p);
 }
 
-/* Sets the error that no equilibrium was found, with a message that contains the reason. tolerance: required residual
- * [1]; step: number of the last iteration. Returns FAILED. */
+/* Sets the error that the solver s found no equilibrium, with a message that contains the reason. tolerance: required
+ * relative residual; step: number of the last iteration. Always returns FAILED. */
 static status not_converged(const struct static_solver *s, real tolerance, int64_t step)
 {
     if (!(s->residual < INFINITY))
@@ -231,8 +235,8 @@ static status not_converged(const struct static_solver *s, real tolerance, int64
         (long long)step, s->residual, tolerance);
 }
 
-/* Makes one iteration of the solver for bonds, or one damped time step on the grid. *done: set to true at equilibrium.
- * Returns FAILED, with a message, if the step fails. */
+/* Makes one iteration of the solver of run e for bonds, or one damped time step on the grid. *done: set to true at
+ * equilibrium. Returns FAILED, with a message, if the step fails. */
 static status solve_step(struct run *e, bool *done)
 {
     const struct static_body body = static_body_of(e);

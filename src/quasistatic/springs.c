@@ -49,8 +49,9 @@ struct movers {
     real share[CORNERS_MAX];   /* [n] weights [1] */
 };
 
-/* Returns the unknowns that determine the displacement of particle i of the body, with their weights: the particle's
- * own one, or for a point of the mesh those of the corners of its cell. None if it has no unknown. */
+/* Returns the unknowns that determine the displacement of particle i of the body, with their weights: the unknown of
+ * the particle itself, or for a point of the mesh those of the corners of its cell. The list is empty if the particle
+ * has no unknown. s: assembly of the stiffness matrix. */
 static struct movers movers_list(const struct springs *s, int64_t i)
 {
     struct movers m = {0};
@@ -96,7 +97,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
     }
 }
 
-/* Adds the stiffness of the intact bonds in row r (all bonds of one particle) to the matrix. */
+/* Adds the stiffness of the intact bonds in row r of bonds (all bonds of one particle) to the matrix s->a. */
 static void springs_row_add(struct springs *s, int64_t r)
 {
     for (struct bond_iterator it = bond_iterator_of_row(&s->e->bonds, r); bond_next(&it);)
@@ -106,7 +107,7 @@ static void springs_row_add(struct springs *s, int64_t r)
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
 /* Adds the stiffness of contact t to the matrix: its stiffness times the products of the derivatives of its gap. It is
- * called for each contact; context: a struct springs. */
+ * called for each contact. context: the assembly of the matrix (struct springs). */
 static void contact_add_spring(void *context, const struct contact_term *t)
 {
     struct springs *s = context;
@@ -130,7 +131,7 @@ static void contact_add_spring(void *context, const struct contact_term *t)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the stiffness of cell I of the mesh to the matrix. */
+/* Adds the stiffness of cell I of the mesh to the matrix s->a. */
 static void cell_add(struct springs *s, int64_t I)
 {
     const struct mesh *mesh = &s->e->frame->mesh;
@@ -169,8 +170,8 @@ static void springs_visit(struct springs *s)
     contact_visit_selected_as_springs(s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
-/* Sorts the entries first .. end - 1 of a row by column and adds up entries of one column. Returns the number of
- * entries that remain. */
+/* Sorts the entries first .. end - 1 of a row of the matrix a by column and adds up entries of one column. Returns the
+ * number of entries that remain. */
 static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
 {
     const int size = a->dim * a->dim;
@@ -194,8 +195,8 @@ static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
     return kept - first;
 }
 
-/* Moves the rows of the matrix together after entries of one column have been added up, and updates a->first. kept[i]:
- * number of remaining entries of row i. */
+/* Moves the rows of the matrix a together after entries of one column have been added up, and updates a->first.
+ * kept[a->n]: number of remaining entries of each row. */
 static void rows_close(struct block_matrix *a, const int64_t *kept)
 {
     const int size = a->dim * a->dim;
@@ -232,8 +233,8 @@ static void matrix_fill(struct springs *s)
     memory_free(s->next);
 }
 
-/* Divides all entries by the largest absolute one, since single precision overflows with products of large stiffnesses.
- * The conjugate gradient method does not depend on the scale of its preconditioner. */
+/* Divides all entries of the matrix a by the largest absolute entry, since single precision overflows with products of
+ * large stiffnesses. The conjugate gradient method does not depend on the scale of its preconditioner. */
 static void matrix_scale(struct block_matrix *a)
 {
     const int64_t n = a->first[a->n] * a->dim * a->dim;
@@ -242,8 +243,8 @@ static void matrix_scale(struct block_matrix *a)
     for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
 }
 
-/* Returns the stiffness matrix of the present bonds, cells and contacts, divided by its largest entry. It is freed by
- * statics_preconditioner_free. */
+/* Returns the stiffness matrix of the present bonds, cells and contacts of run e, divided by its largest entry.
+ * statics_preconditioner_free frees it. */
 static struct block_matrix *matrix_make(const struct run *e)
 {
     const struct statics *s = e->statics;
@@ -312,8 +313,9 @@ void statics_preconditioner_apply(void *run, const struct field *residual, struc
     field_remove_free_rigid_motion(e->statics, result);
 }
 
-/* Frees the preconditioner if the last solution needed far more search directions than the first one with it: more than
- * 1.5 times as many plus 8. search_directions: number of directions of the last solution. */
+/* Frees the preconditioner of s, so that it is rebuilt, if the last solution needed far more search directions than the
+ * first one with this preconditioner: more than 1.5 times as many plus 8. search_directions: number of directions of
+ * the last solution. */
 void statics_preconditioner_free_if_costly(struct statics *s, int64_t search_directions)
 {
     if (!s->precondition) return;

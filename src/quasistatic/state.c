@@ -19,8 +19,8 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
     }
 }
 
-/* Saves the list l of the bonds of the next crack increment to the archive a if a->saving is true, else restores it.
- * Returns FAILED if the archive cannot be written or lacks the list. */
+/* Saves the list l of the bonds of the next crack increment to the archive a if a->saving is true, else restores it and
+ * finds the bonds in the present rows of `bonds`. Returns FAILED if the archive cannot be written or lacks the list. */
 static status statics_list_archive(struct break_list *l, const struct bonds *bonds, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/next", l->n);
@@ -30,8 +30,8 @@ static status statics_list_archive(struct break_list *l, const struct bonds *bon
     return OK;
 }
 
-/* Saves the SIF-driven tips and the path of their cracks to the archive a if a->saving is true, else restores them.
- * Returns FAILED if the archive cannot be written or lacks them. */
+/* Saves the tips of SIF-driven cracks (directed by stress-intensity factors) and the path of these cracks in l to the
+ * archive a if a->saving is true, else restores them. Returns FAILED if the archive cannot be written or lacks them. */
 static status sif_archive(struct sif_cracks *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/led", l->known);
@@ -46,8 +46,9 @@ static status sif_archive(struct sif_cracks *l, struct archive *a)
     return l->segments > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->segments * sizeof *l->path) : OK;
 }
 
-/* Saves the next crack increment and the SIF-driven tips to the archive a if a->saving is true, else restores them.
- * Returns FAILED if the archive cannot be written or lacks them. */
+/* Saves the next crack increment of s and the tips of SIF-driven cracks (directed by stress-intensity factors) to the
+ * archive a if a->saving is true, else restores them and finds the bonds in the present rows of b. Returns FAILED if
+ * the archive cannot be written or lacks them. */
 static status increment_archive(struct statics *s, struct bonds *b, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
@@ -59,9 +60,9 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
     return sif_archive(&s->sif, a);
 }
 
-/* Saves to the archive a if a->saving is true, else restores from it: scales and noise of the forces in the solver, its
- * counters, whether its preconditioner is still valid, and the last results of load steps for the history. Returns
- * FAILED if the archive cannot be written or lacks them. */
+/* Saves to the archive a if a->saving is true, else restores from it: scales and noise of the forces in the solver of
+ * s, its counters, whether its preconditioner is still valid, and the last results of load steps for the history.
+ * clock: step counter of the run. Returns FAILED if the archive cannot be written or lacks them. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct newton_solver *q = &s->balance;

@@ -12,14 +12,15 @@
 #include "probes/diagnostics.h"
 #include "solver/solver.h"
 
-/* Frees the state of load steps. It is the callback `free` of struct part. */
+/* Frees the state of load steps of run e. It is the callback `free` of struct part. */
 static void statics_free_all(struct run *e) { statics_free(e->statics), sif_cracks_free(&e->statics->sif); }
 
 #define STEP_SPACINGS_MOST 0.5 /* growth of a crack in a load step without a warning [spacings] */
 #define ALIKE 1.05     /* ratio up to which two such growths count as equal: lattices spend 1 to 4 % less than G_c */
 #define ROUNDING 0.005 /* relative difference below which two energies are equal to the three digits printed */
 
-/* Warns of materials whose bonds yield before they break, so that a crack dissipates less than elastic bonds would. */
+/* Adds a warning to *to for each material of scene s whose bonds yield before they break, so that a crack dissipates
+ * less than elastic bonds would. family: neighbours of a particle, from which the critical stretch follows. */
 static void warn_of_yielding_bonds(const struct scene *s, const struct family *family, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->model == MODEL_BOND && s->method != METHOD_MPM; m++) {
@@ -55,8 +56,8 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
         STEP_SPACINGS_MOST * given / spacings);
 }
 
-/* Warns of parts of the scene that a static solution ignores or treats differently. It is the callback `warn` of struct
- * part. */
+/* Adds warnings to *to of parts of the scene of run e that a static solution ignores or treats differently. It is the
+ * callback `warn` of struct part. */
 static void warn_of_solver(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -81,8 +82,8 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
                             s->duration);
 }
 
-/* Writes the results of load steps to the summary j: control, steps, equilibria, energy released. It is the callback
- * `summary` of struct part. */
+/* Writes the results of load steps of run e to the summary j: control, steps, equilibria, energy released. It is the
+ * callback `summary` of struct part. */
 static void put_load_steps(const struct run *e, struct json *j)
 {
     static const char *const control[] = {

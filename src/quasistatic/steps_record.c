@@ -39,8 +39,8 @@ int statics_list_history_columns(const struct run *e, struct column *column)
 }
 
 /* Returns the area by which the cracks grow if each grows by one spacing [m^2]: the spacing times the total length of
- * the fronts of all pre-cracks, or times one spacing if there are none. For a bar it is its section. section: section
- * of a bar [m^2], thickness of a plane body [m]. */
+ * the fronts of all pre-cracks t, or times one spacing if there are none. For a bar it is its section. section: section
+ * of a bar [m^2] or thickness of a plane body [m]. */
 static real growth_by_spacing(const struct crack_tips *t, real section)
 {
     real wide = 0;
@@ -51,8 +51,8 @@ static real growth_by_spacing(const struct crack_tips *t, real section)
     return t->spacing * wide;
 }
 
-/* Returns the damage of the particles next to a cut that separates two neighbouring planes of a lattice [1]: half of
- * the fraction of bonds that are not parallel to the cut. */
+/* Returns the damage (0 to 1, share of broken bonds) of the particles next to a cut that separates two neighbouring
+ * planes of the lattice of scene s: half of the fraction of bonds that are not parallel to the cut. */
 static real damage_beside_cut(const struct scene *s)
 {
     const int reach = (int)s->horizon, wide = s->dim > 1 ? reach : 0, deep = s->dim > 2 ? reach : 0;

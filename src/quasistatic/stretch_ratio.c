@@ -12,8 +12,8 @@
     1e-7 /* relative difference of stretch ratios below which bonds break together, so that round-off decides no order \
           */
 
-/* Returns the ratio of stretch to critical stretch of a bond in the row of particle i [1]. limit: critical stretches.
- * If the critical stretch is 0 or less, ratios do not give the order in which bonds break. */
+/* Returns the dimensionless ratio of stretch to critical stretch of a bond in the row of particle i of p. limit:
+ * critical stretches. If the critical stretch is 0 or less, ratios do not give the order in which bonds break. */
 static real stretch_ratio_of(const struct particles *p, const struct bond_limit *limit, const struct bond *bond,
                              int32_t i)
 {
@@ -21,8 +21,8 @@ static real stretch_ratio_of(const struct particles *p, const struct bond_limit 
     return stretch / bond_breaking_stretch(p, limit, i, bond->nbr);
 }
 
-/* Returns a lower bound of the critical stretches of all bonds [1]: the smallest critical stretch of a pair of
- * materials times the smallest strength factor of a particle. */
+/* Returns a lower bound of the critical stretches of all bonds: the smallest critical stretch of a pair of materials in
+ * `limit` times the smallest strength factor of a particle of `part`. */
 static real critical_stretch_least(const struct bond_limit *limit, const struct particles *part)
 {
     real least = INFINITY, weakest = 1;
@@ -31,9 +31,9 @@ static real critical_stretch_least(const struct bond_limit *limit, const struct 
     return least * weakest;
 }
 
-/* Returns the largest ratio of stretch to critical stretch of the intact bonds in row block g (bonds of eight
- * particles), or `most` if that is larger [1]. weakest: lower bound of the critical stretches, by which most row blocks
- * are skipped [1]. */
+/* Returns the largest ratio of stretch to critical stretch of the intact bonds of b in row block g (bonds of eight
+ * particles, stored together), or `most` if that is larger. p: particles; limit: critical stretches; weakest: lower
+ * bound of the critical stretches, by which most row blocks are skipped. */
 static real row_block_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g, real weakest, real most)
 {
@@ -60,9 +60,9 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Returns half of the energy that stretches a bond of particle i from zero force to its critical stretch [J]: what it
- * stores now and the work still to be done. Work that yielding has dissipated is not included. limit: critical
- * stretches. */
+/* Returns half of the energy that stretches `bond` of particle i from zero force to its critical stretch [J]: what it
+ * stores now and the work still to be done. Work that yielding has dissipated is not included. b, p: all bonds and
+ * particles; limit: critical stretches. */
 static real half_energy_to_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  const struct bond *bond, int32_t i)
 {
@@ -101,8 +101,8 @@ struct overstretched {
     struct broken_bond *record; /* [n] */
 };
 
-/* Appends a bond to the list o of bonds whose stretch may exceed the critical one. over: its ratio of stretch to
- * critical stretch [1]; record: its row and entry in the bond arrays, its particles and its energy (copied). */
+/* Appends a bond to the list o of bonds whose stretch may exceed the critical stretch. over: dimensionless ratio of its
+ * stretch to its critical stretch; record: row and entry of the bond, its particles and its energy (copied). */
 static void overstretched_add(struct overstretched *o, real over, const struct broken_bond *record)
 {
     GROW("statics.overloads", o->ratio, o->n + 1);
@@ -111,8 +111,8 @@ static void overstretched_add(struct overstretched *o, real over, const struct b
     o->record[o->n++] = *record;
 }
 
-/* Appends the bonds of row block g (bonds of eight particles) with a stretch ratio above `least` to o, in the order of
- * rows. limit: critical stretches. */
+/* Appends the bonds of row block g of b (bonds of eight particles, stored together) with a ratio of stretch to critical
+ * stretch above `least` to o, in the order of rows. p: particles; limit: critical stretches. */
 static void row_block_overstretched(struct overstretched *o, const struct bonds *b, const struct particles *p,
                                     const struct bond_limit *limit, int64_t g, real least)
 {
@@ -125,8 +125,8 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         }
 }
 
-/* Returns the ratio of stretch to critical stretch above which bonds break [1], so that about `most` pairs of bonds do:
- * just below the `most`-th largest ratio, but at least `least`. ratio[n]: ratios of directed bonds, two for each
+/* Returns the ratio of stretch to critical stretch above which bonds are to break so that about `most` pairs of bonds
+ * do: just below the `most`-th largest ratio, but at least `least`. ratio[n]: ratios of directed bonds, two for each
  * pair. */
 static real stretch_ratio_to_break(const real *ratio, int64_t n, real least, int64_t most)
 {
@@ -145,8 +145,8 @@ void break_list_add(struct break_list *l, const struct broken_bond *record)
     l->bond[l->n++] = *record;
 }
 
-/* Appends the bonds with a stretch ratio above `down_to` to list l. ratio[n], record[n]: stretch ratios and records of
- * bonds. Returns the mean square of the stretch ratios of the appended bonds, 1 if there are none. */
+/* Appends the bonds with a ratio of stretch to critical stretch above `down_to` to list l. ratio[n], record[n]: ratios
+ * and records of directed bonds. Returns the mean square of the ratios of the appended bonds, 1 if there are none. */
 static real break_list_add_above(struct break_list *l, const real *ratio, const struct broken_bond *record, int64_t n,
                                  real down_to)
 {
@@ -157,9 +157,9 @@ static real break_list_add_above(struct break_list *l, const real *ratio, const 
     return added > 0 ? sum / (real)added : 1;
 }
 
-/* Breaks the directed bond of *record, in the row of one of its two particles only, and adds half of its energy to the
- * fracture energy of this row. limit: critical stretches; its rule for the force of a bond in the step in which it
- * breaks is not used. */
+/* Breaks the directed bond of *record in b, in the row of one of its two particles of p only, and adds half of its
+ * energy to the fracture energy of this row. limit: critical stretches; its rule for the force of a bond in the step in
+ * which it breaks is not used. */
 static void bond_record_break(struct bonds *b, struct particles *p, struct bond_limit limit,
                               const struct broken_bond *record)
 {

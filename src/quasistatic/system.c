@@ -14,7 +14,7 @@
 
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 
-/* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
+/* Saves the plastic state of bonds b and particles p to the archive a if a->saving is true, else restores it.
  * optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry is
  * missing or has another size. */
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a)
@@ -52,15 +52,16 @@ static void mirror_forces_add(struct mesh *mesh)
     }
 }
 
-/* Adds the applied forces s->applied, the sums over all loads, to the forces p->f of the loaded particles. */
+/* Adds s->applied[dim][particles], the sums of the applied forces of all loads [N], to the forces p->f of the loaded
+ * particles. loads: lists these particles. */
 static void applied_add(const struct statics *s, const struct loads *loads, struct particles *p)
 {
     for (int d = 0; d < p->dim && s->applied[d]; d++)
         for (int64_t k = 0; k < loads->listed; k++) p->f[d][loads->list[k]] += s->applied[d][loads->list[k]];
 }
 
-/* Computes the forces on particles and mesh nodes at their present positions: of bonds, contact, loads and cells, as in
- * a time step (step.c) without motion. */
+/* Computes the forces on particles and mesh nodes of run e at their present positions: of bonds, contact, loads and
+ * cells, as in a time step (step.c) without motion. */
 static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
@@ -100,7 +101,8 @@ void plastic_state_update_at_last_solution(struct run *e)
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the energy scale of the body at unit strain: sum of Young's modulus times volume over the particles [J]. */
+/* Returns the energy scale of the body at unit strain [J]: the sum over particles p of Young's modulus times volume.
+ * material: materials of the scene. */
 static real energy_at_unit_strain(const struct particles *p, const struct material *material)
 {
     real sum = 0;

@@ -10,9 +10,9 @@
 #include "rigid/rigid_part.h"
 #include "loads/mirrors.h"
 
-/* Saves all data that a trial equilibrium changes to the archive a if a->saving is true, else restores them from it.
- * Positions of mirror images and mesh points are left out, since they follow from the other data. Returns FAILED if an
- * entry is missing. */
+/* Saves all data of run e that a trial equilibrium changes to the archive a if a->saving is true, else restores them
+ * from it. Positions of mirror images and mesh points are left out, since they follow from the other data. Returns
+ * FAILED if an entry is missing. */
 static status trial_archive(struct run *e, struct archive *a)
 {
     for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_save_or_load(&e->rigid->body[k], k, a));

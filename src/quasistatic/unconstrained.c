@@ -50,7 +50,7 @@ struct search {
     struct candidate *candidate; /* [n] */
 };
 
-/* Joins the unknowns of the nodes of each mesh cell to one connected component. */
+/* Joins the unknowns of the nodes of each cell of the mesh of s to one connected component. */
 static void cells_join(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -66,7 +66,8 @@ static void cells_join(const struct search *s)
     }
 }
 
-/* Returns the unknown of particle i, or for a point of the mesh that of a corner of its cell; -1 if there is none. */
+/* Returns the index of the unknown of particle i in s, or for a point of the mesh that of a corner of its cell; -1 if
+ * there is none. */
 static int32_t unknown_of(const struct search *s, int64_t i)
 {
     const struct mesh *mesh = s->mesh;
@@ -79,7 +80,7 @@ static int32_t unknown_of(const struct search *s, int64_t i)
     return -1;
 }
 
-/* Joins the connected components of the two particles of each intact bond. */
+/* Joins the connected components in s of the two particles of each intact bond. */
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
@@ -149,8 +150,8 @@ struct candidate {
 /* Returns the number of rigid motions in a body of dimension dim. */
 static int motions(int dim) { return dim * (dim + 1) / 2; }
 
-/* Computes rigid motion number k of a fragment at the point x [m]: first translations, then rotations, scaled such that
- * its nodes move by about 1. u[dim]: receives the displacement. */
+/* Computes u[dim], the displacement at the point x[dim] [m] by rigid motion number k (0 .. motions(dim) - 1) of
+ * fragment c: first translations, then rotations, scaled such that the nodes of the fragment move by about 1. */
 static void motion_at(const struct candidate *c, int dim, int k, const real *x, real *u)
 {
     for (int d = 0; d < dim; d++) u[d] = d == k;
@@ -160,7 +161,7 @@ static void motion_at(const struct candidate *c, int dim, int k, const real *x, 
     u[b] = (x[a] - c->centre[a]) / c->radius;
 }
 
-/* Stores the present position of the unknown k (a particle or a mesh node) in x[dim] [m]. */
+/* Copies the present position of the unknown k of s (a particle or a mesh node) to x[dim] [m]. */
 static void node_now(const struct search *s, int64_t k, real *x)
 {
     for (int d = 0; d < s->part->dim; d++) x[d] = s->x.of[d][k];
@@ -174,7 +175,7 @@ static void resist(struct candidate *c, int m, const real *along)
         for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
 }
 
-/* Adds the constraints by supports and planes of symmetry to the fragments of the body on which they act. */
+/* Adds the constraints by supports and planes of symmetry to the fragments in s on which they act. */
 static void supports_resist(const struct search *s)
 {
     const struct newton_solver *q = &s->statics->balance;
@@ -193,8 +194,8 @@ static void supports_resist(const struct search *s)
     }
 }
 
-/* Adds the constraint of a bond between particle i of fragment c and the mirror image `image` to c: the bond resists a
- * change of its length. */
+/* Adds to fragment c the constraint of a bond between its particle i and the mirror image `image`: the bond resists a
+ * change of its length. s: search for unconstrained fragments. */
 static void image_resists(const struct search *s, struct candidate *c, int64_t i, int64_t image)
 {
     const struct particles *p = s->part;
@@ -212,7 +213,7 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
     resist(c, m, along);
 }
 
-/* Adds the constraints by all bonds between particles and mirror images to the fragments of these particles. */
+/* Adds the constraints by all `bonds` between particles and mirror images to the fragments of these particles in s. */
 static void images_resist(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
@@ -223,8 +224,8 @@ static void images_resist(const struct search *s, const struct bonds *bonds)
     }
 }
 
-/* Adds the constraints of mirror nodes of the mesh to their fragments: such a node is a corner of cells of the body and
- * moves as the mirror image of another node. */
+/* Adds the constraints of mirror nodes of the mesh to their fragments in s: such a node is a corner of cells of the
+ * body and moves as the mirror image of another node. */
 static void mirror_nodes_resist(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -256,7 +257,8 @@ static int32_t fragment_of(const struct search *s, int32_t particle)
     return k < 0 ? -1 : s->fragment[k];
 }
 
-/* Returns the rate at which rigid motion number a of fragment `which` changes the gap of contact t [1]. */
+/* Returns the dimensionless rate at which rigid motion number a of fragment `which` changes the gap of contact t:
+ * change of gap divided by size of the motion. s: search for unconstrained fragments. */
 static real gap_rate(const struct search *s, const struct contact_term *t, int32_t which, int a)
 {
     const struct particles *p = s->part;
@@ -295,8 +297,9 @@ static void contact_resists(void *context, const struct contact_term *t)
     }
 }
 
-/* Finds the rigid motions of fragment c that no constraint resists, the null space of c->resistance, by elimination
- * with full pivoting. free[][m]: receives each as combination of the m rigid motions. Returns their number. */
+/* Finds the rigid motions of fragment c that no constraint resists, the null space of c->resistance[m][m], by
+ * elimination with full pivoting. free[][m]: receives each of them as a combination of the m rigid motions. Returns
+ * their number. */
 static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][MODES_MOST])
 {
     real R[MODES_MOST][MODES_MOST], most = 0;
@@ -324,7 +327,8 @@ static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][
 
 /* ---- free motions ------------------------------------------------------------------------------------------------ */
 
-/* Returns the scalar product of motions number a and b over the nodes of fragment f. dim: number of components. */
+/* Returns the scalar product of the free motions number a and b of fragment f, summed over its nodes. dim: number of
+ * components. */
 static real motion_dot(const struct unconstrained_fragment *f, int dim, int a, int b)
 {
     real sum = 0;
@@ -332,8 +336,8 @@ static real motion_dot(const struct unconstrained_fragment *f, int dim, int a, i
     return sum;
 }
 
-/* Orthonormalises the motions over the nodes of a fragment by the Gram-Schmidt method with reorthogonalisation. Drops
- * linearly dependent ones. */
+/* Orthonormalises the free motions of fragment f over its nodes by the Gram-Schmidt method with reorthogonalisation.
+ * Drops linearly dependent motions. dim: number of components. */
 static void motions_orthonormal(struct unconstrained_fragment *f, int dim)
 {
     int kept = 0;

@@ -21,9 +21,9 @@ static uint8_t *mirror_node_flags(const struct mesh *mesh)
     return follows;
 }
 
-/* Lists the unknowns in node[]: the indices of the peridynamic particles, then those of the mesh nodes with mass.
- * *particles: receives the number of particles among them. node = NULL: the unknowns are only counted. Returns their
- * number. */
+/* Lists the unknowns in node[]: the indices of the peridynamic particles of p, then those of the nodes of `mesh` with
+ * mass. *particles: receives the number of particles among them. node = NULL: the unknowns are only counted. Returns
+ * their number. */
 static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, int32_t *node, int64_t *particles)
 {
     int64_t n = 0;
@@ -41,16 +41,16 @@ static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, in
     return n;
 }
 
-/* Marks component d of unknown k as prescribed. load: number of the boundary that prescribes it, -1 for a plane of
- * symmetry. */
+/* Marks component d (0 .. dim - 1) of unknown k of s as prescribed. load: number of the boundary that prescribes it, -1
+ * for a plane of symmetry. */
 static void component_hold(struct statics *s, int64_t k, int d, int load)
 {
     s->balance.held[k] |= (uint8_t)(1 << d);
     s->load[k * DIM_MAX + d] = (int16_t)load;
 }
 
-/* Marks the particles on planes of symmetry. Their normal displacement is 0, on clamped planes every component, and
- * half of each particle belongs to the body. */
+/* Marks in s the particles of p on planes of symmetry in `loads`. Their normal displacement is 0, on clamped planes
+ * every component, and half of each particle belongs to the body. */
 static void mirror_particles_mark(struct statics *s, const struct particles *p, const struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -66,8 +66,8 @@ static void mirror_particles_mark(struct statics *s, const struct particles *p, 
     }
 }
 
-/* Marks the components of particles and mesh nodes that supports prescribe, each by the support that prescribes it
- * alone. particle_at, node_of_mesh: unknown of each particle and of each mesh node, -1: none. */
+/* Marks in s the components of particles and nodes of `mesh` that supports in `loads` prescribe, each with the single
+ * support that prescribes it. particle_at, node_of_mesh: unknown of each particle and of each mesh node, -1: none. */
 static void supports_mark(struct statics *s, const struct loads *loads, const struct mesh *mesh,
                           const int32_t *particle_at, const int32_t *node_of_mesh)
 {
@@ -87,7 +87,7 @@ static void supports_mark(struct statics *s, const struct loads *loads, const st
     }
 }
 
-/* Stores the present displacements of all unknowns in s->balance.u. */
+/* Stores the present displacements of all unknowns (particles of p, nodes of `mesh`) in s->balance.u [m]. */
 static void displacements_read(struct statics *s, const struct particles *p, const struct mesh *mesh)
 {
     for (int d = 0; d < p->dim; d++)
@@ -135,7 +135,8 @@ void unknowns_free(struct statics *s)
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Stores the reference position of unknown number `unknown_number`, a particle or a mesh node, in position[] [m]. */
+/* Stores the reference position of unknown number `unknown_number` of s, a particle of p or a node of `mesh`, in
+ * position[dim] [m]. */
 void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                         int64_t unknown_number, real *position)
 {
@@ -179,8 +180,8 @@ void image_compute_displacement_signs(const struct particles *p, const struct lo
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
-/* Computes the applied forces at the pseudo-time `pseudo_time` [s] and stores them in s->applied, dim components for
- * each particle of the body [N]. Allocates these arrays on the first call. */
+/* Computes the forces that `loads` apply at pseudo_time [s] and stores them in s->applied[dim][particles] [N].
+ * Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -197,8 +198,8 @@ void applied_forces_compute(struct statics *s, const struct particles *p, const 
     }
 }
 
-/* Returns an array [p->n] of the components (bit d: component d) of the displacement of each particle that a support
- * prescribes. The caller frees it. */
+/* Returns an array [p->n] with a bit set for each particle: bit d is 1 if a support in `loads` prescribes component d
+ * of the displacement of the particle. The caller frees it with memory_free. */
 static uint8_t *particles_prescribed_components(const struct particles *p, const struct loads *loads)
 {
     uint8_t *prescribed = NEW("statics.prescribed", p->n, uint8_t);
