@@ -18,9 +18,9 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Initialises *to, a map for the cells of level 0 (the finest): which of them may become parts of coarser cells, and up
- * to which level. Only cells with all points may. demand: 1 for cells that must remain at level 0; limit: highest level
- * for each cell; NULL: no limit. */
+/* Initialises *to, a map for the cells of level 0 (the finest) of l: which of them may become parts of coarser cells,
+ * and up to which level. Only cells with all points of p may. demand[cell]: 1 for cells that must remain at level 0;
+ * limit[cell]: highest level for each cell; NULL: no limit. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {
@@ -34,9 +34,9 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
     }
 }
 
-/* Sets the entries of map[level] for cell I of `level` (cells with the edge of 2^level finest cells) from those of the
- * 2^dim cells of the next finer level in it. The cell is admissible if all of these are, have one material, and may
- * have this level. k: indices of the cell along the axes. */
+/* Sets the entries of map[level] for cell I of `level` of l (cells with the edge of 2^level finest cells) from those of
+ * the 2^dim cells of the next finer level in it. The cell is admissible if all of these are, have one material, and may
+ * have this level. k[dim]: indices of the cell along the axes. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
     const struct grid *below = &level_mesh_read_only(l, level - 1)->grid;
@@ -75,8 +75,8 @@ static bool touching_alike(const struct level_map *map, const struct grid *g, co
     return some == 0 || some == all;
 }
 
-/* Returns true if a cell of level 1, with the indices k, may exist beside its neighbours: in each direction, the cells
- * of level 0 (the finest) that touch it all contain points, or none does. */
+/* Returns true if a cell of level 1 of l, with the indices k[dim], may exist beside its neighbours: in each direction,
+ * the cells of level 0 (the finest) that touch it all contain points, or none does. map: maps of all levels. */
 static bool ring_of_first(const struct level_map *map, const struct mesh_levels *l, const int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -92,9 +92,9 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
     return allows;
 }
 
-/* Returns true if a cell of `level` >= 2 (cells with the edge of 2^level finest cells), with the indices k, may exist
- * beside its neighbours: all cells of the next finer level in it and around it that contain points must be admissible.
- * Adjacent cells then differ by one level at most. */
+/* Returns true if a cell of `level` >= 2 of l (cells with the edge of 2^level finest cells), with the indices k[dim],
+ * may exist beside its neighbours: all cells of the next finer level in it and around it that contain points must be
+ * admissible. Adjacent cells then differ by one level at most. map: maps of all levels. */
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
@@ -109,8 +109,8 @@ static bool ring_allows(const struct level_map *map, const struct mesh_levels *l
     return true;
 }
 
-/* Determines for each cell of `level` (cells with the edge of 2^level finest cells) whether it is admissible, in
- * map[level], from the data of the next finer level. */
+/* Determines for each cell of `level` of l (cells with the edge of 2^level finest cells) whether it is admissible, in
+ * map[level], from map[level - 1]. */
 static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
 {
     const struct grid *g = &level_mesh_read_only(l, level)->grid;

@@ -43,8 +43,9 @@ static real dispersion_edge(const struct scene *s)
     return s->spacing * sqrt(above / below);
 }
 
-/* Returns the index of the cell of level 0 (the finest) that contains particle i in the reference configuration. It is
- * always a cell of the grid, while mesh->place may refer to an extra cell, into which a slit has divided it. */
+/* Returns the index of the cell of level 0 (the finest) of the mesh that contains particle i of p in the reference
+ * configuration. It is always a cell of the grid, while mesh->place may refer to an extra cell, into which a slit (a
+ * gap for a pre-crack) has divided it. */
 static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     int64_t I = 0;
@@ -53,8 +54,8 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
     return I;
 }
 
-/* Sets demand[I] = 1, which requires level 0 (the finest), for the cells I beside those planes of symmetry that do not
- * pass through nodes of all levels. */
+/* Sets demand[I] = 1, which requires level 0 (the finest), for the cells I of `frame` beside those planes of symmetry
+ * in `loads` that do not pass through nodes of all levels. */
 static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -73,15 +74,15 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
     }
 }
 
-/* Sets demand[I] = 1, which requires level 0 (the finest), for the cells I beside slits. A slit divides the nodes of
- * level 0 that it passes; nodes of coarse cells cannot be divided. */
+/* Sets demand[I] = 1, which requires level 0 (the finest), for the cells I of the mesh beside slits (gaps for
+ * pre-cracks). A slit doubles the nodes of level 0 that it passes; nodes of coarse cells cannot be doubled. */
 static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 {
     for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Finds the cells I of level 0 (the finest) inside and around the circle `ring`, a contour of a probe of
+/* Finds the cells I of level 0 (the finest) of `frame` inside and around the circle `ring`, a contour of a probe of
  * stress-intensity factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for
  * these cells, which requires level 0; NULL if it is not needed. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
@@ -107,10 +108,10 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Finds the cells I of level 0 (the finest) inside and around the contours of all probes of stress-intensity factors.
- * Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which requires
- * level 0; NULL if it is not needed. The probes need accelerations in every step, and nodes of coarse cells have them
- * in some steps only. */
+/* Finds the cells I of level 0 (the finest) of `frame` inside and around the contours of all probes of stress-intensity
+ * factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which
+ * requires level 0; NULL if it is not needed. The probes need accelerations in every step, and nodes of coarse cells
+ * have them in some steps only. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -118,7 +119,8 @@ static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
     return coarse;
 }
 
-/* Sets mark[I] for all cells I of level 0 (the finest) that are marked in `more`; does nothing if `more` is NULL. */
+/* Sets bits of mark[I] for all cells I of level 0 (the finest) of l that are marked in more[I]; does nothing if `more`
+ * is NULL. */
 static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
 {
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
@@ -173,9 +175,9 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
     memory_free(own);
 }
 
-/* Returns flags [fine->grid.n] of the cells whose stress exceeds `share` times [1] the stress at which points convert,
- * and of cells around them; NULL if no cell is stressed so much. all: true to test all cells, false for coarse cells
- * only. Release the flags with memory_free. */
+/* Returns flags [fine->grid.n] of the cells of `frame` whose stress exceeds `share` (dimensionless) times the stress at
+ * which points convert, and of cells around them; NULL if no cell is stressed so much. all: true to test all cells,
+ * false for coarse cells only. Release the flags with memory_free. */
 static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -193,8 +195,8 @@ static uint8_t *stressed_cells(const struct reference_frame *frame, real share, 
     return cells;
 }
 
-/* Returns true if a cell of level 0 (the finest) would have a higher level in level[fine->grid.n] than at present, i.e.
- * become part of a coarser cell. */
+/* Returns true if a cell of level 0 (the finest) of l would have a higher level in level[fine->grid.n] than at present,
+ * i.e. become part of a coarser cell. */
 static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 {
     bool any = false;
@@ -202,17 +204,17 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Reduces limit[I], the largest refinement level allowed for cell I, to r->room[I], the largest level that the
- * thickness of the body allows there. Does nothing if the scene prescribes the number of levels. */
+/* Reduces limit[I], the largest coarsening level (0: finest) allowed for cell I of r, to r->room[I], the largest level
+ * that the thickness of the body allows there. Does nothing if the scene prescribes the number of levels. */
 static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
-/* Computes level[I], the refinement levels of all cells I of level 0 (the finest) for the next steps. demand[I]: not 0
+/* Computes level[I], the coarsening levels (0: finest) of all finest cells I of r for the next steps. demand[I]: not 0
  * for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that would lose too much
- * energy of motion by becoming coarser; mass: mass of the body [kg]. */
+ * energy of motion by becoming coarser; p: particles; mass: mass of the body [kg]. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -233,8 +235,8 @@ void mesh_levels_update_node_lists(struct reference_frame *r, const struct parti
     reference_frame_list_bonded_or_loaded_points(r, p, bonds, loads);
 }
 
-/* Changes the levels of cells to level[I]. The kinetic and strain energy that the change loses is added to e->damped,
- * so that the energy balance includes it. */
+/* Changes the coarsening levels of the cells of run e to level[I] (0: finest; I: index of the finest cell). The kinetic
+ * and strain energy that the change loses is added to e->damped, so that the energy balance includes it. */
 static void change(struct run *e, const uint8_t *level)
 {
     struct reference_frame *r = e->frame;
@@ -294,7 +296,7 @@ status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns true if, in the last computation of forces, a point of a coarse cell may have exceeded SPLITS times the
+/* Returns true if, in the last computation of forces, a point of a coarse cell of l may have exceeded SPLITS times the
  * stress at which points convert. */
 static bool any_stressed(const struct mesh_levels *l)
 {
@@ -304,9 +306,9 @@ static bool any_stressed(const struct mesh_levels *l)
     return any;
 }
 
-/* Computes limit[I], the largest levels that cells may have after the next change. Cells may always become finer. They
- * may become coarser only in calls with `checks`, after CALM_CHECKS consecutive such calls in which nothing required
- * level 0 (the finest) nearby. */
+/* Computes limit[I], the largest coarsening levels (0: finest) that the cells of r may have after the next change.
+ * Cells may always become finer. They may become coarser only in calls with `checks` true, after CALM_CHECKS
+ * consecutive such calls in which nothing (cracks and stresses of p, loads) required level 0 nearby. */
 static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {
@@ -325,8 +327,9 @@ static void limits_find(struct reference_frame *r, const struct particles *p, co
     memory_free(stressed);
 }
 
-/* Marks material points again that have lost a bond and could not be converted at that time, because coarse cells were
- * too near. These cells have been split by now. All material points of the cells recorded in l->wanted get the mark. */
+/* Marks material points of p again that have lost a bond and could not be converted at that time, because coarse cells
+ * were too near. These cells have been split by now. All material points of the cells recorded in l->wanted get the
+ * mark. */
 static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
     if (!l->any_wanted) return;
@@ -370,9 +373,9 @@ void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level
     l->any_wanted = false;
 }
 
-/* Requests finer cells around particle i (in l->wanted) if it is marked for conversion to a peridynamic particle and a
- * coarse cell is near. If the coarse cell is too near for the bonds of the particle, also removes its marks, so that it
- * is converted later. */
+/* Requests finer cells around particle i of p (in l->wanted) if it is marked for conversion to a peridynamic particle
+ * and a coarse cell is near. If the coarse cell is too near for the bonds of the particle, also removes its marks, so
+ * that it is converted later. */
 static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 {
     const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;
@@ -397,7 +400,8 @@ void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct 
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic energy of all nodes of the reference frame, over all levels [J]. */
+/* Returns the kinetic energy of all nodes of the reference frame `reference` [J]: of the mesh and of the coarse cells
+ * of all levels. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference)
 {
     return mesh_kinetic(&reference->mesh) + levels_kinetic_energy_of_coarse_levels(&reference->levels);

@@ -16,9 +16,8 @@
 
 /* ---- positions of points ----------------------------------------------------------------------------------------- */
 
-/* Sets the message that a body cannot be in the reference frame because of the particle at the position of particle i,
- * and returns REFUSED. what: text that follows "the particle at (x, y, z) m", such as "shares its position in the grid
- * cell with another particle". */
+/* Returns REFUSED with the message that a body cannot be on a mesh because of particle i of p. what: text that follows
+ * "the particle at (x, y, z) m", such as "shares its position in the grid cell with another particle". */
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
     return status_set(
@@ -44,9 +43,9 @@ int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const st
     return (cell << p->dim) + q;
 }
 
-/* Finds the cell and the integration point of every particle with FLAG_MESHED (mesh->place, mesh->point). A cell has
- * 2^dim integration points, with at most one particle each. Returns REFUSED, with a message, if a particle is not at an
- * integration point, two particles share one, or their volumes differ. */
+/* Finds the cell and the integration point of every particle of p with FLAG_MESHED, and stores them in mesh->place and
+ * mesh->point. A cell has 2^dim integration points, with at most one particle each. Returns REFUSED, with a message, if
+ * a particle is not at an integration point, two particles share an integration point, or their volumes differ. */
 static status points_place(struct mesh *mesh, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -69,8 +68,8 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     return OK;
 }
 
-/* Returns the mass of node I [kg] from the points of the cells around it, with linear shape functions, summed in a
- * fixed order. */
+/* Returns the mass of node I of the mesh [kg] from the points of p in the cells around it, with linear shape functions,
+ * summed in a fixed order. */
 static real node_mass(const struct mesh *mesh, const struct particles *p, int64_t I)
 {
     const int dim = p->dim;
@@ -112,9 +111,9 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kind of cell I. A whole cell has all its points, which are of one material and without partial stresses,
- * and all its corners are nodes of the grid. A partial cell has points, but lacks one of these properties; an empty
- * cell has no points. s: partial stresses. */
+/* Returns the kind of cell I of the mesh. A whole cell has all its points (of p), which are of one material and without
+ * partial stresses (the share of stress left to bonds), and all its corners are nodes of the grid. A partial cell has
+ * points, but lacks one of these properties; an empty cell has no points. s: partial stresses. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -132,8 +131,9 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_PARTIAL;
 }
 
-/* Appends cell I to the last run of the present band, or begins a new run with it. A run is a row of consecutive whole
- * cells (with all points, of one `material`); a band is a set of layers of cells that one thread processes. */
+/* Appends cell I to the last run of the present band of the mesh, or begins a new run with it. A run is a row of
+ * consecutive whole cells (with all points, of one material, number `material`); a band is a set of layers of cells
+ * that one thread processes. */
 static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 {
     struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
@@ -145,12 +145,12 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
     mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
 }
 
-/* Returns the number of layers of cells, along the last axis, in a band: a set of cells that one thread processes.
- * Bands that are not adjacent share no node. */
+/* Returns the number of layers of cells, along the last of dim axes, in a band: a set of cells that one thread
+ * processes. Bands that are not adjacent share no node. */
 static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
 
-/* Stores in mesh->span for each row of nodes the range from the first to behind the last node with mass. The range may
- * contain nodes without mass. */
+/* Stores in mesh->span for each row of nodes along x the range from the first node with mass to one past the last. The
+ * range may contain nodes without mass. */
 void mesh_find_node_spans_with_mass(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
@@ -192,9 +192,9 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Determines the kinds of cells from their points, and rebuilds the list of runs (rows of cells with all points, of one
- * material) and the list of other cells with points (partial cells) with their stiffness. s: elastic constants and
- * partial stresses; dirty: not 0 for the cells whose kind may have changed; NULL: all cells. */
+/* Determines the kinds of cells of the mesh from their points (of p), and rebuilds the list of runs (rows of cells with
+ * all points, of one material) and the list of other cells with points (partial cells) with their stiffness. s: elastic
+ * constants and partial stresses; dirty[grid.n]: not 0 for the cells whose kind may have changed; NULL: all cells. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
@@ -229,8 +229,8 @@ void mesh_make_cell_rows_and_node_spans(struct mesh *mesh)
     mesh_activate_node_blocks_at_cells(mesh);
 }
 
-/* Recomputes the masses of the nodes at the corners of coarse cells and of the cells I with dirty[I]: those of the
- * other nodes have not changed, and include no part of a coarse cell. dirty: [grid.n]. */
+/* Recomputes the masses of the nodes of the mesh at the corners of coarse cells and of the cells I with dirty[I] (array
+ * [grid.n]), from the points of p. The masses of other nodes have not changed, and include no part of a coarse cell. */
 static void nodes_weigh(struct mesh *mesh, const struct particles *p, const uint8_t *dirty)
 {
     uint8_t *changed = NEW("mesh.changed", mesh->grid.n, uint8_t);
@@ -327,7 +327,8 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     return OK;
 }
 
-/* Projects displacement and velocity of the points to the nodes at the start of a run (mesh_fit_nodal_values). */
+/* Projects displacement and velocity of the points of p to the nodes of the mesh at the start of a run
+ * (mesh_fit_nodal_values). */
 static void mesh_nodes_start(struct mesh *mesh, const struct particles *p)
 {
     real *u[DIM_MAX];
@@ -384,8 +385,8 @@ void mesh_free(struct mesh *mesh)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Removes particle i from the mesh. Returns the kinetic energy of its mass with the velocities of the nodes around it,
- * less that with its own velocity [J]. */
+/* Removes particle i of p from the mesh. Returns the kinetic energy of its mass with the velocities of the nodes around
+ * it, minus that with the velocity of the particle [J]. */
 static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
 {
     const int64_t place = mesh->place[i];
@@ -403,8 +404,8 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     return energy;
 }
 
-/* Recomputes the masses of the nodes of those cells I that particles have left, and sets velocity and displacement of
- * nodes without any mass to 0. left[grid.n]: not 0 for these cells. */
+/* Recomputes the masses of the nodes of those cells I of the mesh that particles of p have left, and sets velocity and
+ * displacement of nodes without any mass to 0. left[grid.n]: not 0 for these cells. */
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);

@@ -12,8 +12,8 @@ struct nodes {
     int32_t *at;
 };
 
-/* Finds the nodes at the corners of the cells that contain the n particles list[k], and lists each once in *t. The
- * caller releases t->at with memory_free. */
+/* Finds the nodes at the corners of the cells that contain the n particles list[k] of p, and lists each node once in
+ * *t, ascending. The caller releases t->at with memory_free. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
 {
@@ -30,7 +30,7 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
     memory_free(mark);
 }
 
-/* Returns the kinetic energy of the nodes in t, with lumped masses [J]. */
+/* Returns the kinetic energy of the nodes t of the mesh, with lumped masses [J]. */
 static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
 {
     real sum = 0;
@@ -40,8 +40,8 @@ static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
     return sum;
 }
 
-/* Makes the n particles list[k] points of the mesh. Recomputes mass and velocity of the nodes t around them such that
- * momentum is conserved. Overwrites grid.momentum of these nodes. */
+/* Makes the n particles list[k] of p points of the mesh. Recomputes mass and velocity of the nodes t around them such
+ * that momentum is conserved. Overwrites grid.momentum of these nodes. */
 static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
 {
     const int dim = p->dim;
@@ -68,8 +68,8 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
 }
 
-/* Sets the displacement of the nodes I with light[I], which had no mass before, to the mean displacement of the n
- * inserted points list[k] around them, weighted by mass times shape function. */
+/* Sets the displacement of the nodes I of the mesh with light[I], which had no mass before, to the mean displacement of
+ * the n inserted points list[k] of p around them, weighted by mass times shape function. */
 static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p, const uint8_t *light,
                                     const int32_t *list, int64_t n)
 {

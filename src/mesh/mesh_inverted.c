@@ -2,9 +2,9 @@
  * volume. */
 #include "mesh_parts.h"
 
-/* Returns the ratio of present to reference volume at an integration point of a cell [1]: the determinant of 1 + sum_c
- * u_c (x) grad N_c over the corners c, with their displacements u_c and shape functions N_c. place: (cell << dim) +
- * number of the integration point in the cell. */
+/* Returns the ratio of present to reference volume at an integration point of a cell of the mesh, 0 or less if the cell
+ * is inverted there: the determinant of 1 + sum_c u_c (x) grad N_c over the corners c, with their displacements u_c and
+ * shape functions N_c. place: (cell << dim) + number of the integration point in the cell. */
 static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
 {
     const int32_t cell = place >> dim;
@@ -19,9 +19,9 @@ static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
 }
 
-/* Returns false if a cell cannot be inverted, by a cheap test; true if it may be. No entry of the displacement gradient
- * exceeds the largest difference of a component between corners over h, and a gradient with row sums below 1 inverts no
- * cell. */
+/* Returns false if cell `cell` of the mesh is certainly not inverted, by a cheap test; true if it may be. No entry of
+ * the displacement gradient exceeds the largest difference of a component between corners divided by the cell edge, and
+ * a gradient with row sums below 1 inverts no cell. */
 static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int dim)
 {
     real most = 0;
@@ -37,8 +37,8 @@ static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int d
     return !(dim * most < mesh->grid.h);
 }
 
-/* Returns the smallest particle number, below `first`, among the points of cell `cell` at which the cell is turned
- * inside out (volume ratio <= 0); `first` if there is no such point. */
+/* Returns the smallest particle number below `first` among the points of cell `cell` of the mesh at which the cell is
+ * turned inside out (volume ratio <= 0); `first` if there is no such point. */
 static int64_t inverted_in(const struct mesh *mesh, int64_t cell, int dim, int64_t first)
 {
     for (int64_t place = cell << dim; place < (cell + 1) << dim; place++) {

@@ -62,7 +62,7 @@ static const struct plot_field fields[] = {
     {"spacing", "spacing", 0, "m", FROM_ZERO},
 };
 
-/* Returns true if a field is a component along an axis that a run with `dim` dimensions does not have. The stress
+/* Returns true if `field` is a component along an axis that a run with `dim` dimensions does not have. The stress
  * normal to the plane exists in two-dimensional runs, too. */
 static bool lacks_component(const struct plot_field *field, int dim)
 {
@@ -96,8 +96,8 @@ static status field_unknown(const char *name, const char *const *names)
                       word_propose_similar(name, names, COUNT_OF(fields)).text, all);
 }
 
-/* Returns true if `name` denotes the field `own`: it is its name, or that with the axes of a tensor component in the
- * other order, as in stress_xz and stress_zx. */
+/* Returns true if `name` denotes the field called `own`: it is equal, or equal with the axes of a tensor component in
+ * the other order, as in stress_xz and stress_zx. */
 static bool names_field(const char *name, const char *own)
 {
     const size_t n = strlen(own);
@@ -163,7 +163,7 @@ static bool bonds_broke(const struct output_frame *first, const struct output_fr
     return more;
 }
 
-/* Returns true if a field can be read in the frame f and is not 0 everywhere. path: file of the frame. */
+/* Returns true if `field` can be read in the frame f and is not 0 everywhere. path: file of the frame. */
 static bool field_occurs(const struct plot_field *field, const struct output_frame *f, const char *path)
 {
     float *value = NULL;

@@ -12,8 +12,9 @@
 #include "curves_parts.h"
 #include "scene/scene_read.h"
 
-/* Determines the path of the picture of a field: the option -o, or a file in DIR/pictures, a folder that is created.
- * field: name of the field. Returns REFUSED if the file may not be replaced. */
+/* Determines *path, the path of the picture of a field: the option -o of the request r, or a file in DIR/pictures, a
+ * folder that is created. field: name of the field. Returns REFUSED if the file may not be replaced, FAILED if the
+ * folder cannot be created, both with a message. */
 static status field_path(struct path *path, const struct plot_request *r, const char *field)
 {
     const char *ending = picture_ending[r->format];
@@ -139,8 +140,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     return s;
 }
 
-/* Checks that the slice or the outside view of the request suits a run in `dim` dimensions. Returns REFUSED if the
- * request has one of them and the run has one or two dimensions. */
+/* Checks that the slice or the outside view of the request r suits a run in `dim` dimensions. Returns REFUSED, with a
+ * message, if the request has one of them and the run has one or two dimensions, else OK. */
 static status projection_check(const struct plot_request *r, int dim)
 {
     if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;

@@ -38,8 +38,8 @@ status run_read_frame(struct output_frame *f, const char *folder, int frame_numb
                         : status_set(FAILED, "%s: the name is too long; choose a shorter one", folder);
 }
 
-/* Selects at most `panels` of the frames r->list, evenly spread from the first to the last. A single one is the last
- * frame. */
+/* Selects at most `panels` of the frames r->list to be shown, evenly spread from the first to the last. If panels is 1,
+ * selects the last frame. */
 static void spread_frames(struct run_frames *r, int panels)
 {
     r->shown = r->listed < panels ? r->listed : panels;
@@ -48,8 +48,8 @@ static void spread_frames(struct run_frames *r, int panels)
         r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
 }
 
-/* Selects for each of time[times] [s] the frame that is nearest to it. A frame that is nearest to several consecutive
- * times is selected once. */
+/* Selects in r for each of time[times] [s] the frame that is nearest to it. A frame that is nearest to several
+ * consecutive times is selected once. */
 static void nearest_frames(struct run_frames *r, const double *time, int times)
 {
     r->show = NEW("plot.show", times, struct listed_frame);
@@ -62,8 +62,8 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
     }
 }
 
-/* Checks that the requested times time[times] [s] are within the range of the frames, extended by the mean time between
- * frames at both ends. Returns REFUSED otherwise. */
+/* Checks that the requested times time[times] [s] are within the range of the frames f, extended by the mean time
+ * between frames at both ends. Returns REFUSED, with a message, if one is not, else OK. */
 static status times_within(const struct run_frames *f, const double *time, int times)
 {
     if (f->listed == 0) return OK;
@@ -78,8 +78,8 @@ static status times_within(const struct run_frames *f, const double *time, int t
     return OK;
 }
 
-/* Replaces numbers of load steps among time[r->times] by their times [s], which history.csv states. Returns REFUSED if
- * the run has no such step, FAILED if the file cannot be read. */
+/* Replaces numbers of load steps among time[r->times] by their times [s], which history.csv of the run of request r
+ * states. Returns REFUSED if the run has no such step, FAILED if the file cannot be read, both with a message. */
 static status steps_to_times(double *time, const struct plot_request *r)
 {
     struct history h;

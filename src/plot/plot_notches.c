@@ -34,16 +34,16 @@ static double place_along(const struct faces *f, const double *X, double *off)
     return f->along[0] * x + f->along[1] * y;
 }
 
-/* Returns true if particle i, with the given coordinate s along the pre-crack and distance `off` from it [m], is beside
- * the pre-crack f. */
+/* Returns true if particle i of c, with the coordinate s along the pre-crack and the distance `off` from it [m], is
+ * beside the pre-crack f. */
 static bool is_beside(const struct faces *f, const struct plotted_particles *c, int64_t i, double s, double off)
 {
     const double reach = BESIDE * (c->size ? c->size[i] : c->spacing);
     return fabs(off) <= reach && s >= -0.5 * f->section && s <= f->length + 0.5 * f->section;
 }
 
-/* Moves the pre-crack f to the middle between the edges of the particles on its two sides, where the gap is that opens.
- * A pre-crack along the lattice may be anywhere between two rows, one across it hardly moves. */
+/* Moves the pre-crack f to the middle between the edges of the particles of c on its two sides, where the gap is that
+ * opens. A pre-crack along the lattice may be anywhere between two rows, one across the lattice hardly moves. */
 static void faces_move_between_particles(struct faces *f, const struct plotted_particles *c)
 {
     double edge[2] = {INFINITY, INFINITY}; /* distance of the nearest edge on each side [m] */
@@ -58,10 +58,10 @@ static void faces_move_between_particles(struct faces *f, const struct plotted_p
     f->from[1] += 0.5 * (edge[0] - edge[1]) * f->along[0];
 }
 
-/* Adds the displacement of particle i to that of the adjacent face of the pre-crack. Does nothing if the particle is
- * farther from the pre-crack than BESIDE spacings or badly damaged. Each face is divided into sections along the
- * pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by the deformation
- * gradient, and is added, weighted by nearness, to the sum of the section there. */
+/* Adds the displacement of particle i of c to that of the adjacent face of the pre-crack f. Does nothing if the
+ * particle is farther from the pre-crack than BESIDE spacings or badly damaged. Each face is divided into sections
+ * along the pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by the
+ * deformation gradient, and is added, weighted by nearness, to the sum of the section there. */
 static void face_add_motion(struct faces *f, const struct plotted_particles *c, int64_t i)
 {
     const double X[2] = {c->reference[0][i], c->reference[1][i]}, *axis[2] = {c->camera.right, c->camera.up};
@@ -86,7 +86,7 @@ static void face_add_motion(struct faces *f, const struct plotted_particles *c, 
     f->end = fmax(f->end, fmin(s + 0.5 * reach / BESIDE, f->length));
 }
 
-/* Computes the drawn position x[2] [m] of the point at the distance s [m] along a pre-crack on one of its faces: the
+/* Computes the drawn position x[2] [m] of the point at the distance s [m] along pre-crack f on one of its faces: the
  * initial position plus the mean displacement of the particles beside the face, which is interpolated linearly between
  * the middles of the sections into which the face is divided. side: face, 0 or 1. Returns false if no particle is
  * beside the section at s. */
@@ -105,7 +105,8 @@ static bool face_at(const struct faces *f, int side, double s, double *x)
     return true;
 }
 
-/* Paints the pixels within half a line width of the line between the points a[2] and b[2] [pixel]. */
+/* Paints the pixels of pixel[height][width] within half a line width of the line between the points a[2] and b[2]
+ * [pixel] in the colour c. */
 static void line_paint(struct colour *pixel, int width, int height, const double *a, const double *b, struct colour c)
 {
     const double half = fmax(LINE_HALF * width, LINE_LEAST);
@@ -122,8 +123,8 @@ static void line_paint(struct colour *pixel, int width, int height, const double
                 pixel[(int64_t)row * width + column] = c;
 }
 
-/* Paints both faces of a deformed pre-crack as lines into the image pixel[height][width], which shows the rectangle of
- * the view v. Also fills the gap between the faces where it is too narrow to be seen. */
+/* Paints both faces of the deformed pre-crack f as lines in `colour` into the image pixel[height][width], which shows
+ * the rectangle of the view v. Also fills the gap between the faces where it is too narrow to be seen. */
 static void faces_paint(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
                         struct colour colour)
 {
@@ -149,8 +150,8 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
     }
 }
 
-/* Initialises the two faces of a straight pre-crack, without displacements. Each face is divided into equal sections,
- * at most `section` long [m]. */
+/* Initialises *f as the two faces of the straight pre-crack `crack`, without displacements. Each face is divided into
+ * equal sections, at most `section` long [m]. Allocates their arrays. */
 static void faces_make(struct faces *f, const struct crack *crack, double section)
 {
     *f = (struct faces){.from = {crack->corner[0][0], crack->corner[0][1]}};

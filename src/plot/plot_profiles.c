@@ -35,16 +35,17 @@ static int plot_curves_by_place(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Returns true if the bar has separated between the neighbours a and b: they are far apart, belong to different
- * fragments, or one has no bond left. */
+/* Returns true if the bar has separated between the neighbours a and b: they are farther apart than SEPARATED spacings,
+ * belong to different fragments, or one has no bond left. spacing: spacing of the particles [m]. */
 static bool stations_are_parted(const struct station *a, const struct station *b, double spacing)
 {
     return b->x - a->x > SEPARATED * spacing || (a->fragment >= 0 && b->fragment >= 0 && a->fragment != b->fragment) ||
            fmaxf(a->value[2], b->value[2]) > ALL_BONDS;
 }
 
-/* Makes the profile of a frame. value: values of a field at its particles, or NULL for velocity, stress and damage;
- * spacing: of the particles [m]; projection: names load steps. Release its particles with memory_free. */
+/* Returns the profile of frame f along a bar. value: values of a field at its particles, or NULL for velocity, stress
+ * and damage; spacing: spacing of the particles [m]; projection: states whether labels name load steps instead of
+ * times. Release the member `at` with memory_free. */
 static struct bar_profile profile_make(const struct output_frame *f, const float *value, double spacing,
                                        const struct projection *projection)
 {
@@ -71,8 +72,8 @@ static void profiles_free(struct bar_profile *profile, int profiles)
 
 static double station_number(const struct station *s, int column) { return column < 0 ? s->x : s->value[column]; }
 
-/* Returns the range of the position (column -1) or of value number `column` in profile[profiles], without loose
- * particles unless there are no others, or `loose` is true. */
+/* Returns the range of the position (column -1) or of value number `column` in profile[profiles]. Loose particles (of
+ * pieces of at most LOOSE_MOST particles) count only if there are no others, or if `loose` is true. */
 static struct value_range profiles_range(const struct bar_profile *profile, int profiles, int column, bool loose)
 {
     struct value_range e = {INFINITY, -INFINITY};
@@ -86,9 +87,9 @@ static struct value_range profiles_range(const struct bar_profile *profile, int 
     return e;
 }
 
-/* Returns the range [m] of the axis along the bar: it contains, with half a spacing at both ends, all particles that
- * are not loose (in a piece of at most LOOSE_MOST particles), and loose particles whose distance from these is at most
- * BESIDE of the extent of the others. */
+/* Returns the range [m] of the axis along the bar for profile[profiles]: it contains, with half a spacing at both ends,
+ * all particles that are not loose (in a piece of at most LOOSE_MOST particles), and loose particles whose distance
+ * from these is at most BESIDE times the extent of the others. spacing: spacing of the particles [m]. */
 static struct value_range profiles_axis(const struct bar_profile *profile, int profiles, double spacing)
 {
     const struct value_range bulk = profiles_range(profile, profiles, -1, false);
@@ -104,8 +105,8 @@ static struct value_range profiles_axis(const struct bar_profile *profile, int p
     return (struct value_range){axis.low - more, axis.high + more};
 }
 
-/* Writes the gnuplot command for the range of a vertical axis: the range `of` of the values, divided by `factor`, the
- * unit of the axis, with a margin. If all values are equal, gnuplot chooses the range. */
+/* Writes the gnuplot command for the range of a vertical axis to `to`: the range `of` of the values, divided by
+ * `factor`, the unit of the axis, with a margin. If all values are equal, gnuplot chooses the range. */
 static void write_value_range(FILE *to, struct value_range of, double factor)
 {
     const double margin = 0.06 * (of.high - of.low);
@@ -137,9 +138,10 @@ static int64_t profiles_outside(const struct bar_profile *profile, int profiles,
     return most;
 }
 
-/* Sends the profiles to gnuplot: number K as the data block $fK with positions and values of its particles from left
- * to right, an empty line where the bar has separated, and as $lK those of its loose particles. factor[4]: units of
- * position and values. */
+/* Sends profile[profiles] to gnuplot through `to`: number K as the data block $fK with positions and values of its
+ * particles from left to right, an empty line where the bar has separated, and as $lK those of its loose particles (of
+ * pieces of at most LOOSE_MOST particles). spacing: spacing of the particles [m]; factor[4]: units of position and
+ * values. */
 static void profiles_send(FILE *to, const struct bar_profile *profile, int profiles, double spacing,
                           const double *factor)
 {
@@ -167,7 +169,7 @@ static bool profile_has_loose(const struct bar_profile *p)
 /* Returns the largest absolute value in the range `of`. */
 static double range_magnitude(struct value_range of) { return fmax(fabs(of.low), fabs(of.high)); }
 
-/* Writes what the key calls a profile: its load step, or its time. */
+/* Writes the label of profile p in the key to label[]: its load step, or its time in the unit `second`. */
 static void profile_write_label(char label[NAME_MAX_LENGTH], const struct bar_profile *p, const struct unit *second)
 {
     if (p->label[0])
@@ -176,7 +178,7 @@ static void profile_write_label(char label[NAME_MAX_LENGTH], const struct bar_pr
         snprintf(label, NAME_MAX_LENGTH, "%.3g %s", p->t / second->factor, second->name);
 }
 
-/* Returns the number of letters of the longest entry of the key. */
+/* Returns the number of letters of the longest label in the key of profile[profiles]. */
 static size_t longest_label(const struct bar_profile *profile, int profiles)
 {
     size_t longest = TIME_LETTERS;
@@ -184,7 +186,8 @@ static size_t longest_label(const struct bar_profile *profile, int profiles)
     return longest;
 }
 
-/* Plots value number `column` of profile[profiles] over the position, each with its time in the key. */
+/* Writes the gnuplot command that plots value number `column` of profile[profiles] against the position to `to`, each
+ * profile with its time in the key. */
 static void plot_profiles(FILE *to, const struct bar_profile *profile, int profiles, int column)
 {
     struct unit second = unit_for_largest_value(profile[profiles - 1].t, "s");
@@ -201,8 +204,9 @@ static void plot_profiles(FILE *to, const struct bar_profile *profile, int profi
     putc('\n', to);
 }
 
-/* Draws velocity, stress and damage of profile[profiles] in panels one above another, velocity and damage if they are
- * not 0 everywhere. Returns FAILED if gnuplot fails. */
+/* Draws velocity, stress and damage of profile[profiles] in panels one above another on the picture `sheet`; velocity
+ * and damage only if they are not 0 everywhere. title: title of the picture; spacing: spacing of the particles [m].
+ * Returns FAILED, with a message, if gnuplot fails. */
 static status profiles_draw(struct sheet sheet, const char *title, const struct bar_profile *profile, int profiles,
                             double spacing)
 {
@@ -259,7 +263,9 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct pro
     return s;
 }
 
-/* Draws a field along a bar, value[0] of profile[profiles]. Returns FAILED if gnuplot fails. */
+/* Draws a field along a bar, value[0] of profile[profiles], on the picture `sheet`. title: title of the picture; field:
+ * name, unit and colour scale of the field; spacing: spacing of the particles [m]. Returns FAILED, with a message, if
+ * gnuplot fails. */
 static status field_profile_draw(struct sheet sheet, const char *title, const struct plot_field *field,
                                  const struct bar_profile *profile, int profiles, double spacing)
 {

@@ -51,9 +51,9 @@ static double outline_reach(const struct outline *s, int k)
     return s->half * (s->square ? fabs(s->F[k][0]) + fabs(s->F[k][1]) : hypot(s->F[k][0], s->F[k][1]));
 }
 
-/* Returns the distance [m] that a point of a particle has from the particle's centre before the deformation. off[2]:
- * position of the point relative to the centre after the deformation [m]. Returns INFINITY if the point is more than
- * `beside` [m] outside the particle. */
+/* Returns the distance [m] from the centre of the particle with the outline s, measured before the deformation, of a
+ * point of the particle. off[2]: position of the point relative to the centre after the deformation [m]. Returns
+ * INFINITY if the point is more than `beside` [m] outside the particle. */
 static double distance_within(const struct outline *s, const double *off, double beside)
 {
     double xi[2];
@@ -62,9 +62,9 @@ static double distance_within(const struct outline *s, const double *off, double
     return far <= s->half + beside ? hypot(xi[0], xi[1]) : INFINITY;
 }
 
-/* Paints particle i on all pixels that it covers, except those with a particle of better rank. The rank is better the
- * nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the more damaged the
- * particle is. */
+/* Paints particle i of c on all pixels of the canvas v that it covers, except those with a particle of better rank. The
+ * rank is better the nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the
+ * more damaged the particle is. view: rectangle that is shown; map: what the colours show. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *c, int64_t i,
                            enum map map)
 {

@@ -64,7 +64,7 @@ static double level_at(const struct rigid_shown *r, int dim, const double *x, bo
     return level;
 }
 
-/* Returns the present coordinate of corner k of the box of a rigid body along the unit vector axis[dim] [m]. Bit d of k
+/* Returns the present coordinate of corner k of the box of rigid body r along the unit vector axis[dim] [m]. Bit d of k
  * selects the upper end of the box along axis d. */
 static double corner_along(const struct rigid_shown *r, int dim, int k, const double *axis)
 {
@@ -91,8 +91,9 @@ void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles 
             }
 }
 
-/* Computes the position x[3] [m] of pixel q of a picture of size[0] x size[1] pixels. Pixels are counted row by row
- * from the lower left corner. depth: distance of x from the picture plane towards the viewer [m]. */
+/* Computes the position x[3] [m] of pixel q of a picture of size[0] x size[1] pixels that shows the rectangle of view v
+ * through the camera of c. Pixels are counted row by row from the lower left corner. depth: distance of x from the
+ * picture plane towards the viewer [m]. */
 static void pixel_position(const struct plotted_particles *c, const struct view *v, const int *size, int64_t q,
                            double depth, double *x)
 {
@@ -130,9 +131,10 @@ void rigids_paint_in_plane(struct colour *pixel, int width, int height, const st
         }
 }
 
-/* Returns the brightness of the surface of the rigid body r at x[3] [m]. It is the mean of the brightnesses of the
- * axes, weighted by the squared components of the normal, and is reduced where the surface turns away from the viewer.
- * towards[3]: direction to the viewer; step: distance for finite differences of the level set [m]. */
+/* Returns the brightness of the surface of the rigid body r at x[3] [m], a factor on its colour. It is the mean of the
+ * brightnesses of the axes, weighted by the squared components of the normal, and is reduced where the surface turns
+ * away from the viewer. towards[3]: direction to the viewer; step: distance for finite differences of the level set
+ * [m]. */
 static double brightness_at(const struct rigid_shown *r, const double *x, const double *towards, double step)
 {
     double normal[3], length = 0, shade = 0, facing = 0;

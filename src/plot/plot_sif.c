@@ -44,7 +44,8 @@ struct factors {
 };
 
 /* Finds the columns of K_I, K_II and contour_spread (relative difference between integration contours) of the first
- * PROBES_SHOWN probes of stress-intensity factors, and a unit for the largest factor. */
+ * PROBES_SHOWN probes of stress-intensity factors in the history h, and a unit for the largest factor; stores them in
+ * *f. */
 static void find_factors(struct factors *f, const struct history *h)
 {
     double largest = 0;
@@ -61,8 +62,8 @@ static void find_factors(struct factors *f, const struct history *h)
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
 }
 
-/* Plots the stress-intensity factors. With one probe each mode has a colour; with several probes each probe has a
- * colour, and K_II is dashed. */
+/* Writes the gnuplot command that plots the stress-intensity factors f to `to`. With one probe each mode has a colour;
+ * with several probes each probe has a colour, and K_II is dashed. */
 static void plot_factors(FILE *to, const struct factors *f)
 {
     fputs("plot 0 with lines lw 0.8 lc rgb '#888888'", to);
@@ -74,8 +75,9 @@ static void plot_factors(FILE *to, const struct factors *f)
     putc('\n', to);
 }
 
-/* Plots the relative differences of K between the integration contours of each probe. Values above 1/2 indicate waves,
- * or a kink of the crack, within the contours. l: layout of the picture; f: columns of the probes. */
+/* Writes the gnuplot commands that plot the relative differences of K between the integration contours of each probe to
+ * `to`. Values above 1/2 indicate waves, or a kink of the crack, within the contours. s: history and its column of the
+ * time; l: layout of the picture; f: columns of the probes. */
 static void plot_spread(FILE *to, const struct series *s, const struct curves_layout *l, const struct factors *f)
 {
     const struct two_panels two = curves_layout_edges_of_two_panels(l);
@@ -145,8 +147,8 @@ static double plot_sif_figure_of(const char *folder, const char *probe, const ch
     return summary_read_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Finds the paths of the crack tips that have grown and stores them in w[PATHS_SHOWN]. Returns their number. folder:
- * folder of the run; h: its history. */
+/* Finds the paths of the crack tips that have grown and stores them in w[PATHS_SHOWN]. Returns their number, 0 if there
+ * are none. folder: folder of the run; h: history of the run. */
 static int find_tip_paths(struct tip_path *w, const char *folder, const struct history *h)
 {
     char name[PATHS_SHOWN][NAME_MAX_LENGTH];
@@ -172,8 +174,8 @@ static int find_tip_paths(struct tip_path *w, const char *folder, const struct h
     return n;
 }
 
-/* Sends the path w to gnuplot as the data block $wK (K is the number k): the tip position of each sample, without
- * repeated positions. factor: unit of length [m]. */
+/* Writes the path w from history h to the gnuplot input `to` as the data block $wK (K is the number k): the tip
+ * position of each sample, without repeated positions. factor: unit of length [m], by which positions are divided. */
 static void send_tip_path(FILE *to, const struct history *h, const struct tip_path *w, int k, double factor)
 {
     double last = -1;
@@ -249,7 +251,8 @@ static status paths_open(struct gnuplot *g, const char *path, const struct serie
     return OK;
 }
 
-/* Plots the initial cracks, the lines at the angles of experiments, and the n paths w. metre: unit of length. */
+/* Writes the gnuplot command that plots the initial cracks, the lines at the angles of experiments, and the paths w[n]
+ * to `to`. metre: unit of length. */
 static void plot_tip_paths(FILE *to, const struct tip_path *w, int n, const struct unit *metre)
 {
     double end[2];

@@ -9,7 +9,8 @@
 
 /* ---- rotations --------------------------------------------------------------------------------------------------- */
 
-/* Computes the product to = A b, or A^T b if `back` is true, of a 3 x 3 matrix and a vector. to must not be b. */
+/* Computes the product to = A b, or A^T b if `back` is true, of a 3 x 3 matrix A and a vector b[3]. to[3] must not be
+ * b. */
 static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
 {
     for (int r = 0; r < DIM_MAX; r++) {
@@ -18,7 +19,7 @@ static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real
     }
 }
 
-/* Rotates the columns of A by the rotation vector w [rad] (Rodrigues' formula). */
+/* Rotates the columns of the 3 x 3 matrix A in place by the rotation vector w[3] [rad] (Rodrigues' formula). */
 static void rotate_further(real A[DIM_MAX][DIM_MAX], const real *w)
 {
     const real angle = sqrt(dot(w, w, DIM_MAX));
@@ -32,7 +33,7 @@ static void rotate_further(real A[DIM_MAX][DIM_MAX], const real *w)
     }
 }
 
-/* Solves A x = b for a symmetric positive definite 3 x 3 matrix A, by cofactors. */
+/* Solves A x = b for x[3], by cofactors. A: symmetric positive definite 3 x 3 matrix; b[3]: right-hand side. */
 static void solve_three(real A[DIM_MAX][DIM_MAX], const real *b, real *x)
 {
     real cofactor[DIM_MAX][DIM_MAX], determinant = 0;
@@ -110,8 +111,8 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 
 /* ---- surface ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of point x[DIM_MAX] [m] from the surface of rigid body r [m], negative inside. normal: receives
- * the outward unit normal of the nearest surface point. */
+/* Returns the distance of point x[DIM_MAX] [m] from the surface of rigid body r [m], negative inside. normal[DIM_MAX]:
+ * receives the outward unit normal at the nearest point of the surface. */
 real rigid_signed_distance(const struct rigid_body *r, const real *x, real *normal)
 {
     real arm[DIM_MAX] = {0}, X[DIM_MAX], own[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX];
@@ -210,8 +211,9 @@ void rigid_move_to_prescribed_position(struct rigid_body *r, real t)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the work that moves a driven rigid body against the contact forces in the last time step [J]: the mean of the
- * contact forces at its beginning and end times the displacement. Returns 0 for bodies that are not driven. */
+/* Returns the work of the drive that moves the rigid body r against the contact forces in the last time step [J]: the
+ * mean of the contact forces at the beginning and the end of the step times the displacement. Returns 0 for bodies that
+ * are not driven. */
 static real work_of_step(const struct rigid_body *r)
 {
     real work = 0;
@@ -253,9 +255,10 @@ real rigid_half_step_kinetic_energy_change(const struct rigid_body *r, real dt)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the state of rigid body r to the archive, or restores it; the archive determines which. The state consists of
- * the members of the structure from `x` to the end, which change in each time step. body_number: index of the body,
- * which names its entry in the archive. Returns the status of the archive. */
+/* Saves the state of rigid body r to the archive a if it is saving, else restores it. The state consists of the members
+ * of the structure from `x` to the end, which change in each time step. body_number: index of the body, which names its
+ * entry in the archive. Returns the status of the archive: FAILED, with a message, if the entry cannot be written or is
+ * missing. */
 status rigid_save_or_load(struct rigid_body *r, int body_number, struct archive *a)
 {
     char name[64];

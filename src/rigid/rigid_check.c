@@ -10,8 +10,8 @@
 #define DEEP_MOST 0.6      /* allowed depth of the centre of a particle in a rigid body at the start [spacings] */
 #define INCREMENT_MOST 0.5 /* allowed motion in a step [spacings]: contact acts over a distance of one spacing */
 
-/* Returns REFUSED, with a message, if at the start the centre of a particle is deeper than DEEP_MOST spacings inside
- * rigid body r. */
+/* Returns REFUSED, with a message, if at the start the centre of a particle of p is deeper than DEEP_MOST spacings
+ * inside rigid body r, else OK. s: scene, with spacing and names. */
 static status check_room(const struct rigid_body *r, const struct scene *s, const struct particles *p)
 {
     real deepest = 0, normal[DIM_MAX], x[DIM_MAX] = {0};
@@ -29,7 +29,8 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
         -deepest);
 }
 
-/* Returns REFUSED, with a message, if r is a free body and touches a mirror: its mirror image would be another body. */
+/* Returns REFUSED, with a message, if r is a free body and touches a mirror of scene s: its mirror image would be
+ * another body. Returns OK otherwise. */
 static status check_mirrors(const struct rigid_body *r, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -73,7 +74,7 @@ status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, 
 }
 
 /* Returns true if two rigid bodies overlap: a sampling point inside r is more than half a spacing deep inside `other`.
- * spacing: of the lattice of particles [m]. */
+ * spacing: spacing of the lattice of particles [m]. */
 static bool have_met(const struct rigid_body *r, const struct rigid_body *other, real spacing)
 {
     real from[DIM_MAX], to[DIM_MAX], x[DIM_MAX] = {0}, normal[DIM_MAX];

@@ -24,7 +24,7 @@ struct box_cells {
     real edge[DIM_MAX], longest; /* longest: longest edge of the box [m] */
 };
 
-/* Divides the box from .. to into cells, `samples` along its longest edge. */
+/* Returns the equal cells into which the box from[dim] .. to[dim] [m] is divided, `samples` along its longest edge. */
 static struct box_cells divide_box(const real *from, const real *to, int dim, int samples)
 {
     struct box_cells cells = {.n = {1, 1, 1}, .edge = {1, 1, 1}};
@@ -36,15 +36,16 @@ static struct box_cells divide_box(const real *from, const real *to, int dim, in
     return cells;
 }
 
-/* Computes the middle X[DIM_MAX] [m] of cell number k of a box whose lower corner is `from`. */
+/* Computes the middle X[DIM_MAX] [m] of cell number k (from 0) of the box that `cells` divides. from[dim]: lower corner
+ * of the box [m]. */
 static void box_cell_middle(const struct box_cells *cells, const real *from, int dim, int64_t k, real *X)
 {
     const int64_t at[] = {k % cells->n[0], k / cells->n[0] % cells->n[1], k / cells->n[0] / cells->n[1]};
     for (int d = 0; d < dim; d++) X[d] = from[d] + ((real)at[d] + 0.5) * cells->edge[d];
 }
 
-/* Computes the moments m of a region, which must be 0 before, from the cells of a uniform grid whose middle is in it.
- * from, to: box of the region. */
+/* Computes the moments m of the region `shape`, which must be 0 before, from the cells of a uniform grid whose middle
+ * is in the region. from[dim], to[dim]: corners of the box of the region [m]. */
 static void moments_of_uniform_grid(const struct region *shape, int dim, const real *from, const real *to,
                                     struct region_moments *m)
 {
@@ -79,10 +80,11 @@ struct division {
     real volume, first[DIM_MAX], second[DIM_MAX][DIM_MAX];
 };
 
-/* Adds the part of a cell that is in the region to the sums of q. The level of the middle bounds the distance from the
- * surface from below: a cell whose half diagonal is shorter is inside or outside as a whole. Other cells are divided
- * across their longest edges; after the last division their share is linear in the level, so that no part of the region
- * is too thin to count. middle: of the cell; half: half of its edges [m]; depth: divisions that have led to it. */
+/* Adds the part of a cell that is in the region to the sums of q. The level set at the middle is a lower bound of the
+ * distance from the surface: a cell whose half diagonal is shorter is inside or outside as a whole. Other cells are
+ * divided across their longest edges; after the last division their share is linear in the level set, so that no part
+ * of the region is too thin to count. middle[dim]: middle of the cell [m]; half[dim]: half of its edges [m]; depth:
+ * number of divisions that have led to the cell. */
 static void integrate_cell(struct division *q, const real *middle, const real *half, int depth)
 {
     const int dim = q->dim;
@@ -112,8 +114,9 @@ static void integrate_cell(struct division *q, const real *middle, const real *h
     }
 }
 
-/* Integrates a region over cells that are divided at its surface at most q->divisions times. from, to: box of the
- * region. q: shape, dim and divisions must be set, the other members must be 0. */
+/* Integrates the region q->shape over cells that are divided at its surface at most q->divisions times, into the sums
+ * of q. from[dim], to[dim]: corners of the box of the region [m]. In q, shape, dim and divisions must be set, the other
+ * members must be 0. */
 static void integrate(struct division *q, const real *from, const real *to)
 {
     const struct box_cells roots = divide_box(from, to, q->dim, ROOTS);
@@ -125,8 +128,9 @@ static void integrate(struct division *q, const real *from, const real *to)
     }
 }
 
-/* Computes the moments m from the integrals of two refinements, with one division less and more. They are extrapolated
- * to cells of size 0 (Richardson), since the error is proportional to the edge of the smallest cells. */
+/* Computes the moments m of a region from the integrals of two refinements: `coarse`, with one division less, and
+ * `fine`. They are extrapolated to cells of size 0 (Richardson), since the error is proportional to the edge of the
+ * smallest cells. */
 static void moments_extrapolate(const struct division *coarse, const struct division *fine, struct region_moments *m)
 {
     const int dim = fine->dim;
@@ -140,9 +144,9 @@ static void moments_extrapolate(const struct division *coarse, const struct divi
     }
 }
 
-/* Returns the largest difference of the moments a and b: of the centre over the radius of gyration along the axis, of
- * second moments over the square root of the product of the diagonal ones of b [1]. Returns INFINITY if a or b has no
- * volume or no extent along an axis. */
+/* Returns the largest relative difference of the moments a and b: of the centre divided by the radius of gyration along
+ * the axis, of second moments divided by the square root of the product of the diagonal second moments of b. Returns
+ * INFINITY if a or b has no volume or no extent along an axis. */
 static real moments_distance(const struct region_moments *a, const struct region_moments *b, int dim)
 {
     real most = a->volume > 0 && b->volume > 0 ? 0 : INFINITY;
@@ -156,9 +160,10 @@ static real moments_distance(const struct region_moments *a, const struct region
     return most;
 }
 
-/* Computes the moments `fine` of a region from cells that are divided further and further, until they change by less
- * than CHANGE_SMALL or there are more than CELLS_MOST cells. from, to: box of the region. Returns false if the volume
- * has decreased to less than half in the last refinement, as that of an empty region does. */
+/* Computes the moments `fine` of the region `shape` from cells that are divided further and further, until the moments
+ * change by less than CHANGE_SMALL or there are more than CELLS_MOST cells. from[dim], to[dim]: corners of the box of
+ * the region [m]. Returns false if the volume has decreased to less than half in the last refinement, as that of an
+ * empty region does. */
 static bool refine_moments(const struct region *shape, int dim, const real *from, const real *to,
                            struct region_moments *fine)
 {

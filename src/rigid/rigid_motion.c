@@ -59,8 +59,8 @@ struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-/* Writes the name `<body>_<what>` and the unit of a column of history.csv to column[at]. column: NULL: nothing is
- * written, so that columns can be counted. Returns at + 1, the index of the next column. */
+/* Writes the name `<body>_<what>` and the unit `unit` of a column of history.csv to column[at]. If column is NULL,
+ * writes nothing, so that columns can be counted. Returns at + 1, the index of the next column. */
 static int add_column(struct column *column, int at, const char *body, const char *what, const char *unit)
 {
     if (!column) return at + 1;

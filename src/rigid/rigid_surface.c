@@ -45,7 +45,8 @@ struct net {
     const real *low, *high;     /* box to which the shape is cut [m]; borrowed */
 };
 
-/* Returns the level set of the region at X[dim], cut to its box [m]: negative inside both, 0 on the surface. */
+/* Returns the level set [m] of the region of g at X[dim] [m], cut to the box of g: negative inside both, 0 on the
+ * surface. */
 static real net_level_set(const struct net *g, const real *X)
 {
     real value = region_level_set_value(g->shape, X, g->dim);
@@ -53,13 +54,13 @@ static real net_level_set(const struct net *g, const real *X)
     return value;
 }
 
-/* Returns by how much the indices of neighbouring nodes along axis d differ in the arrays of g. */
+/* Returns the difference between the indices of neighbouring nodes along axis d (0 .. 2) in the arrays of g. */
 static int64_t stride(const struct net *g, int d)
 {
     return d == 0 ? 1 : d == 1 ? g->count[0] : g->count[0] * g->count[1];
 }
 
-/* Computes the position X[dim] of node k of the grid [m]. */
+/* Computes the position X[dim] of node k of the grid g [m]. */
 static void node_position(const struct net *g, int64_t k, real *X)
 {
     for (int d = 0; d < g->dim; k /= g->count[d], d++) X[d] = g->from[d] + (real)(k % g->count[d]) * g->step;
@@ -99,8 +100,9 @@ static void net_make(struct net *g, const struct region *shape, int dim, const r
     }
 }
 
-/* Finds where the surface crosses the edge of the grid along axis d from node k, if it does, by false position in turn
- * with bisection. Stores the crossing and the normal there in g->crossing. */
+/* Finds where the surface crosses the edge of the grid g that begins at node k and extends along axis d, by false
+ * position in turn with bisection, and stores the crossing and the normal there in g->crossing. The level set must
+ * change its sign along the edge. */
 static void crossing_find(struct net *g, int64_t k, int d)
 {
     const real end = g->value[k + stride(g, d)], start = g->value[k], h = 1e-4 * g->step;
@@ -130,8 +132,8 @@ static void crossing_find(struct net *g, int64_t k, int d)
     found->share = at / g->step;
 }
 
-/* Lists in c the crossings of the surface with the edges of the grid cell above node k, at positions in cells from the
- * node, and returns their number. */
+/* Lists in c[CELL_EDGES] the crossings of the surface with the edges of the cell of grid g above node k, at positions
+ * relative to the node in cells. Returns their number. */
 static int cell_crossings_list(const struct net *g, int64_t k, struct cell_crossing c[CELL_EDGES])
 {
     int n = 0;
