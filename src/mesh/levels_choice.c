@@ -19,9 +19,9 @@ enum { CARRIED_BY_ANY = 1 }; /* level that carries all loads but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the rise time of boundary b [s], in which its value grows from 0 to the largest: the largest value over the
- * largest rate of change, as for a ramp; 0 for a jump, INFINITY for a table whose value does not change. For prescribed
- * displacements it is the rise time of their velocity, which is a pulse or jumps (0). */
+/* Returns the rise time of boundary b [s], in which its value grows from 0 to the largest value: the largest value
+ * divided by the largest rate of change, as for a ramp; 0 for a jump, INFINITY for a table whose value does not change.
+ * For prescribed displacements it is the rise time of their velocity, which is a pulse or jumps (0). */
 static real rise_of(const struct boundary *b)
 {
     const struct time_function *f = &b->time;
@@ -53,7 +53,7 @@ static void rise_take(struct load_rise *least, const struct load_rise *one, real
     if (least->kind == RISE_NONE || next < now || (next == now && one->waves < least->waves)) *least = *one;
 }
 
-/* Returns the wave speed of the slowest material of the scene, whose waves the cells must represent, too [m/s]. */
+/* Returns the wave speed of the slowest material of the scene s [m/s], whose waves the cells must represent, too. */
 static real slowest_waves(const struct scene *s)
 {
     real slowest = INFINITY;
@@ -61,7 +61,7 @@ static real slowest_waves(const struct scene *s)
     return slowest;
 }
 
-/* Returns true if an initial state moves or strains anything: not a rotation at rate 0, for example. */
+/* Returns true if the initial state i moves or strains anything; false for a rotation at rate 0, for example. */
 static bool initial_acts(const struct scene_initial *i)
 {
     const int n = DIM_MAX * DIM_MAX;
@@ -70,9 +70,9 @@ static bool initial_acts(const struct scene_initial *i)
     return acts;
 }
 
-/* Returns the load that requires the smallest cells in a body of thickness `across` [spacings], with its rise time.
- * Initial states and moving or rigid bodies count as loads that rise at once, an initial pulse by its width. Returns
- * the kind RISE_NONE if the scene has no load. */
+/* Returns the load of scene s that requires the smallest cells in a body of thickness `across` [spacings], with its
+ * rise time. Initial states and moving or rigid bodies count as loads that rise at once, an initial pulse by its width.
+ * Returns the kind RISE_NONE if the scene has no load. */
 static struct load_rise sharpest_rise(const struct scene *s, real across)
 {
     const real c = slowest_waves(s), D = s->spacing;
@@ -99,9 +99,9 @@ static struct load_rise sharpest_rise(const struct scene *s, real across)
     return least;
 }
 
-/* Returns the thickness of the bodies [spacings]: their smallest extent along an axis in 1D and 2D, the middle one of
- * three in 3D. hollow: cells whose particles were not created; if there are any, the extent is that of the body's
- * shape. */
+/* Returns the thickness of the bodies of p [spacings]: their smallest extent along an axis in 1D and 2D, the middle one
+ * of three in 3D. hollow: cells whose particles were not created; if there are any, the extent is that of the shape of
+ * the body in scene s. */
 static real spacings_across(const struct scene *s, const struct particles *p,
                             const struct cells_without_particles *hollow)
 {
@@ -119,9 +119,9 @@ static real spacings_across(const struct scene *s, const struct particles *p,
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Computes r->room, the highest level that the thickness of the body allows in each cell, if scene s may have coarse
- * cells; otherwise r->room remains NULL. particle_count: number of particles of the body, including those not created.
- */
+/* Computes r->room[cell], the highest coarsening level (0: finest) that the thickness of the body allows in each cell,
+ * if scene s may have coarse cells; otherwise r->room remains NULL. particle_count: number of particles of the body,
+ * including those not created. */
 void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
                                                    int64_t particle_count)
 {
@@ -161,7 +161,8 @@ struct levels_choice mesh_levels_choose_level_count(const struct reference_frame
 
 /* ---- in words ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the load r and its rise time in words to text[capacity], such as "boundary pull is sudden". */
+/* Writes the load r of scene s and its rise time in words to text[capacity], such as "boundary pull is sudden"; a
+ * longer text is truncated. */
 static void rise_text(const struct scene *s, const struct load_rise *r, char *text, size_t capacity)
 {
     char name[NAME_MAX_LENGTH + 32];
@@ -198,7 +199,8 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
                  RISES * edge, edges * edge, c->across);
 }
 
-/* Writes to text[capacity] the reason for the number of refinement levels of cells that was chosen automatically. */
+/* Writes to text[capacity] the reason for the number of coarsening levels of cells that was chosen automatically for
+ * scene s. c: the choice. */
 static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
 {
     char load[256], want[160];
@@ -254,8 +256,8 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
                  2 << c->levels, why);
 }
 
-/* Writes to text[capacity] where the body is too thin for the coarse cells that the scene prescribes. Returns false,
- * without text, if it is thick enough everywhere. */
+/* Writes to text[capacity] where the body of r is too thin for the coarse cells that the scene prescribes. Returns
+ * false, without text, if it is thick enough everywhere. */
 static bool thin_text(const struct reference_frame *r, char *text, size_t capacity)
 {
     const struct grid *g = &r->mesh.grid;

@@ -3,11 +3,11 @@
 
 #include "levels_parts.h"
 
-/* Returns the energy per mass that would be lost if the nodes of level 0 (the finest) inside a cell of `level` (cells
- * with the edge of 2^level finest cells) moved by interpolation between its corners [J/kg]. q: indices of the cell. It
- * is the larger of two estimates. One is the mean energy of the differences of velocity and displacement from the
- * interpolated ones (displacements as a strain over half the cell). The other is the change of kinetic energy by
- * lumping the mass at the corners, which matters where velocities vary much between the corners. */
+/* Returns the energy per mass [J/kg] that would be lost if the nodes of level 0 (the finest) of l inside a cell of
+ * `level` (cells with the edge of 2^level finest cells) moved by interpolation between its corners. q[dim]: indices of
+ * the cell. It is the larger of two estimates. One is the mean energy of the differences of velocity and displacement
+ * from the interpolated values (displacements as a strain over half the cell). The other is the change of kinetic
+ * energy by lumping the mass at the corners, which matters where velocities vary much between the corners. */
 static real departure(const struct mesh_levels *l, int level, const int64_t *q)
 {
     const struct mesh *fine = l->fine;

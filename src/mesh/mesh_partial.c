@@ -25,8 +25,8 @@ struct mode_terms {
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of component ij of a symmetric tensor in the order in which struct particles stores them. i, j:
- * axes, 0 to dim - 1. */
+/* Returns the index (from 0) of component ij of a symmetric tensor in `dim` dimensions, in the order in which struct
+ * particles stores its components. i, j: axes, 0 to dim - 1. */
 static int component(int dim, int i, int j)
 {
     for (int k = 0; k < symmetric_component_count(dim); k++) {
@@ -37,9 +37,9 @@ static int component(int dim, int i, int j)
     return -1;
 }
 
-/* Lists in t the strains that the bending modes of a cell cause. A bending mode is a displacement component i that
- * varies as the product of the coordinates along two or three axes, a bit set M. Its derivative along one of these axes
- * is a strain that varies as the product of the other coordinates; each such strain is one term. */
+/* Lists in t the strains that the bending modes of a cell cause in `dim` dimensions. A bending mode is a displacement
+ * component i that varies as the product of the coordinates along two or three axes, a bit set M. Its derivative along
+ * one of these axes is a strain that varies as the product of the other coordinates; each such strain is one term. */
 static void bends_terms(struct mode_terms *t, int dim)
 {
     for (int M = 3; M < 1 << dim; M++)
@@ -52,8 +52,9 @@ static void bends_terms(struct mode_terms *t, int dim)
             }
 }
 
-/* Lists in t[MODES_MAX] the strains that each deformation mode of a cell causes: first the modes of uniform strain, one
- * for each symmetric component, then the bending modes, set by set of axes (kernels/mesh/mesh_partial.h). */
+/* Lists in t[MODES_MAX] the strains that each deformation mode of a cell causes in `dim` dimensions: first the modes of
+ * uniform strain, one for each symmetric component, then the bending modes, set by set of axes
+ * (kernels/mesh/mesh_partial.h). */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_component_count(dim);
@@ -74,8 +75,8 @@ struct cell_maker {
     struct mode_terms in[MODES_MAX];
 };
 
-/* Computes the matrix C[n][n] of stress by strain of a material [Pa], n = symmetric_component_count(dim); shear strains
- * are angles. */
+/* Computes the matrix C[n][n] of stress by strain of a material m [Pa], n = symmetric_component_count(dim); shear
+ * strains are angles. */
 static void constants(const struct elastic *m, real *C, int dim)
 {
     const int n = symmetric_component_count(dim);
@@ -89,8 +90,8 @@ static void constants(const struct elastic *m, real *C, int dim)
     }
 }
 
-/* Computes the matrix D of stress by strain at point i [Pa]: the constants of its material, minus the part that bonds
- * carry if the point has a partial stress. */
+/* Computes the matrix D[n][n] of stress by strain at point i [Pa], n = c->columns: the constants of its material, minus
+ * the part that bonds carry if the point has a partial stress (leaves a share of its stress to bonds). */
 static void point_constants(const struct cell_maker *c, int32_t i, real *D)
 {
     const int n = c->columns;
@@ -107,9 +108,9 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
 }
 
 /* Computes sum[S] [Pa] for each set S of axes, one bit per axis: the mean over the points of cell I of D times s_S. D
- * is the matrix of stress by strain of a point, 0 for a missing point; s_S is the product of the signs of the point's
- * coordinates, relative to the middle of the cell, along the axes in S. All sums are formed together, along one axis
- * after the other (butterflies). */
+ * is the matrix of stress by strain of a point, 0 for a missing point; s_S is the product of the signs of the
+ * coordinates of the point, relative to the middle of the cell, along the axes in S. All sums are formed together,
+ * along one axis after the other (butterflies). c: mesh and particles. */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -129,8 +130,8 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
 }
 
 /* Returns one entry of the stiffness matrix of a cell in terms of its deformation modes [Pa]: the force on the mode
- * `to` for a unit amplitude of the mode `by`. sum[S]: means over the points of the cell of their stiffness times signs
- * of their coordinates, from cell_sums. */
+ * `to` for a unit amplitude of the mode `by`. c: dimensions; sum[S]: means over the points of the cell of their
+ * stiffness times signs of their coordinates, from cell_sums. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                                   const struct mode_terms *to, const struct mode_terms *by)
 {
@@ -145,9 +146,9 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
 /* Strain of the points of a cell by its modes: [point][symmetric component][mode] [1]; shear strains are angles. */
 typedef real point_strains[CORNERS_MAX][SYM_MAX][MODES_MAX];
 
-/* Computes B, the strains of the points of cell I for unit amplitudes of its deformation modes, with one dilatation for
- * all points of a material in the cell, their mean (mesh_law.h). Returns false, without values, if no material of the
- * cell has a mean dilatation. */
+/* Computes B, the strains of the points of cell I for unit amplitudes of its deformation modes, where all points of a
+ * material in the cell have their mean dilatation (mesh_law.h). c: mesh and particles. Returns false, without values,
+ * if no material of the cell has a mean dilatation. */
 static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strains B)
 {
     const int32_t *point = &c->mesh->point[I << c->dim];
@@ -172,7 +173,8 @@ static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strain
 }
 
 /* Adds to K[MODES_MAX][MODES_MAX] the stiffness B^T D B of a point, divided by the number of points of a whole cell
- * [Pa]. B: strain of the point by the modes; D: its matrix of stress by strain [Pa]. */
+ * [Pa]. c: numbers of modes and components; B: strain of the point by the modes; D: its matrix of stress by strain
+ * [Pa]. */
 static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES_MAX], const real *D,
                                real K[MODES_MAX][MODES_MAX])
 {
@@ -185,9 +187,9 @@ static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES
     }
 }
 
-/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] [Pa] of partial cell I, a cell with a stiffness matrix of its
- * own, in terms of its deformation modes. B: strains of its points for unit amplitudes of the modes, with the mean
- * dilatation (averaged_strains). */
+/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] [Pa] of partial cell I (a cell with missing or unequal points,
+ * which has a stiffness matrix of its own), in terms of its deformation modes. c: mesh and particles; B: strains of its
+ * points for unit amplitudes of the modes, with the mean dilatation (averaged_strains). */
 static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_strains B, real K[MODES_MAX][MODES_MAX])
 {
     memset(K, 0, sizeof(real) * MODES_MAX * MODES_MAX);
@@ -200,10 +202,10 @@ static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_stra
     }
 }
 
-/* Computes the stiffness matrix of partial cell I, a cell with a stiffness matrix of its own, in terms of its
- * deformation modes [Pa], and stores its upper half row by row. K: address of the first entry; the next ones follow at
- * distances of LANES, since the matrices of LANES cells are interleaved. The lower half is not stored, since the matrix
- * is symmetric up to round-off. */
+/* Computes the stiffness matrix of partial cell I (a cell with missing or unequal points, which has a stiffness matrix
+ * of its own), in terms of its deformation modes [Pa], and stores its upper half row by row. c: mesh and particles. K:
+ * address of the first entry; the next entries follow at distances of LANES, since the matrices of LANES cells are
+ * interleaved. The lower half is not stored, since the matrix is symmetric up to round-off. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
@@ -233,7 +235,7 @@ static void ends_free(struct mesh *mesh)
 }
 
 /* Computes share[modes]: how much a unit amplitude of each deformation mode of a cell changes the mean strain of the
- * family of one of its points, which has PD-MPM bonds [1]. local: derivative of this mean strain by the strain of the
+ * family (the neighbours by bonds) of one of its points. local: derivative of this mean strain by the strain of the
  * cell at the point (struct partial_stress); place: number of the point in the cell, 0 .. 2^dim - 1; B: strains of the
  * points by the modes, from averaged_strains, or NULL if each point has its own dilatation. */
 static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
@@ -250,8 +252,8 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
     }
 }
 
-/* Returns the entry of point i in struct partial_stress if the point has state-based PD-MPM bonds, else -1. i: particle
- * number, or -1 for no point. */
+/* Returns the entry of point i in struct partial_stress if the point has state-based bonds to peridynamic particles,
+ * else -1. c: has the partial stresses; i: particle number, or -1 for no point. */
 static int64_t end_entry(const struct cell_maker *c, int32_t i)
 {
     return i >= 0 && point_has_state_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
@@ -297,8 +299,8 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
 
 /* ---- all partial cells ------------------------------------------------------------------------------------------- */
 
-/* Appends cell I to the list of partial cells of the mesh: cells with missing points, partial stresses, several
- * materials or doubled nodes. Their stiffness is computed later (mesh_partial_compute_stiffness). */
+/* Appends cell I to the list of partial cells of the mesh: cells with missing points, partial stresses (left to bonds),
+ * several materials or doubled nodes. Their stiffness is computed later (mesh_partial_compute_stiffness). */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t I)
 {
     GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
@@ -328,8 +330,8 @@ void mesh_partial_free(struct mesh *mesh)
     mesh->stiffness = NULL;
 }
 
-/* Returns the number of the material with the lowest conversion stress among the materials of the points of cell I. s:
- * elastic constants, with these stresses. */
+/* Returns the number of the material with the lowest conversion stress among the materials of the points (of p) of cell
+ * I of the mesh. s: elastic constants, with these stresses. */
 static uint8_t partial_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -342,8 +344,9 @@ static uint8_t partial_material(const struct mesh *mesh, const struct particles 
     return (uint8_t)least;
 }
 
-/* Returns the parameters for computing the stiffness matrices of partial cells, those with missing points, partial
- * stresses, several materials or doubled nodes. Release `whole` with memory_free. */
+/* Returns the parameters for computing the stiffness matrices of the partial cells of the mesh (cells with missing
+ * points, partial stresses, several materials or doubled nodes) from particles p and material data s. Release the
+ * member `whole` with memory_free. */
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -378,8 +381,8 @@ static void group_copy(real *to, real *old, const int64_t *from, int64_t group, 
         for (int l = 0; l < LANES; l++) own[k + l] = source[l][k];
 }
 
-/* Fills up the last group of LANES partial cells (cells with a stiffness matrix of their own) by copies of its first
- * cell. The copies have no stiffness and are not counted. */
+/* Fills up the last group of LANES partial cells of the mesh (cells with a stiffness matrix of their own) by copies of
+ * its first cell. The copies have no stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
     const int64_t whole = mesh_partial_cell_group_count(mesh) * LANES, partial_cells = mesh->partial_cells;
@@ -387,10 +390,10 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Returns for each partial cell (a cell with a stiffness matrix of its own) its index in `old`, the list before a
- * change of cells, from which its stiffness is copied. The index is -1 if the stiffness must be computed, because the
- * cell is new or marked in `dirty` (NULL: all cells are), and for the lanes that fill the last group of LANES cells.
- * Release the list with memory_free. */
+/* Returns a list with the index of each partial cell of the mesh (a cell with a stiffness matrix of its own) in `old`,
+ * the list before a change of cells, from which its stiffness is copied. The index is -1 if the stiffness must be
+ * computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the lanes that fill the last
+ * group of LANES cells. Release the list with memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = BARE("mesh.from", mesh_partial_cell_group_count(mesh) * LANES, int64_t);
@@ -416,8 +419,8 @@ static real *numbers_make(const char *label, const struct mesh *mesh, int64_t ea
     return numbers;
 }
 
-/* Returns true if two groups g and h of LANES partial cells have bitwise equal numbers in the array `of`, such as
- * stiffnesses. each: numbers per cell. */
+/* Returns true if two groups g and h of LANES partial cells (cells with a stiffness matrix of their own) have bitwise
+ * equal numbers in the array `of`, such as stiffnesses. each: numbers per cell. */
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
     const int64_t size = (int64_t)each * LANES;

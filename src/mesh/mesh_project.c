@@ -22,9 +22,9 @@ struct projection {
     real *row; /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
-/* Returns the sum of m_p N_I value_p over the points p of cell `cell`, with their masses m_p and the shape function N_I
- * of node I, which is corner c of the cell. value: a value for each particle; dim: dimensions, a compile-time
- * constant. */
+/* Returns the sum of m_p N_I value_p over the points p of cell `cell` of the mesh m->mesh, with their masses m_p and
+ * the shape function N_I of node I, which is corner c of the cell. value[particles]: a value for each particle; dim:
+ * dimensions, a compile-time constant. */
 static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int c, const real *value, const int dim)
 {
     const int32_t *point = m->mesh->point + (cell << dim);
@@ -34,11 +34,11 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
     return sum;
 }
 
-/* Returns the number of nodes in the cells around a node, including the node: 3^dim. */
+/* Returns the number of nodes in the cells around a node, including the node itself, in `dim` dimensions: 3^dim. */
 static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
 
 /* Returns the index, from 0 to 3^dim - 1, of corner k of a cell in the list of the nodes around a node. c: number of
- * the corner of this cell at which the node is. */
+ * the corner of this cell at which the node is; dim: dimensions. */
 static int node_around(int dim, int c, int k)
 {
     int at = 0;
@@ -46,8 +46,8 @@ static int node_around(int dim, int c, int k)
     return at;
 }
 
-/* Computes row[3^dim] of the consistent mass matrix at node I [kg]: the sums of m_p N_I N_J over the points p around
- * node I, for the nodes J around it. */
+/* Computes row[3^dim] of the consistent mass matrix of the mesh m->mesh at node I [kg]: the sums of m_p N_I N_J over
+ * the points p around node I, for the nodes J around it. */
 static void row_make(const struct projection *m, int64_t I, real *row)
 {
     const int dim = m->p->dim;
@@ -61,7 +61,7 @@ static void row_make(const struct projection *m, int64_t I, real *row)
 }
 
 /* Returns the product of one row of the mass matrix, row[3^dim], with the nodal values around its node. from: address
- * of the value at this node; across, layer: index distances of neighbours along y and z. */
+ * of the value at this node; across, layer: index distances of neighbouring nodes along y and z. */
 static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
 {
     real sum = 0;
@@ -81,8 +81,9 @@ static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
     return 0.375 * (line_product(from - row) + line_product(from + row)) + 1.25 * line_product(from);
 }
 
-/* Returns the product of a row of the mass matrix with nodal values, for a node around which all points exist and have
- * mass 1. from: address of the value at the node; row, layer: index distances of neighbouring nodes along y and z. */
+/* Returns the product of a row of the mass matrix with nodal values in `dim` dimensions, for a node around which all
+ * points exist and have mass 1. from: address of the value at the node; row, layer: index distances of neighbouring
+ * nodes along y and z. */
 static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_product(from);
@@ -96,8 +97,9 @@ static bool is_unknown(const struct projection *m, int64_t I)
     return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]);
 }
 
-/* Returns the right side of the projection at node I, the sum of m_p N_I value_p over the points p around it, cell by
- * cell (m_p: mass, N_I: shape function); 0 if the value at the node is not computed. */
+/* Returns the right side of the projection m at node I, the sum of m_p N_I value_p over the points p around it, cell by
+ * cell (m_p: mass, N_I: shape function); 0 if the value at the node is not computed. value[particles]: values to be
+ * projected; dim: dimensions. */
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
@@ -108,7 +110,8 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
     return sum;
 }
 
-/* Returns true if a slit divides a cell around node I, or gives such a cell extra nodes. */
+/* Returns true if a slit (a gap for a pre-crack) divides a cell around node I of the mesh, or gives such a cell extra
+ * nodes. */
 static bool beside_slit(const struct mesh *mesh, int64_t I)
 {
     bool beside = false;
@@ -119,9 +122,9 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
     return beside;
 }
 
-/* Returns the product of row I of the mass matrix with the nodal values `from`, for a node I beside a slit. The product
- * is summed point by point, since corners of the cells around I may be extra nodes, which slits add. Returns 0 for
- * nodes whose values are not unknowns of the projection. */
+/* Returns the product of row I of the mass matrix of m with the nodal values `from`, for a node I beside a slit (a gap
+ * for a pre-crack). The product is summed point by point, since corners of the cells around I may be extra nodes, which
+ * slits add. Returns 0 for nodes whose values are not unknowns of the projection. dim: dimensions. */
 static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
 {
     real sum = 0;
@@ -138,9 +141,10 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
     return sum;
 }
 
-/* Computes to[I] for all nodes I. If `value` is not NULL, to[I] is the right side of the projection, the sum of m_p N_I
- * value_p over the points p (m_p: mass, N_I: shape function). Else it is the product of the mass matrix with the nodal
- * values `from`. to[I] is 0 for nodes whose values are not unknowns. Each node is written by one thread. */
+/* Computes to[I] for all nodes I of the mesh of m. If `value` is not NULL, to[I] is the right side of the projection,
+ * the sum of m_p N_I value_p over the points p (m_p: mass, N_I: shape function). Else it is the product of the mass
+ * matrix with the nodal values `from`. to[I] is 0 for nodes whose values are not unknowns. Each node is written by one
+ * thread. dim: dimensions. */
 static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to,
                                        const int dim)
 {
@@ -176,8 +180,8 @@ static void gather(const struct projection *m, const real *value, const real *fr
     }
 }
 
-/* Returns the mass of the points around node I [kg] if all of them exist and have the same mass. Returns 0 if not, if a
- * slit is near, or if the value at the node is not an unknown of the projection. */
+/* Returns the mass of each point around node I of the mesh of m [kg] if all of them exist and have the same mass.
+ * Returns 0 if not, if a slit is near, or if the value at the node is not an unknown of the projection. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
@@ -199,8 +203,8 @@ static void masses_find(struct projection *m)
     for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
 }
 
-/* Computes the rows of the mass matrix that inner_product cannot replace: those of nodes whose value is unknown, and
- * around which points are missing or have unequal masses. Nodes beside slits get no row. */
+/* Computes the rows of the mass matrix of m that inner_product cannot replace: those of nodes whose value is unknown,
+ * and around which points are missing or have unequal masses. Nodes beside slits (gaps for pre-cracks) get no row. */
 static void mesh_project_rows_make(struct projection *m)
 {
     const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];
@@ -247,9 +251,9 @@ static real mesh_project_largest_of(const real *a, int64_t n)
     return most;
 }
 
-/* Solves for the nodal values x[nodes] that fit the values at points, by conjugate gradients on the consistent mass
- * matrix with the lumped one as preconditioner. Starts from the lumped projection if all nodes are unknown, else from
- * x. */
+/* Computes the nodal values x[nodes] that fit value[particles], the values at the points, by conjugate gradients on the
+ * consistent mass matrix of m with the lumped matrix as preconditioner. Starts from the lumped projection if all nodes
+ * are unknown, else from x. */
 static void project(const struct projection *m, const real *value, real *x)
 {
     const int64_t n = m->mesh->grid.n;

@@ -60,7 +60,8 @@ static bool positions_parted(const struct slit_maker *m, int32_t i, const real *
     return false;
 }
 
-/* Returns true if a slit or void separates the reference positions of particles i and j. */
+/* Returns true if a slit (a pre-crack as a gap of the mesh) or a void of m separates the reference positions of
+ * particles i and j. */
 static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -69,7 +70,8 @@ static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
     return positions_parted(m, i, a, b);
 }
 
-/* Sets mark[J] = 1 for cell I of grid g and all cells J that are at most two cells away from it along each axis. */
+/* Sets mark[J] = 1 for cell I of grid g and all cells J that are at most two cells away from it along each axis.
+ * mark[g->n]. */
 static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
 {
     enum { FAR = 2 };
@@ -82,7 +84,8 @@ static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
             }
 }
 
-/* Returns true if a slit, or a particle near a void, is within about two cells of node I. */
+/* Returns true if a slit (a pre-crack as a gap of the mesh), or a particle near a void, is within about two cells of
+ * node I of the mesh of m. */
 static bool slit_near(const struct slit_maker *m, int64_t I)
 {
     const struct grid *g = &m->mesh->grid;
@@ -94,8 +97,9 @@ static bool slit_near(const struct slit_maker *m, int64_t I)
     return false;
 }
 
-/* Divides the points of cell I into pieces, sets of points that no slit separates. Stores the piece of each point in
- * m->piece and the number of pieces in m->pieces. Appends an extra cell to m->cell for each piece but the first. */
+/* Divides the points of cell I of the mesh of m into pieces, sets of points that no slit separates. Stores the piece of
+ * each point in m->piece and the number of pieces in m->pieces. Appends an extra cell to m->cell for each piece but the
+ * first. */
 static void cell_divide(struct slit_maker *m, int64_t I)
 {
     const int corners = 1 << m->p->dim;
@@ -118,8 +122,9 @@ static void cell_divide(struct slit_maker *m, int64_t I)
 
 /* ---- groups of pieces around a node ------------------------------------------------------------------------------ */
 
-/* Returns the cell that contains piece number `bit` around node I. A piece is a set of points of a cell that no slit
- * separates. Its number around a node is 8 c + g for piece g of the cell of which the node is corner c. */
+/* Returns the cell that contains piece number `bit` around node I of the mesh of m. A piece is a set of points of a
+ * cell that no slit separates. Its number around a node is 8 c + g for piece g of the cell of which the node is corner
+ * c. */
 static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
 {
     return I - m->mesh->corner[bit / CORNERS_MAX];

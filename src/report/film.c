@@ -28,7 +28,7 @@ static void *copy_of(const void *from, int64_t n, size_t size)
     return to;
 }
 
-/* Returns true if the particles of a frame are those of the particle set s (the particles that consecutive frames have
+/* Returns true if the particles of `frame` are those of the particle set s (the particles that consecutive frames have
  * in common): number, reference positions and sizes are equal. */
 static bool set_is_of(const struct film_set *s, const struct output_frame *frame)
 {
@@ -61,8 +61,9 @@ static void set_free(struct film_set *s)
     memory_free(s->hidden);
 }
 
-/* Sets s->busy[i] to true for each particle i of the particle set s that is damaged or has yielded in a frame. Also
- * updates s->history[i], a hash of the kinds and fragments of particle i in all frames. path: file of the frame. */
+/* Sets s->busy[i] to true for each particle i of the particle set s (the particles that consecutive frames have in
+ * common) that is damaged or has yielded in `frame`. Also updates s->history[i], a hash of the kinds and fragments of
+ * particle i in all frames. path: file of the frame. */
 static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
 {
     int columns = 0;
@@ -78,9 +79,9 @@ static void set_mark(struct film_set *s, const struct output_frame *frame, const
 
 /* ---- first reading ----------------------------------------------------------------------------------------------- */
 
-/* Adds a frame to the film f. Creates a new particle set if the frame does not have the particles of the last one, and
- * extends the ranges of displacements and fields by the frame. shown: entry of the frame in the film, in which set and
- * step are stored; path: file of the frame. */
+/* Adds a frame to the film f. Creates a new particle set if the frame does not have the particles of the last set (the
+ * particles that consecutive frames have in common), and extends the ranges of displacements and fields by the frame.
+ * shown: entry of the frame in the film, in which set and step are stored; path: file of the frame. */
 static void frame_scan(struct film *f, struct film_frame *shown, const struct output_frame *frame, const char *path)
 {
     if (f->sets == 0 || !set_is_of(&f->set[f->sets - 1], frame)) {
@@ -134,7 +135,8 @@ void film_free(struct film *f)
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Selects at most `most` of the frames that were read, evenly spread, to be shown, and sets f->used to their number. */
+/* Selects at most `most` of the frames of film f that were read, evenly spread, to be shown, and sets f->used to their
+ * number. */
 static void frames_use(struct film *f, int most)
 {
     for (int k = 0; k < f->frames; k++) f->frame[k].used = false;
@@ -142,7 +144,7 @@ static void frames_use(struct film *f, int most)
     for (int k = 0; k < f->used; k++) f->frame[spread(k, f->frames, f->used)].used = true;
 }
 
-/* Divides the particles of all particle sets of the film into groups, each of which is shown as one particle. A group
+/* Divides the particles of all particle sets of the film f into groups, each of which is shown as one particle. A group
  * is a particle or a cubic cell of particles; f->levels limits the size of the cells. If f->every > 1, only every
  * f->every-th group is shown; groups with damaged or yielded particles are exempt unless f->thins_busy is true. */
 static void film_group(struct film *f)
@@ -150,8 +152,8 @@ static void film_group(struct film *f)
     for (int k = 0; k < f->sets; k++) film_particle_set_form_groups(&f->set[k], f);
 }
 
-/* Returns true if the film, with the frames, fields and groups (particles shown as one) that are selected now, takes at
- * most `budget` bytes on the page. */
+/* Returns true if the film f, with the frames, fields and groups (particles shown as one) that are selected now, takes
+ * at most `budget` bytes on the page. */
 static bool fits(const struct film *f, int64_t budget)
 {
     const int64_t each = 2 * f->dim + film_bytes_per_group_and_frame(f), once = 2 * f->dim + 6;
@@ -161,7 +163,7 @@ static bool fits(const struct film *f, int64_t budget)
     return bytes <= budget;
 }
 
-/* Adds contents to the film as far as the budget allows: first the fields that are left out if the budget is short,
+/* Adds contents to the film f as far as the budget allows: first the fields that are left out if the budget is short,
  * then more frames. budget: largest size of the film on the page [byte]. */
 static void film_fill(struct film *f, int64_t budget)
 {
@@ -195,7 +197,7 @@ void film_select_within_byte_budget(struct film *f, int64_t byte_budget)
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
 
 /* Writes the coordinate along axis d of the reference positions of all shown groups (particles shown as one) of the
- * particle set s to the page: the means over the particles of each group, as 16-bit numbers between the smallest and
+ * particle set s to the page p: the means over the particles of each group, as 16-bit numbers between the smallest and
  * the largest mean. */
 static void write_positions(struct page *p, const struct film_set *s, int d)
 {
@@ -217,9 +219,9 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     memory_free(stored), memory_free(mean);
 }
 
-/* Writes the displacements of a frame along axis d for all shown groups (particles shown as one) of the particle set s
- * to the page: the mean of u over the particles of each group, divided by the largest displacement f->reach[d], as a
- * signed 16-bit number. u[s->n]: displacements of the particles [m]. */
+/* Writes the displacements of a frame of film f along axis d for all shown groups (particles shown as one) of the
+ * particle set s to the page p: the mean of u over the particles of each group, divided by the largest displacement
+ * f->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
 static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
 {
     int16_t *stored = NEW("report.stored", s->shown, int16_t);
@@ -245,8 +247,9 @@ static void write_sizes(struct page *p, const struct film *f, const struct film_
     memory_free(size);
 }
 
-/* Writes the data that all frames of a particle set share: numbers, reference positions, sizes, and fields that do not
- * change. frame, path: the first frame of the set and its file. */
+/* Writes the data that all frames of the particle set s (the particles that these frames have in common) share to the
+ * page p: numbers, reference positions, sizes, and fields that do not change. f: film; frame, path: the first frame of
+ * the set and its file. */
 static void write_film_set(struct page *p, const struct film *f, const struct film_set *s,
                            const struct output_frame *frame, const char *path)
 {

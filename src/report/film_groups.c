@@ -23,8 +23,8 @@ static int member_compare(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
-/* Returns a number that identifies the cubic cell, with an edge of 2^level spacings, that contains particle i.
- * from[dim]: lower corner of the lattice [m]. */
+/* Returns a number that identifies the cubic cell of the lattice, with an edge of 2^level spacings of film f, that
+ * contains particle i of the set s. from[dim]: lower corner of the lattice [m]. */
 static uint64_t cell_key(const struct film_set *s, const struct film *f, const double *from, int level, int64_t i)
 {
     uint64_t key = (uint64_t)level;
@@ -41,15 +41,15 @@ static bool particles_are_alike(const struct film_set *s, int64_t i, int64_t j)
 }
 
 /* Returns true if particle i of the set s may be merged with others into a cubic cell of the lattice. It must be
- * undamaged and elastic in all frames, and its spacing must be that of the film. */
+ * undamaged and elastic in all frames, and its spacing must be that of the film f. */
 static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_t i)
 {
     return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
 }
 
-/* Merges particles of the set s into cubic cells with an edge of 2^level spacings. For the particles of each cell that
- * they fill completely, sets s->level to `level`, if all of them have the same material and body, and the same kinds
- * and fragments in all frames. from[dim]: lower corner of the lattice [m]. */
+/* Merges particles of the set s into cubic cells with an edge of 2^level spacings of film f. For the particles of each
+ * cell that they fill completely, sets s->level to `level`, if all of them have the same material and body, and the
+ * same kinds and fragments in all frames. from[dim]: lower corner of the lattice [m]. */
 static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);
@@ -69,8 +69,9 @@ static void merge_cells(struct film_set *s, const struct film *f, const double *
     memory_free(m);
 }
 
-/* Sets the lists of particles of each group, s->groups, s->first and s->member. Particles with s->level > 0 in the same
- * cell of this level form a group. from[dim]: lower corner of the lattice [m]. */
+/* Sets the lists of particles of each group (particles shown as one) of the set s: s->groups, s->first and s->member.
+ * Particles with s->level > 0 in the same cell of this level form a group. f: film, with the spacing; from[dim]: lower
+ * corner of the lattice [m]. */
 static void film_groups_fill(struct film_set *s, const struct film *f, const double *from)
 {
     struct member *m = BARE("report.members", s->n, struct member);

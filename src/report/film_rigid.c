@@ -5,11 +5,11 @@
 #include "film.h"
 #include "rigid/rigid_surface.h"
 
-/* Returns the number of rigid bodies that a page shows: none in one dimension or without the scene. */
+/* Returns the number of rigid bodies that the page of film f shows: none in one dimension or without the scene. */
 static int rigids_of(const struct film *f) { return f->scene && f->dim > 1 ? f->scene->rigids : 0; }
 
-/* Computes the bounding box of the particles in the first frame. low[dim], high[dim]: receive its lower and upper
- * corner [m]. */
+/* Computes the bounding box of the particles in the first frame of film f. low[dim], high[dim]: receive its lower and
+ * upper corner [m]. */
 static void particles_box(const struct film *f, real *low, real *high)
 {
     const struct film_set *s = &f->set[0];
@@ -19,7 +19,7 @@ static void particles_box(const struct film *f, real *low, real *high)
     }
 }
 
-/* Writes the numbers value[n] as an array to the JSON of the page. key: name of the array; NULL if the array is an
+/* Writes the numbers value[n] as an array to the JSON of the page p. key: name of the array; NULL if the array is an
  * element of a list and has no name. */
 static void write_vector(struct page *p, const char *key, const real *value, int n)
 {
@@ -28,7 +28,7 @@ static void write_vector(struct page *p, const char *key, const real *value, int
     json_close(&p->json, ']');
 }
 
-/* Writes a surface in `dim` dimensions to the page: its points [points][dim], relative to centre[dim] [m], and its
+/* Writes a surface s in `dim` dimensions to the page p: its points [points][dim], relative to centre[dim] [m], and its
  * faces [faces][corners], indices of points, as arrays in single precision, in which the indices are exact. */
 static void write_surface(struct page *p, const struct rigid_surface *s, const real *centre, int dim)
 {

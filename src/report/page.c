@@ -97,8 +97,8 @@ static void write_escaped(FILE *to, const char *text)
     }
 }
 
-/* Writes the JSON text[length] with every < escaped, so that no string in it can end a <script> element. In JSON, <
- * occurs in strings only. */
+/* Writes the JSON text[length] to the file `to` with every < escaped, so that no string in it can end a <script>
+ * element. In JSON, < occurs in strings only. */
 static void write_json(FILE *to, const char *text, size_t length)
 {
     for (size_t k = 0; k < length; k++) {
@@ -130,7 +130,8 @@ static void write_page(FILE *to, const struct page *p, const char *title)
     fputs("</script>\n</body></html>\n", to);
 }
 
-/* Closes the streams of JSON and arrays of the page. Returns FAILED if there was no memory for them. */
+/* Closes the streams of JSON and arrays of the page p. Returns FAILED, with a message, if there was no memory for
+ * them. */
 static status page_close(struct page *p)
 {
     fputs("\n}\n", p->json.file);

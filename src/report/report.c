@@ -12,7 +12,7 @@
 #include "plot/plot.h"
 #include "report_parts.h"
 
-/* Checks that `folder` contains a run or a study. Returns REFUSED otherwise. */
+/* Returns OK if `folder` contains a run or a study, else REFUSED, with a message. */
 static status folder_check_kind(const char *folder)
 {
     const struct printable_name shown = printable_name(folder);
@@ -30,9 +30,9 @@ static status folder_check_kind(const char *folder)
                       shown.text);
 }
 
-/* Determines the path of the page: the option -o, or report.html in the folder. Creates the folder of -o if its name
- * ends in /. Returns REFUSED if the name is empty or too long. Without --overwrite, also returns REFUSED if the page
- * would replace a file that is no page of Cleave. */
+/* Determines *path, the path of the page of request r: the option -o, or report.html in the folder. Creates the folder
+ * of -o if its name ends in /. Returns REFUSED, with a message, if the name is empty or too long. Without --overwrite,
+ * also returns REFUSED if the page would replace a file that is no page of Cleave. */
 static status page_destination(struct path *path, const struct report_request *r)
 {
     const char *out = r->out ? r->out : r->folder;
@@ -50,8 +50,8 @@ static status page_destination(struct path *path, const struct report_request *r
                       printable_name(path->text).text);
 }
 
-/* Writes the entries that all pages have: the folder of the request r, and the version, commit, processor and time with
- * which the page is made. */
+/* Writes the entries that all pages have to the page p: the folder of the request r, and the version, commit, processor
+ * and time with which the page is made. */
 static void write_origin(struct page *p, const struct report_request *r)
 {
     json_write_text(&p->json, "folder", r->folder);

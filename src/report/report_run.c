@@ -53,9 +53,9 @@ static void write_figures(struct page *p, const char *folder, const char *header
 
 /* ---- history ----------------------------------------------------------------------------------------------------- */
 
-/* Writes the columns of history.csv in `folder` in single precision. Of long histories it writes every n-th line, so
- * that they fit into HISTORY_BYTES, and the last line. header: first line of the file; "": there is no file. Returns
- * FAILED if the file cannot be read. */
+/* Writes the columns of history.csv in `folder` in single precision to the page p. Of long histories it writes every
+ * n-th line, so that they fit into HISTORY_BYTES, and the last line. header: first line of the file; "": there is no
+ * file. Returns FAILED, with a message, if the file cannot be read. */
 static status write_history(struct page *p, const char *folder, const char *header)
 {
     struct history h;
@@ -83,7 +83,7 @@ static status write_history(struct page *p, const char *folder, const char *head
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the corners of the pre-cracks of a scene to the JSON of the page [m]. */
+/* Writes the corners of the pre-cracks of scene s to the JSON of the page p [m]. */
 static void write_pre_cracks(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "cracks", '[');
@@ -99,7 +99,7 @@ static void write_pre_cracks(struct page *p, const struct scene *s)
     json_close(&p->json, ']');
 }
 
-/* Writes the names of the materials and bodies of a scene to the JSON of the page. */
+/* Writes the names of the materials and bodies of scene s to the JSON of the page p. */
 static void write_names(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "names", '{');
@@ -113,8 +113,9 @@ static void write_names(struct page *p, const struct scene *s)
     json_close(&p->json, '}');
 }
 
-/* Draws the scene to a temporary file beside the page and adds the picture to the page. scene: path of the scene file;
- * path: path of the page. Returns FAILED or REFUSED, with the reason in the message, if the scene cannot be drawn. */
+/* Draws the scene to a temporary file beside the page and adds the picture to the page p. scene: path of the scene
+ * file; path: path of the page. Returns FAILED or REFUSED, with the reason in the message, if the scene cannot be
+ * drawn. */
 static status write_picture(struct page *p, const char *scene, const char *path)
 {
     struct path picture;
@@ -131,8 +132,8 @@ static status write_picture(struct page *p, const char *scene, const char *path)
     return s;
 }
 
-/* Writes the names and pre-cracks of the scene s to the page, and its picture. folder: folder of the run; particles:
- * number of particles in the first frame; path: file of the page. */
+/* Writes the names and pre-cracks of the scene s to the page p, and its picture. folder: folder of the run; particles:
+ * number of particles in the first frame; path: path of the page. */
 static void write_scene(struct page *p, const char *folder, const struct scene *s, int64_t particles, const char *path)
 {
     json_write_text(&p->json, "name", s->name);
@@ -147,9 +148,9 @@ static void write_scene(struct page *p, const char *folder, const struct scene *
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the frames of the run in `folder` to the page, which shows them as a film; writes nothing if there are none.
- * scene: of the run; NULL: not known. Stores the number of particles of the first frame in *particles, 0 without
- * frames. Returns FAILED if a frame cannot be read. */
+/* Writes the frames of the run in `folder` to the page p, which shows them as a film; writes nothing if there are none.
+ * scene: scene of the run; NULL: not known. Stores the number of particles of the first frame in *particles, 0 without
+ * frames. Returns FAILED, with a message, if a frame cannot be read. */
 static status write_film(struct page *p, const char *folder, const struct scene *scene, int64_t *particles)
 {
     struct film f;

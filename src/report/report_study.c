@@ -44,7 +44,7 @@ static void folder_names_free(char **name, int n)
     memory_free(name);
 }
 
-/* Adds the pictures that Cleave has drawn for the study in `folder` to the page, at most PICTURES_MOST. */
+/* Adds the pictures that Cleave has drawn for the study in `folder` to the page p, at most PICTURES_MOST. */
 static void write_pictures(struct page *p, const char *folder)
 {
     char **name;
@@ -68,7 +68,7 @@ static void write_pictures(struct page *p, const char *folder)
     folder_names_free(name, n);
 }
 
-/* Adds the warnings of the runs of the study in `folder` to the page, each text once and at most WARNINGS_MOST. */
+/* Adds the warnings of the runs of the study in `folder` to the page p, each text once and at most WARNINGS_MOST. */
 static void write_warnings(struct page *p, const char *folder)
 {
     char **name, key[32], text[MESSAGE_ROOM];
@@ -93,7 +93,7 @@ static void write_warnings(struct page *p, const char *folder)
     folder_names_free(name, n);
 }
 
-/* Returns true if the run in `folder` has a summary that says it is done. */
+/* Returns true if the run in `folder` has a summary.json whose state is "done". */
 static bool run_is_done(const char *folder)
 {
     char state[32] = "";
@@ -101,8 +101,8 @@ static bool run_is_done(const char *folder)
     return strcmp(state, "done") == 0;
 }
 
-/* Adds the reasons for which runs of the study in `folder` have failed to the page, with the names of the runs, at most
- * REASONS_MOST. */
+/* Adds the reasons for which runs of the study in `folder` have failed to the page p, with the names of the runs, at
+ * most REASONS_MOST. */
 static void write_reasons(struct page *p, const char *folder)
 {
     char **log, text[MESSAGE_ROOM];
@@ -122,7 +122,7 @@ static void write_reasons(struct page *p, const char *folder)
     folder_names_free(log, n);
 }
 
-/* Adds the units of the columns of sweep.csv to the page: for varied keys the units of numbers without a unit, for
+/* Adds the units of the columns of sweep.csv to the page p: for varied keys the units of numbers without a unit, for
  * figures the units in the header of history.csv of the first run that has such a file. folder: folder of the study. */
 static void write_study_units(struct page *p, const char *folder)
 {
