@@ -22,9 +22,9 @@ static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint
 
 /* ---- archive entries --------------------------------------------------------------------------------------------- */
 
-/* Composes path[capacity], the path of an archive entry in the HDF5 file, from the entry's name. All entries are in the
- * group /state. Each '/' in a name becomes '.', because HDF5 would read it as a group, which fails if the part before
- * it is the name of an entry, too. */
+/* Composes path[capacity], the path of the archive entry called `name` in the HDF5 file. All entries are in the group
+ * /state. Each '/' in a name becomes '.', because HDF5 would read it as a group, which fails if the part before it is
+ * the name of an entry, too. */
 static void entry_path(char *path, size_t capacity, const char *name)
 {
     int length = snprintf(path, capacity, "/state/%s", name);
@@ -32,8 +32,8 @@ static void entry_path(char *path, size_t capacity, const char *name)
     for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
 }
 
-/* Writes one archive entry: `size` bytes of `data` under `name`. Returns FAILED after a fault of the file. The fault is
- * recorded in the struct hdf of the file, so that the function that opened the file reports it. */
+/* Writes one entry of the archive a: `size` bytes of `data` under `name`. Returns FAILED after a fault of the file. The
+ * fault is recorded in the struct hdf of the file, so that the function that opened the file reports it. */
 static status entry_save(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -43,8 +43,8 @@ static status entry_save(struct archive *a, const char *name, void *data, size_t
     return f->failed ? FAILED : OK;
 }
 
-/* Reads one archive entry, `size` bytes, into `data`. Returns FAILED if the entry is missing, of another size or
- * unreadable. */
+/* Reads one entry of the archive a, `size` bytes under `name`, into `data`. Returns FAILED if the entry is missing, of
+ * another size or unreadable. */
 static status entry_restore(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -76,8 +76,8 @@ static struct archive archive_of(struct hdf *f, bool saving)
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
 /* Writes the state of a run to an HDF5 file under the temporary name of `path`, without the footer (length and hash).
- * scene_text: text of the scene, which is stored in the file; archive_all(context, a): must pass all entries of the
- * state to the archive a. Returns FAILED on a fault, with the file removed. */
+ * o: output of the run; scene_text: text of the scene, which is stored in the file; archive_all(context, a): must pass
+ * all entries of the state to the archive a. Returns FAILED, with a message, on a fault, with the file removed. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {
@@ -97,8 +97,9 @@ static status state_write(struct output *o, const char *path, const char *scene_
     return f.failed ? file_report_write_failure(path, f.cause) : s;
 }
 
-/* Synchronises history.csv with the disk. It is done before a checkpoint is written, since the run may be resumed only
- * from a checkpoint whose earlier samples are in the file. Returns FAILED if it is not possible. */
+/* Synchronises history.csv of the output o with the disk. It is done before a checkpoint is written, since the run may
+ * be resumed only from a checkpoint whose earlier samples are in the file. Returns FAILED, with a message, if it is not
+ * possible. */
 static status history_sync(const struct output *o)
 {
     if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;
@@ -139,8 +140,8 @@ static bool same_scene(struct hdf *f, const char *scene_text)
 }
 
 /* Restores the state of a run from the checkpoint `path`, whose hash must have been checked. archive_all(context, a):
- * must read all entries of the state from the archive a. Returns FAILED if the file has another format, belongs to
- * another scene than scene_text, or cannot be read. */
+ * must read all entries of the state from the archive a. Returns FAILED, with a message, if the file has another
+ * format, belongs to another scene than scene_text, or cannot be read. */
 static status state_read(const char *path, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct hdf f;

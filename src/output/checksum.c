@@ -20,9 +20,9 @@ struct hash {
     uint64_t lane[LANES_OF_HASH], length;
 };
 
-/* Mixes one word into a lane of the hash and returns the new lane: the hash of Fowler, Noll and Vo (FNV-1a) on 64-bit
- * words instead of bytes, with an additional shift because a product carries only to higher bits. It is invertible in
- * `lane` and in `word`: a change of one word changes the lane in all later steps. */
+/* Returns `lane`, one of the lanes of the hash, after `word` has been mixed into it: the hash of Fowler, Noll and Vo
+ * (FNV-1a) on 64-bit words instead of bytes, with an additional shift because a product carries only to higher bits. It
+ * is invertible in `lane` and in `word`: a change of one word changes the lane in all later steps. */
 static inline uint64_t hash_step(uint64_t lane, uint64_t word)
 {
     lane = (lane ^ word) * UINT64_C(0x9E3779B97F4A7C15);
@@ -50,7 +50,7 @@ static void hash_strides(struct hash *h, const unsigned char *bytes, size_t stri
     h->lane[0] = a, h->lane[1] = b, h->lane[2] = c, h->lane[3] = d;
 }
 
-/* Adds `length` bytes to the hash. If `length` is no multiple of STRIDE, the last block is filled up with zeros. */
+/* Adds bytes[length] to the hash h. If `length` is no multiple of STRIDE, the last block is filled up with zeros. */
 static void hash_add(struct hash *h, const unsigned char *bytes, size_t length)
 {
     unsigned char rest[STRIDE] = {0};

@@ -15,8 +15,8 @@
  * line. */
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
 
-/* Returns the name in a column heading of `length` characters, `name [unit]`, without the unit. Release it with
- * memory_free. */
+/* Returns an allocated copy of the name in a column heading `name [unit]` of `length` characters, without the unit.
+ * from: beginning of the heading. Release it with memory_free. */
 static char *history_column_name(const char *from, size_t length)
 {
     char *name = NEW("history.name", (int64_t)length + 1, char);
@@ -40,7 +40,7 @@ static void read_header(struct history *h, const char *line)
 }
 
 /* Reads one line of history.csv into row[h->columns]. An entry that is not a number becomes NAN. Returns false if the
- * line has another number of entries. */
+ * line has another number of entries than the header, h->columns. */
 static bool read_row(const struct history *h, const char *line, double *row)
 {
     const char *at = line;
@@ -117,7 +117,7 @@ void history_free(struct history *h)
     *h = (struct history){0};
 }
 
-/* Returns the index of the column with exactly this name; -1 if there is none. */
+/* Returns the index of the column of h with exactly the name `name`; -1 if there is none. */
 static int column_called(const struct history *h, const char *name)
 {
     for (int k = 0; k < h->columns; k++)

@@ -17,8 +17,8 @@ static void json_string(struct json *j, const char *text)
     fputc('"', j->file);
 }
 
-/* Begins an entry of a JSON object or list: writes a comma after the previous entry if there is one, a line feed, the
- * indent and the key. key: NULL for an entry of a list. */
+/* Begins an entry of a JSON object or list in j: writes a comma after the previous entry if there is one, a line feed,
+ * the indent and the key. key: NULL for an entry of a list. */
 static void json_key(struct json *j, const char *key)
 {
     fprintf(j->file, "%s\n%*s", j->filled ? "," : "", 2 * j->depth, "");

@@ -79,8 +79,8 @@ static status head_columns(struct dump *d, struct dump_head *h)
     return OK;
 }
 
-/* Reads the header of the next time step into *h. Sets *more to false if the file ends before the header is
- * complete. Returns FAILED for text that is no dump of LAMMPS. */
+/* Reads the header of the next time step of the dump d into *h. Sets *more to false if the file ends before the header
+ * is complete, else to true. Returns FAILED, with a message, for text that is no dump of LAMMPS. */
 static status head_next(struct dump *d, struct dump_head *h, bool *more)
 {
     *more = dump_line(d);
@@ -108,8 +108,8 @@ static bool skip_rows(struct dump *d, int64_t n)
     return more;
 }
 
-/* Appends the numbers of all complete time steps of the dump d to the array *step of *n entries, which grows.
- * Returns FAILED unless they ascend. */
+/* Appends the numbers of all complete time steps of the dump d to the array *step of *n entries, which grows; the
+ * caller releases it. Returns FAILED, with a message, unless they ascend. */
 static status steps_read(struct dump *d, int *n, int64_t **step)
 {
     struct dump_head h;
@@ -177,9 +177,9 @@ static bool dump_row_read(const struct dump *d, const struct dump_head *h, doubl
     return true;
 }
 
-/* Reads the lines of all particles of the time step with header h into f, in the order of their ids. seen[n]:
- * working memory, all 0 before, that marks the ids read. Returns FAILED if an id is repeated or out of range, or a
- * line is malformed. */
+/* Reads the lines of all particles of the time step with header h from the dump d into f, in the order of their ids.
+ * seen[h->n]: working memory, all 0 before, that marks the ids read. Returns FAILED, with a message, if an id is
+ * repeated or out of range, or a line is malformed. */
 static status rows_take(struct dump *d, const struct dump_head *h, struct lammps_frame *f, uint8_t *seen)
 {
     double value[WANTED];

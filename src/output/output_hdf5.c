@@ -52,7 +52,7 @@ static bool good(struct hdf *f, int64_t result)
     return false;
 }
 
-/* Returns true if no operation on the file has failed so far. Clears errno for the next call. */
+/* Returns true if no operation on the file f has failed so far. Clears errno for the next call. */
 static bool ready(const struct hdf *f)
 {
     errno = 0;
@@ -60,7 +60,8 @@ static bool ready(const struct hdf *f)
 }
 
 /* Returns the access properties for an HDF5 file: objects that are still open are closed with it, and no file locks are
- * used, which some network file systems do not have. Release the list with H5Pclose. */
+ * used, which some network file systems do not have. Release the list with H5Pclose. On a fault, records it in f and
+ * returns a negative number. */
 static hid_t access_list(struct hdf *f)
 {
     hid_t list = -1;
@@ -160,7 +161,8 @@ static bool table_is_fill(const struct table *t, int64_t first, int64_t end)
     return arrays_equal(at, &t->fill, 1, t->number) && arrays_equal(at + t->number, at, 1, length - t->number);
 }
 
-/* Writes the rows first .. end - 1 of a table, one chunk, to the file. Returns false on a fault. */
+/* Writes the rows first .. end - 1 of table t, one chunk, to the file f. Returns false on a fault, which is recorded in
+ * f. */
 static bool table_write_chunk(struct hdf *f, const struct table *t, int64_t first, int64_t end)
 {
     const hsize_t at[2] = {(hsize_t)first, 0}, shape[2] = {(hsize_t)(end - first), t->stored};
@@ -176,8 +178,8 @@ static bool table_write_chunk(struct hdf *f, const struct table *t, int64_t firs
            good(f, H5Dwrite(t->set, t->native, from, t->space, H5P_DEFAULT, rows)) && good(f, H5Sclose(from));
 }
 
-/* Writes all chunks of a table in which a number differs from the fill value; HDF5 reads the others as fill value.
- * Returns false on a fault. */
+/* Writes to the file f all chunks of table t in which a number differs from the fill value; HDF5 reads the others as
+ * fill value. Returns false on a fault, which is recorded in f. */
 static bool table_write_chunks(struct hdf *f, const struct table *t)
 {
     for (int64_t first = 0; first < t->rows; first += t->chunk) {
@@ -187,8 +189,8 @@ static bool table_write_chunks(struct hdf *f, const struct table *t)
     return true;
 }
 
-/* Returns the creation properties of a table: fill value, chunks of t->chunk rows, compressed if f->compress. Returns
- * -1 on a fault. */
+/* Returns the creation properties of table t for the file f: fill value, chunks of t->chunk rows, compressed if
+ * f->compress. Returns -1 on a fault. Release the list with H5Pclose. */
 static hid_t table_list(struct hdf *f, const struct table *t)
 {
     const hsize_t chunk[2] = {(hsize_t)t->chunk, t->stored};
@@ -241,9 +243,9 @@ bool hdf_read_external_link_target(struct hdf *f, const char *name, char *target
 
 /* ---- virtual datasets -------------------------------------------------------------------------------------------- */
 
-/* Maps the rows of one source file to the rows of a virtual dataset from at[0] on. list: creation properties of the
- * dataset; space: its data space; name: path of the dataset in the source; shape[rank]: rows and columns of the
- * source. Returns false on a fault. */
+/* Maps the rows of one source file to the rows of a virtual dataset of f from at[0] on. list: creation properties of
+ * the dataset; space: its data space; name: path of the dataset in the source; at[rank]: first row and column in the
+ * virtual dataset; shape[rank]: rows and columns of the source. Returns false on a fault. */
 static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
 {
@@ -276,8 +278,8 @@ void hdf_write_virtual_dataset(struct hdf *f, const char *name, enum hdf_type ty
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* Returns an HDF5 type of fixed length for the text `text`, or -1 on a fault. VTK 9.1 cannot read texts of variable
- * length. Release it with H5Tclose. */
+/* Returns an HDF5 type of fixed length for the text `text`, or -1 on a fault, which is recorded in f. VTK 9.1 cannot
+ * read texts of variable length. Release it with H5Tclose. */
 static hid_t text_type(struct hdf *f, const char *text)
 {
     hid_t type = -1;
@@ -317,8 +319,8 @@ void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
     free(plain);
 }
 
-/* Writes the attribute `name` of the group `group`, with one value *value of the HDF5 type `type`, and closes the data
- * space `space`. */
+/* Writes the attribute `name` of the group `group` in the file f, with one value *value of the HDF5 type `type`, and
+ * closes the data space `space`. */
 static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {

@@ -28,7 +28,7 @@ struct line {
     FILE *to;
 };
 
-/* Opens a memory stream l->to for the text of a line. Returns false if memory is exhausted. */
+/* Opens a memory stream l->to for the text of a line. Returns false if memory is exhausted. Release with line_end. */
 static bool line_begin(struct line *l)
 {
     *l = (struct line){0};
@@ -36,8 +36,8 @@ static bool line_begin(struct line *l)
     return l->to != NULL;
 }
 
-/* Writes the finished line to history.csv, adds it to length and hash of the file in o, and frees it. Returns FAILED if
- * it cannot be written. */
+/* Writes the finished line l to history.csv of the output o, adds it to length and hash of the file in o, and frees it.
+ * Returns FAILED, with a message, if it cannot be written. */
 static status line_end(struct output *o, struct line *l)
 {
     errno = 0;
@@ -50,7 +50,8 @@ static status line_end(struct output *o, struct line *l)
     return s;
 }
 
-/* Writes the header of history.csv: `name [unit]` of all columns. Returns FAILED if it cannot be written. */
+/* Writes the header of history.csv of the output o: `name [unit]` of all columns column[]. Returns FAILED, with a
+ * message, if it cannot be written. */
 static status history_header(struct output *o, const struct column *column)
 {
     struct line l;
@@ -69,9 +70,9 @@ static status history_header(struct output *o, const struct column *column)
     return line_end(o, &l);
 }
 
-/* Cuts history.csv to the length that it had at the checkpoint that is resumed. The result is a new file, so that
- * targets of links and other hard links to the old file remain unchanged. Returns FAILED if the file is missing or
- * shorter, or if this part of it has changed. */
+/* Cuts history.csv of the output o to the length that it had at the checkpoint that is resumed. The result is a new
+ * file, so that targets of links and other hard links to the old file remain unchanged. Returns FAILED, with a message,
+ * if the file is missing or shorter, or if this part of it has changed. */
 static status history_cut(const struct output *o)
 {
     struct path path = history_path(o);

@@ -23,15 +23,16 @@ static bool is_still_there(int fd, const char *path)
     return fstat(fd, &own) == 0 && lstat(path, &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev;
 }
 
-/* Returns true if the open file has another hard link: writing to it would then change another file. */
+/* Returns true if the open file fd has another hard link: writing to it would then change another file. */
 static bool has_other_names(int fd)
 {
     struct stat own;
     return fstat(fd, &own) == 0 && own.st_nlink > 1;
 }
 
-/* Checks that the open file fd is empty or begins with the text with which lock files of Cleave begin. path: its name,
- * for messages. Returns REFUSED if it begins otherwise, and FAILED if it cannot be read. */
+/* Checks that the open file fd is empty or begins with the text with which lock files of Cleave begin. path: name of
+ * the file, for messages. Returns REFUSED if it begins otherwise, and FAILED if it cannot be read, both with a
+ * message. */
 static status lock_file_check(int fd, const char *path)
 {
     char begin[sizeof lock_begin - 1];
@@ -52,7 +53,7 @@ static int lock_try(int fd)
     return errno == EACCES ? EAGAIN : errno;
 }
 
-/* Returns REFUSED with the message that the folder is in use by the process that holds the lock, as named in the lock
+/* Returns REFUSED with the message that `folder` is in use by the process that holds the lock, as named in the lock
  * file fd. */
 static status say_holder(int fd, const char *folder)
 {

@@ -18,8 +18,8 @@
  * particles by less. The limit bounds the memory that a damaged file can request. */
 enum { PARTICLES_PER_BYTE_MOST = 1024 };
 
-/* Reads the dataset `name` of n rows and `columns` columns. Copies its column from[k] to a new array out[k][n], for k =
- * 0 .. wanted - 1. The caller releases the arrays. */
+/* Reads the dataset `name` of h, with n rows and `columns` columns. Copies its column from[k] to a new array out[k][n],
+ * for k = 0 .. wanted - 1. The caller releases the arrays with memory_free. */
 static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
                          float **out)
 {
@@ -32,8 +32,8 @@ static void read_columns(struct hdf *h, const char *name, int64_t n, int columns
     memory_free(data);
 }
 
-/* Reads the reference positions of n particles in `dim` dimensions into new arrays X[dim][n] [m], which the caller
- * releases. */
+/* Reads the reference positions of n particles in `dim` dimensions from h into new arrays X[dim][n] [m], which the
+ * caller releases with memory_free. */
 static void read_reference(struct hdf *h, int64_t n, int dim, real **X)
 {
     double *data = NEW("frame.columns", n * dim, double);
@@ -52,8 +52,8 @@ static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int6
     return data;
 }
 
-/* Reads all fields of a frame into new arrays of f. Stress components are in the order of struct particles; in plane
- * spaces zz is the last one. */
+/* Reads all fields of a frame from the file h into new arrays of f. Stress components are in the order of struct
+ * particles (xx yy xy in 2D, xx yy zz xy yz xz in 3D); in plane spaces zz follows as the last one. */
 static void read_fields(struct output_frame *f, struct hdf *h)
 {
     static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
@@ -74,8 +74,8 @@ static void read_fields(struct output_frame *f, struct hdf *h)
         f->spacing = read_list(h, "/VTKHDF/PointData/spacing", HDF_F32, f->n);
 }
 
-/* Reads dimension, time, step and number of particles of a frame into f. Values out of range are recorded as a fault of
- * the file. bytes: size of the file. */
+/* Reads dimension, time, step and number of particles of a frame from the file h into f. Values out of range are
+ * recorded as a fault of the file. bytes: size of the file. */
 static void read_size(struct output_frame *f, struct hdf *h, int64_t bytes)
 {
     int32_t dim = 0;
@@ -131,8 +131,8 @@ void frame_free(struct output_frame *f)
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
-/* Copies the quantity of particle i from which a derived field is computed, stress or velocity as `from` selects, to
- * row[SYM_MAX]. Components that the space does not have are 0. */
+/* Copies the quantity of particle i of frame f from which a derived field is computed, stress or velocity as `from`
+ * selects, to row[SYM_MAX]. Components that the space does not have are 0. */
 static void source_row(const struct output_frame *f, enum derived_from from, int64_t i, real *row)
 {
     static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* order of read_fields */

@@ -111,8 +111,9 @@ struct picture_size picture_size_get(void) { return usual; }
  * in a PNG. NARROW_LETTERS: factor on the size of letters in narrow pictures, which then have 7 points. */
 static const double PDF_LETTERS = 0.5, NARROW_LETTERS = 0.8;
 
-/* Writes the commands that select the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. width,
- * height: size of the picture [pixel]; scale: factor on the size of letters, and in PNG of lines and points [1]. */
+/* Writes to gnuplot g the commands that select the terminal for `format`: SVG, PDF, or PNG by pngcairo (antialiased) if
+ * gnuplot has it. width, height: size of the picture [pixel]; scale: factor on the size of letters, and in PNG of lines
+ * and points. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height, double scale)
 {
     const double letters = picture_is_too_narrow_for_key() ? NARROW_LETTERS * scale : scale, lines = scale;
@@ -154,8 +155,8 @@ static void gnuplot_release(struct gnuplot *g)
 static const double CURVES_HIGHER = 1.35;
 
 /* Returns the height [pixel] of a picture that is laid out for width x height [pixel]. It is the height that the user
- * has chosen. If the user has chosen only a width, the height of the layout is scaled with the width; a narrow picture
- * of curves is made a little higher. letters: factor on the size of letters [1], which is 1 for pictures of curves. */
+ * has chosen, if any. If the user has chosen only a width, the height of the layout is scaled with the width; a narrow
+ * picture of curves is made a little higher. letters: factor on the size of letters, 1 for pictures of curves. */
 static int height_for(int width, int height, double letters)
 {
     const double scale = usual.width ? (double)usual.width / width : 1;
@@ -164,9 +165,9 @@ static int height_for(int width, int height, double letters)
                        (picture_is_too_narrow_for_key() && letters == 1 && scale < 1 ? CURVES_HIGHER : 1));
 }
 
-/* Opens gnuplot for the picture `path` of the given format. width, height: size of the picture [pixel]; letters: factor
- * on the size of letters [1]. Returns REFUSED if `path` contains control characters, FAILED if gnuplot cannot be
- * started. */
+/* Opens *g, a process of gnuplot for the picture `path` of the given format. width, height: size of the picture
+ * [pixel]; letters: factor on the size of letters. Returns REFUSED if `path` contains control characters, FAILED if
+ * gnuplot cannot be started, both with a message. */
 static status open_with_letters(struct gnuplot *g, const char *path, enum picture_format format, int width, int height,
                                 double letters)
 {
@@ -255,8 +256,8 @@ static size_t break_of(const char *text)
     return best;
 }
 
-/* Writes the first `length` bytes of `text`, a line of a title, into part[TITLE_ROOM]; if their width exceeds `most`,
- * as many as fit before `...`. most: width over the size of the letters in points [pixel]. */
+/* Writes the first `length` bytes of `text`, a line of a title, to part[TITLE_ROOM]; if their width exceeds `most`, as
+ * many bytes as fit before `...`. most: largest width [pixel] divided by the size of the letters in points. */
 static void write_title_line(char *part, const char *text, size_t length, double most)
 {
     const bool cut = text_width(text, length) > most;

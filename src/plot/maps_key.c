@@ -53,17 +53,19 @@ static double bar_tics(const struct bar_scale *s, int length)
     return fmax(s->tics, tic_distance(s->high - s->low, length, picture_is_too_narrow_for_key() ? 22 : 28));
 }
 
-/* Returns the length [pixel] of a vertical colour bar: the height of the panels, but at most BAR_HIGHEST. The bar is
- * longer than low panels if its label, without the unit, needs this length and the picture has the space. panels:
- * height of all rows of panels; room: height of the picture below the upper edge of the bar [pixel]. */
+/* Returns the length [pixel] of a vertical colour bar with the scale s: the height of the panels, but at most
+ * BAR_HIGHEST. The bar is longer than low panels if its label, without the unit, needs this length and the picture has
+ * the space. panels: height of all rows of panels [pixel]; room: height of the picture below the upper edge of the bar
+ * [pixel]. */
 static int bar_length(const struct bar_scale *s, int panels, int room)
 {
     const int label = (int)fmin(letter_wide() * (double)strcspn(s->label, "["), room - 40);
     return panels >= BAR_HIGHEST ? BAR_HIGHEST : panels > label ? panels : label;
 }
 
-/* Returns the part of the label of a vertical colour bar, its unit, that is written in a second line because the label
- * is longer than the bar; NULL if the label fits into one line. length: length of the bar [pixel]. */
+/* Returns the part of the label of a vertical colour bar with the scale s, its unit, that is written in a second line
+ * because the label is longer than the bar; NULL if the label fits into one line. The result points into s->label.
+ * length: length of the bar [pixel]. */
 static const char *bar_second_line(const struct bar_scale *s, int length)
 {
     return letter_wide() * (double)strlen(s->label) > length ? strstr(s->label, " [") : NULL;
@@ -80,16 +82,17 @@ int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_he
     return (int)(bar_from() + BAR_WIDE + numbers_from() + numbers + LABEL_HALF + lines * letter_wide());
 }
 
-/* Returns true if the picture states shares of particles beyond the ends of its colours: those of the field of its
- * view. */
+/* Returns true if the picture of maps m states the shares of particles beyond the ends of its colours: if the colours
+ * show the field of its view. */
 static bool has_shares(const struct maps_shown *m)
 {
     return m->map == MAP_FIELD || (m->map == MAP_DAMAGE && map_of_field(m->view->field) == MAP_DAMAGE);
 }
 
-/* Writes beside one end of the colour bar which percentage of the particles have values beyond this end. Writes nothing
- * if no particle has. end: 0 for the lower end, 1 for the upper one; particles: number of particles of a frame; x, y:
- * position of the text from the upper left corner of the picture [pixel]; adjust: `left` or `right`. */
+/* Writes to gnuplot, beside one end of the colour bar, which percentage of the particles have values beyond this end.
+ * Writes nothing if no particle has. l: layout; view: ends of the colours and numbers of particles beyond; end: 0 for
+ * the lower end, 1 for the upper; particles: number of particles of a frame; x, y: position of the text from the upper
+ * left corner of the picture [pixel]; adjust: `left` or `right`. */
 static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int end, double x,
                         double y, const char *adjust)
 {
@@ -99,9 +102,9 @@ static void draw_beyond(FILE *to, const struct layout *l, const struct view *vie
             percent < 99 ? 2 : 3, percent, end ? "above" : "below", x / l->width, 1 - y / l->height, adjust);
 }
 
-/* Writes the gnuplot commands for the label of a vertical colour bar, with the unit in a second line if the label is
- * longer than the bar. x, y: centre of the first line, from the upper left corner of the picture [pixel]; length:
- * length of the bar [pixel]. */
+/* Writes to gnuplot the commands for the label of a vertical colour bar with the scale s, with the unit in a second
+ * line if the label is longer than the bar. l: layout; x, y: centre of the first line, from the upper left corner of
+ * the picture [pixel]; length: length of the bar [pixel]. */
 static void draw_bar_label(FILE *to, const struct layout *l, const struct bar_scale *s, double x, double y, int length)
 {
     const char *unit = bar_second_line(s, length);
@@ -113,8 +116,8 @@ static void draw_bar_label(FILE *to, const struct layout *l, const struct bar_sc
                 (x + letter_wide() * (2 * line - 0.2 * !!unit)) / l->width, 1 - y / l->height);
 }
 
-/* Writes the gnuplot commands that draw the colour bar as a narrow panel on the right of the first row of panels. s:
- * scale of the bar; particles: number of particles of a frame. */
+/* Writes to gnuplot the commands that draw the colour bar of the maps m as a narrow panel on the right of the first row
+ * of panels. l: layout; s: scale of the bar; particles: number of particles of a frame. */
 static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
                             int64_t particles)
 {
@@ -137,8 +140,8 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
     panel_write_image(to, pixel, BAR_ACROSS, BAR_STEPS, from, step, "");
 }
 
-/* Writes the gnuplot commands that draw the colour bar below the panels and as wide as all of them, with its label
- * below the numbers. s: scale of the bar; particles: number of particles of a frame. */
+/* Writes to gnuplot the commands that draw the colour bar of the maps m below the panels and as wide as all of them,
+ * with its label below the numbers. l: layout; s: scale of the bar; particles: number of particles of a frame. */
 static void draw_bar_under(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
                            int64_t particles)
 {
@@ -196,8 +199,9 @@ void map_key_make(struct map_key *key, enum map map, const struct view *view, bo
     if (has_rigid_bodies) map_key_add(key, rigid_body_colour(map), "rigid");
 }
 
-/* Draws the entry e of the key (legend): a square in the colour of the entry, unless that is transparent, and its text.
- * x, y: position of the entry from the upper left corner of the picture [pixel]. */
+/* Writes to gnuplot the commands that draw the entry e of the key (legend): a square in the colour of the entry, unless
+ * that is transparent, and its text. l: layout; x, y: position of the entry from the upper left corner of the picture
+ * [pixel]. */
 static void key_entry(FILE *to, const struct layout *l, double x, double y, const struct category *e)
 {
     if (e->colour.alpha > 0)

@@ -26,10 +26,10 @@ static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger
 
 bool map_has_colour_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
 
-/* Returns a layout in which only the margins of the panels are set: above for the title, left for the axis, and right
- * for the colour bar or the key, with the distance of columns. The lower margin is set by strip_set. under: the colour
- * bar, or the key of a map of named values, is below the panels; before: layout with the size of the panels, on which
- * the widths of numbers and of the bar depend, or NULL if it is not known yet. */
+/* Returns a layout for the maps m in which only the margins of the panels are set: above for the title, left for the
+ * axis, and right for the colour bar or the key, with the distance of columns. The lower margin is set by strip_set.
+ * under: the colour bar, or the key of a map of named values, is below the panels; before: layout with the size of the
+ * panels, on which the widths of numbers and of the bar depend, or NULL if it is not known yet. */
 static struct layout margins_of(const struct maps_shown *m, bool under, const struct layout *before)
 {
     const int panels = before ? before->rows * before->panel_height + (before->rows - 1) * GAP_Y : 0;
@@ -62,8 +62,8 @@ static struct layout margins_of(const struct maps_shown *m, bool under, const st
     return l;
 }
 
-/* Computes the number of entries in a row of the key below the panels, for a picture of the given width [pixel].
- * Computes from it the margin below the panels, in which the axis labels, the colour bar and the key are. */
+/* Computes in l the number of entries in a row of the key below the panels, for a picture of the given width [pixel],
+ * and from it the margin below the panels, in which the axis labels, the colour bar and the key are. */
 static void strip_set(struct layout *l, int width)
 {
     l->key_columns = (int)fmax((width - KEY_LEFT) / fmax(l->entry, 1), 1);
@@ -71,7 +71,8 @@ static void strip_set(struct layout *l, int width)
     l->below = l->axes + (l->bar_under ? BAR_STRIP : 0) + (lines > 0 ? lines * KEY_ROW + KEY_UNDER : 0);
 }
 
-/* Returns the largest height of a picture [pixel]. tall: of which the width alone is given, the height of a page. */
+/* Returns the largest height of a picture [pixel]. tall: true for a picture of which the width alone is given: it may
+ * be as high as a page. */
 static double height_most(bool tall)
 {
     const struct picture_size given = picture_size_get();
@@ -79,7 +80,7 @@ static double height_most(bool tall)
     return tall ? PAGE_HEIGHT : fmin(HEIGHT_MAX, TALL_MOST * given.width);
 }
 
-/* Returns true if the panels of a layout have room in a picture of the size that the user has chosen, and their titles
+/* Returns true if the panels of layout l fit into a picture of the size that the user has chosen, with their titles
  * beside one another. more: width of the picture beyond what the layout needs [pixel]; height: largest height of the
  * picture [pixel]. */
 static bool panels_fit(const struct layout *l, int more, double height)
@@ -89,8 +90,8 @@ static bool panels_fit(const struct layout *l, int more, double height)
            (l->columns == 1 || l->panel_width + l->gap >= PANEL_TITLE * letter);
 }
 
-/* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height over width of a
- * panel; height: largest height of the picture [pixel]; margins: layout with the margins of the panels. */
+/* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height of a panel divided by
+ * its width; height: largest height of the picture [pixel]; margins: layout with the margins of the panels. */
 static struct layout layout_of(int columns, int panels, double aspect, double height, const struct layout *margins)
 {
     struct layout l = *margins;
@@ -113,10 +114,10 @@ static struct layout layout_of(int columns, int panels, double aspect, double he
     return l;
 }
 
-/* Returns the layout of a picture of `panels` panels in `columns` columns. It is computed twice, because the width of a
- * colour bar on the right depends on the height of the panels: beside low panels its unit needs a second line. under:
- * the colour bar or key is below the panels; aspect: height over width of a panel; height: largest height of the
- * picture [pixel]. */
+/* Returns the layout of a picture of the maps m in `panels` panels and `columns` columns. It is computed twice, because
+ * the width of a colour bar on the right depends on the height of the panels: beside low panels its unit needs a second
+ * line. under: the colour bar or key is below the panels; aspect: height of a panel divided by its width; height:
+ * largest height of the picture [pixel]. */
 static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect,
                                     double height)
 {
@@ -125,7 +126,8 @@ static struct layout layout_settled(const struct maps_shown *m, bool under, int 
     return layout_of(columns, panels, aspect, height, &margins);
 }
 
-/* Returns the best layout of at most the given height [pixel], one whose panels fit if there is any. */
+/* Returns the best layout of panel_count panels of the maps `shown` that is at most `height` [pixel] high: one whose
+ * panels fit if there is any. height_over_width: of a panel. */
 static struct layout layout_best(const struct maps_shown *shown, int panel_count, double height_over_width,
                                  double height)
 {

@@ -13,8 +13,8 @@
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of the standard picture `which`, in the folder for pictures and with the ending of the format that
- * the request r gives. */
+/* Returns the path of the standard picture `which` in the folder r->pictures, with the ending of the format that the
+ * request r gives. */
 static struct path sheet_path(const struct plot_request *r, enum picture which)
 {
     return picture_path(r->pictures, which, picture_ending[r->format]);
@@ -53,8 +53,9 @@ static struct contents contents_of(const struct plotted_particles *cloud, int cl
 }
 
 /* Draws, for every frame of a run, a picture of each of the maps of damage, kinds of particles and the chosen field. A
- * map is omitted if the selected frames do not contain its quantity. view: shown rectangle and colours; has: quantities
- * that the selected frames contain. Returns FAILED if a frame cannot be read or gnuplot fails. */
+ * map is omitted if the selected frames do not contain its quantity. r: request; frames: frames of the run; view: shown
+ * rectangle and colours; has: quantities that the selected frames contain. Returns FAILED, with a message, if a frame
+ * cannot be read or gnuplot fails. */
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view,
                          const struct contents *has)
 {
@@ -78,10 +79,10 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
     return OK;
 }
 
-/* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments of a plane body or a slice.
- * A map is omitted if the frames do not contain its quantity. cloud[frames->shown]: drawn particles of the selected
- * frames. If r->every is set, also draws these maps for every frame of the run. Returns REFUSED if the request does not
- * suit the field, FAILED if a frame cannot be read or gnuplot fails. */
+/* Draws for request r the maps of damage, of the chosen field, of the kinds of particles and of fragments of a plane
+ * body or a slice. A map is omitted if the frames do not contain its quantity. cloud[frames->shown]: drawn particles of
+ * the selected frames. If r->every is set, also draws these maps for every frame of the run. Returns REFUSED if the
+ * request does not suit the field, FAILED if a frame cannot be read or gnuplot fails, with a message. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
@@ -108,9 +109,9 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     return r->every ? draw_every(r, frames, &view, &has) : OK;
 }
 
-/* Draws two maps of a three-dimensional run as seen from outside the body: the chosen field and the cracks.
- * cloud[frames->shown]: drawn particles of the selected frames. Returns REFUSED if the request does not suit the field,
- * FAILED if gnuplot fails. */
+/* Draws for request r two maps of a three-dimensional run as seen from outside the body: the chosen field and the
+ * cracks. cloud[frames->shown]: drawn particles of the selected frames. Returns REFUSED if the request does not suit
+ * the field, FAILED if gnuplot fails, with a message. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {
@@ -131,8 +132,8 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
 typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames,
                               const struct plotted_particles *cloud);
 
-/* Reads the drawn particles of all selected frames and calls draw(r, frames, cloud) with them. Returns FAILED if a
- * frame cannot be read, else the status of `draw`. */
+/* Reads the drawn particles of all selected frames and calls draw(r, frames, cloud) with them; frees them afterwards.
+ * r: request. Returns FAILED, with a message, if a frame cannot be read, else the status of `draw`. */
 static status draw_clouds(const struct plot_request *r, const struct run_frames *frames, draw_clouds_fn *draw)
 {
     struct plotted_particles *cloud = NEW("plot.clouds", frames->shown, struct plotted_particles);
@@ -147,8 +148,9 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Draws the profiles of a bar with the closed-form solution of the EXACT probe called `probe`. Leaves out the frame at
- * t = 0 if there are others. Returns FAILED if a profile cannot be read or gnuplot fails. */
+/* Draws for request r the profiles of a bar with the closed-form solution of the EXACT probe called `probe`. Leaves out
+ * the frame at t = 0 if there are others among `frames`. Returns FAILED, with a message, if a profile cannot be read or
+ * gnuplot fails. */
 static status plot_draw_bar(const struct plot_request *r, const struct run_frames *frames, const char *probe)
 {
     char title[TITLE_LENGTH];
@@ -158,8 +160,8 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
                                        probe, frames->show + skipped, frames->shown - skipped);
 }
 
-/* Draws profiles of a bar: with the closed-form solution if the run has an EXACT probe, else from the particles.
- * Returns FAILED if a frame cannot be read or gnuplot fails. */
+/* Draws for request r profiles of a bar at the selected frames: with the closed-form solution if the run has an EXACT
+ * probe, else from the particles. Returns FAILED, with a message, if a frame cannot be read or gnuplot fails. */
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
@@ -175,9 +177,9 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Draws the maps of a run in two or three dimensions: those of a slice and, in 3D, of an outside view. last: the last
- * selected frame. Returns REFUSED if no particle is in the requested slice, or the request does not suit the field;
- * FAILED if a frame cannot be read or gnuplot fails. */
+/* Draws for request r the maps of a run in two or three dimensions: those of a slice and, in 3D, of an outside view.
+ * frames: selected frames; last: the last of them, read. Returns REFUSED if no particle is in the requested slice, or
+ * the request does not suit the field; FAILED if a frame cannot be read or gnuplot fails; with a message. */
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;

@@ -25,8 +25,8 @@ static const struct {
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Reads the profile of the EXACT probe called `probe` at frame `number` of the run in `folder`. Returns FAILED if there
- * is none. Release h with history_free. */
+/* Reads the profile of the EXACT probe called `probe` at frame `number` of the run in `folder` into *h. Returns FAILED,
+ * with a message, if there is none. Release *h with history_free. */
 static status profile_read(struct history *h, const char *folder, const char *probe, int number)
 {
     char path[PATH_LENGTH];
@@ -89,7 +89,7 @@ static void extend(struct scale *s, const struct history *h, const char *column)
     }
 }
 
-/* Writes a power of ten with superscript digits in UTF-8, as 10⁻³, into text[capacity]. */
+/* Writes ten to the power `power` with superscript digits in UTF-8, as 10⁻³, to text[capacity]. */
 static void power_text(char *text, size_t capacity, int power)
 {
     static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
