@@ -75,7 +75,7 @@ void abaqus_plain_word(char *to, const char *from)
     to[n] = '\0';
 }
 
-/* Appends the parameter in `field`, NAME or NAME=VALUE, to a keyword; modifies the field. Parameters beyond
+/* Appends the parameter in `field`, NAME or NAME=VALUE, to the keyword k; modifies the field. Parameters beyond
  * PARAMETERS_MAX are ignored. */
 static void parameter_add(struct abaqus_keyword *k, char *field)
 {

@@ -11,8 +11,8 @@ void surface_builder_add_face(struct surface_builder *b, int32_t first_node, int
     memcpy(b->face[b->n++], face, sizeof face);
 }
 
-/* Returns true if the point X comes before Y in the order by x, y, z: by the first coordinate in which they differ by
- * more than 1e-9 of `size`. */
+/* Returns true if the point X[DIM_MAX] comes before Y in the order by x, y, z: by the first coordinate in which they
+ * differ by more than 1e-9 times `size`. */
 static bool point_before(const real *X, const real *Y, real size)
 {
     for (int d = 0; d < DIM_MAX; d++)
@@ -24,7 +24,8 @@ static bool point_before(const real *X, const real *Y, real size)
  * between edges. */
 static int64_t edge_label(int32_t i, int32_t j) { return ((int64_t)(i < j ? i : j) << 32) + (i < j ? j : i); }
 
-/* Lists in b->edges the edges of the volume elements with triangular sides, if others have quadrilateral sides. */
+/* Lists in b->edges the edges of the volume elements with triangular sides, if other elements have quadrilateral
+ * sides. */
 static void builder_list_edges(struct surface_builder *b)
 {
     const struct element_mesh *m = b->m;
@@ -44,11 +45,11 @@ static void builder_list_edges(struct surface_builder *b)
     memory_free(label);
 }
 
-/* Adds a side of an element to the faces. corner_node[corner_count]: its corners, 3 or 4 node indices. A quadrilateral
- * is divided into two triangles by the diagonal from the corner that is first by position: two elements that share the
- * side but not its nodes then have the same diagonal. The other diagonal is used if it alone is an edge of an element,
- * as where two tetrahedra adjoin the side; otherwise there would be a gap between the tetrahedra and a side that is not
- * plane. */
+/* Adds a side of an element to the faces of b. corner_node[corner_count]: its corners, 3 or 4 node indices. A
+ * quadrilateral is divided into two triangles by the diagonal from the corner that is first by position: two elements
+ * that share the side but not its nodes then have the same diagonal. The other diagonal is used if it alone is an edge
+ * of an element, as where two tetrahedra adjoin the side; otherwise there would be a gap between the tetrahedra and a
+ * side that is not plane. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_node, int corner_count)
 {
     int low = 0;
@@ -68,8 +69,8 @@ void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_n
                                  corner_node[(low + 3) % corner_count]);
 }
 
-/* Adds the sides of element e to the faces. If the dimension of the element is lower than that of the body, adds the
- * element itself as a face. */
+/* Adds the sides of element e to the faces of b. If the dimension of the element is lower than that of the body, adds
+ * the element itself as a face. */
 static void builder_add_element(struct surface_builder *b, const struct element *e)
 {
     const struct element_sides *sides = &element_sides[e->kind];
@@ -92,8 +93,8 @@ static void builder_add_element(struct surface_builder *b, const struct element 
     }
 }
 
-/* Returns the volume enclosed by the faces from number `first` on, times six; in 2D the area, times two [unit of the
- * file^dim]. */
+/* Returns six times the volume enclosed by the faces of b from number `first` on; in 2D twice the area [unit of the
+ * file^dim]. The sign shows the orientation of the faces. */
 static real builder_volume(const struct surface_builder *b, int64_t first)
 {
     const real *O = b->m->node[b->face[first][0]];
@@ -110,10 +111,10 @@ static real builder_volume(const struct surface_builder *b, int64_t first)
     return sum;
 }
 
-/* Returns one side of the element e as a patch (face with middle nodes): its n corners, the middle nodes of its edges,
- * and the node at its centre. corner[n]: numbers of the corners within the element; centre: number of the side's
- * central node among the middle nodes of the element, or -1 for none; turned: true to reverse the orientation of the
- * side. */
+/* Returns one side of the element e of the mesh of b as a patch (face with middle nodes): its n corners, the middle
+ * nodes of its edges, and the node at its centre. corner[n]: numbers of the corners within the element; centre: number
+ * of the central node of the side among the middle nodes of the element, or -1 for none; turned: true to reverse the
+ * orientation of the side. */
 static struct patch patch_of(const struct surface_builder *b, const struct element *e, const signed char *corner, int n,
                              int centre, bool turned)
 {
@@ -130,9 +131,8 @@ static struct patch patch_of(const struct surface_builder *b, const struct eleme
     return p;
 }
 
-/* Adds the sides of element e to the patches, which are faces with middle nodes. If the dimension of the element is
- * lower than that of the body, adds the element itself as a patch. turned: true to reverse the orientation of the
- * sides. */
+/* Adds the sides of element e to the patches (faces with middle nodes) of b. If the dimension of the element is lower
+ * than that of the body, adds the element itself as a patch. turned: true to reverse the orientation of the sides. */
 static void builder_add_patches(struct surface_builder *b, const struct element *e, bool turned)
 {
     static const signed char all[] = {0, 1, 2, 3};
@@ -151,8 +151,9 @@ static void builder_add_patches(struct surface_builder *b, const struct element 
     }
 }
 
-/* Adds the sides of element e, oriented outwards, to the faces; to the patches (faces with middle nodes) if the mesh
- * has middle nodes. If the corners of the element are numbered in the opposite orientation, its sides are reversed. */
+/* Adds the sides of element e, oriented outwards, to the faces of b, or to the patches (faces with middle nodes) if the
+ * mesh has middle nodes. If the corners of the element are numbered in the opposite orientation, its sides are
+ * reversed. */
 static void builder_add_oriented(struct surface_builder *b, const struct element *e)
 {
     const int64_t first = b->n;
@@ -169,10 +170,10 @@ static void builder_add_oriented(struct surface_builder *b, const struct element
     }
 }
 
-/* Makes the surface *hull of the collected faces and their nodes, in metres, and removes the faces from the builder.
- * closed: true if the surface encloses a volume. node_of: if it is not NULL, *node_of receives an allocated array with
- * the mesh node at each corner of the surface, which the caller releases with memory_free. If it is NULL, nodes that
- * the division of curved faces has added are removed from the mesh. */
+/* Makes the surface *hull of the collected faces of b and their nodes, in metres, and removes the faces from b. closed:
+ * true if the surface encloses a volume. node_of: if it is not NULL, *node_of receives an allocated array with the mesh
+ * node at each corner of the surface, which the caller releases with memory_free. If it is NULL, nodes that the
+ * division of curved faces has added are removed from the mesh. */
 static void builder_close(struct surface_builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
     struct element_mesh *m = b->m;
@@ -201,8 +202,8 @@ static void builder_close(struct surface_builder *b, struct hull *hull, bool clo
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the surface *hull of a set of elements. If some of them fill a part of the body, it is the closed surface of
- * that part. Else it is open and consists of the faces, lines and points of the set. */
+/* Makes the surface *hull of a set of elements of the mesh of b. If some of them fill a part of the body, it is the
+ * closed surface of that part. Else it is open and consists of the faces, lines and points of the set. */
 static void set_of_elements(struct surface_builder *b, const struct element_set *set, struct hull *hull)
 {
     const struct element *e = b->m->element;
@@ -213,8 +214,9 @@ static void set_of_elements(struct surface_builder *b, const struct element_set 
     builder_close(b, hull, fills, NULL);
 }
 
-/* Makes the surface *hull of a set of nodes. It is open and consists of the nodes of the set and of those faces of the
- * body whose nodes are all in the set. whole: surface of the body; node_of: mesh node at each corner of `whole`. */
+/* Makes the surface *hull of a set of nodes of the mesh of b. It is open and consists of the nodes of the set and of
+ * those faces of the body whose nodes are all in the set. whole: surface of the body; node_of: mesh node at each corner
+ * of `whole`. */
 static void set_of_nodes(struct surface_builder *b, const struct element_set *set, const struct hull *whole,
                          const int32_t *node_of, struct hull *hull)
 {
@@ -237,8 +239,8 @@ static void set_of_nodes(struct surface_builder *b, const struct element_set *se
     builder_close(b, hull, false, NULL);
 }
 
-/* Makes the surface of each set of nodes or elements that is not empty, and stores it in g->set. node_of: mesh node at
- * each corner of the body's surface g->whole. */
+/* Makes the surface of each set of nodes or elements of the mesh of b that is not empty, and stores it in g->set.
+ * node_of: mesh node at each corner of the surface g->whole of the body. */
 static void take_sets(struct surface_builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
@@ -256,9 +258,9 @@ static void take_sets(struct surface_builder *b, const int32_t *node_of, struct 
 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
-/* Finds *body_dim, the dimension of the elements that make up the body: dim, or 2 in 3D if the mesh has surface
- * elements only. path: file of the mesh, for messages. Returns REFUSED if the mesh has no such elements, or has
- * solid elements in 2D. */
+/* Finds *body_dim, the dimension of the elements of m that make up the body in a space of `dim` dimensions: dim, or 2
+ * in 3D if the mesh has surface elements only. path: file of the mesh, for messages. Returns REFUSED, with a message,
+ * if the mesh has no such elements, or has solid elements in 2D. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {
     int64_t n[1 + DIM_MAX] = {0};
@@ -276,8 +278,8 @@ static status body_dim_of(const struct element_mesh *m, const char *path, int di
                                : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
 }
 
-/* Returns REFUSED unless all 2D elements of the mesh have equal z to 1e-6 of their extent. path: file of the mesh, for
- * the message. */
+/* Returns REFUSED, with a message, unless all 2D elements of the mesh m have equal z to 1e-6 of their extent. path:
+ * file of the mesh, for the message. */
 static status check_plane(const struct element_mesh *m, const char *path)
 {
     real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -310,7 +312,7 @@ static int corner_list_order(const void *a, const void *b)
     return (p->element > q->element) - (p->element < q->element);
 }
 
-/* Returns the corners of element k of the mesh in ascending order. */
+/* Returns the corners of element k of the mesh m in ascending order of their nodes, with the index k. */
 static struct corner_list corner_list_of(const struct element_mesh *m, int64_t k)
 {
     struct corner_list list = {.element = (int32_t)k};
@@ -324,8 +326,8 @@ static struct corner_list corner_list_of(const struct element_mesh *m, int64_t k
     return list;
 }
 
-/* Returns REFUSED if elements that fill the space, of dimension `dim`, have the same corners. path: file of the mesh,
- * for the message. */
+/* Returns REFUSED, with a message, if two elements of the mesh m that fill the space, of dimension `dim`, have the same
+ * corners. path: file of the mesh, for the message. */
 static status check_elements_differ(const struct element_mesh *m, const char *path, int dim)
 {
     int64_t n = 0, doubles = 0, pair[2] = {0};

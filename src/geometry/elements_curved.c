@@ -16,9 +16,9 @@ enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of the middle node of an edge from its chord [unit of the file]. from, to: nodes at its ends.
- * Returns 0 if the edge has no middle node (-1), or if it is straight, i.e. the distance is below STRAIGHT times the
- * length of the chord. */
+/* Returns the distance of the middle node `middle` of an edge from its chord [unit of the file]. m: mesh; from, to:
+ * nodes at the ends of the edge. Returns 0 if the edge has no middle node (-1), or if it is straight, i.e. the distance
+ * is below STRAIGHT times the length of the chord. */
 static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle)
 {
     if (middle < 0) return 0;
@@ -30,9 +30,9 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
     return off2 > square(STRAIGHT) * along2 ? sqrt(off2) : 0;
 }
 
-/* Returns the number of chords, from 1 to `most`, into which a curved edge must be divided so that no chord is farther
- * from it than `wanted`. The distance decreases with the square of the number of chords. sagitta: distance of a single
- * chord, in the same unit. */
+/* Returns the number of chords, from 1 to `most`, into which a curved edge must be divided so that its distance from
+ * every chord is at most `wanted`. The distance decreases with the square of the number of chords. sagitta: distance of
+ * a single chord, in the same unit. */
 static int pieces_for(real sagitta, real wanted, int most)
 {
     const real pieces = ceil(sqrt(sagitta / wanted));
@@ -60,8 +60,8 @@ status surface_builder_set_chord_tolerance(struct surface_builder *b, const char
                       path, sagitta * b->scale, most);
 }
 
-/* Adds a node to the mesh at X, which was interpolated between nodes, and returns its index. parent[parents]: indices
- * of these nodes, corners of elements, at most four. They are recorded for the new node. */
+/* Adds a node to the mesh of b at X[DIM_MAX], which was interpolated between nodes, and returns its index.
+ * parent[parents]: indices of these nodes, corners of elements, at most four. They are recorded for the new node. */
 static int32_t node_between(struct surface_builder *b, const real *X, const int32_t *parent, int parents)
 {
     const int32_t node = element_mesh_add_node_unchecked(b->m, X, -1);
@@ -71,16 +71,17 @@ static int32_t node_between(struct surface_builder *b, const real *X, const int3
     return node;
 }
 
-/* Computes X, the position of the middle node of an edge, or the midpoint of its ends if it has no middle node (-1).
- * from, to: nodes at its ends. */
+/* Computes X, the position of the middle node `middle` of an edge of the mesh m, or the midpoint of the ends of the
+ * edge if it has no middle node (-1). from, to: nodes at the ends. */
 static void middle_point(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle, real X[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++)
         X[d] = middle >= 0 ? m->node[middle][d] : 0.5 * (m->node[from][d] + m->node[to][d]);
 }
 
-/* Adds pieces - 1 nodes to the mesh that divide an edge, by quadratic interpolation through its middle node. from, to:
- * nodes at its ends. Returns the index of the first new node; the others follow in order from `from` to `to`. */
+/* Adds pieces - 1 nodes to the mesh of b that divide an edge, by quadratic interpolation through its middle node
+ * `middle`. from, to: nodes at the ends of the edge. Returns the index of the first new node; the others follow in
+ * order from `from` to `to`. */
 static int32_t edge_divide(struct surface_builder *b, int32_t from, int32_t to, int32_t middle, int pieces)
 {
     const int32_t first = (int32_t)b->m->nodes, ends[] = {from, to};
@@ -96,7 +97,7 @@ static int32_t edge_divide(struct surface_builder *b, int32_t from, int32_t to, 
     return first;
 }
 
-/* Adds the patch p, an edge in 2D, or a line or point in 3D, to the faces. A curved edge is divided into straight
+/* Adds the patch p, an edge in 2D, or a line or point in 3D, to the faces of b. A curved edge is divided into straight
  * pieces. */
 static void line_add(struct surface_builder *b, const struct patch *p)
 {
@@ -206,16 +207,16 @@ static int curve_order(const void *a, const void *b)
     return (p->middle > q->middle) - (p->middle < q->middle);
 }
 
-/* Returns edge k of a patch, from its corner k to the next one: the nodes at its ends and its middle node. The edge is
- * marked as not divided. */
+/* Returns edge k (from 0) of a patch p, from its corner k to the next one: the nodes at its ends and its middle node.
+ * The edge is marked as not divided. */
 static struct curve curve_of(const struct patch *p, int k)
 {
     const int32_t from = p->corner[k], to = p->corner[(k + 1) % p->n];
     return (struct curve){.low = from < to ? from : to, .high = from < to ? to : from, .middle = p->middle[k]};
 }
 
-/* Finds edge k of a patch in the sorted list c of all edges, which must contain it, by bisection. Returns a pointer to
- * its entry. */
+/* Finds edge k (from 0) of a patch p (a side of an element) in the sorted list c of all edges, which must contain it,
+ * by bisection. Returns a pointer to its entry in c. */
 static struct curve *curve_find(const struct curves *c, const struct patch *p, int k)
 {
     const struct curve wanted = curve_of(p, k);
@@ -230,8 +231,8 @@ static struct curve *curve_find(const struct curves *c, const struct patch *p, i
     return &c->curve[low];
 }
 
-/* Returns true if a patch is curved: the middle node of an edge is more than b->sagitta away from the chord of the
- * edge, or the node at its centre is as far from the mean of its corners. */
+/* Returns true if a patch p (a side of an element) is curved: the middle node of an edge is more than b->sagitta away
+ * from the chord of the edge, or the node at its centre is as far from the mean of its corners. */
 static bool patch_curved(const struct surface_builder *b, const struct patch *p)
 {
     const struct element_mesh *m = b->m;
@@ -247,8 +248,8 @@ static bool patch_curved(const struct surface_builder *b, const struct patch *p)
     return curved || off2 > square(b->sagitta);
 }
 
-/* Lists the edges of all patches (sides of elements) in *c, sorted. Divides the edges of curved patches by new nodes.
- * The caller releases c->curve with memory_free. */
+/* Lists the edges of all patches of b (sides of elements) in *c, sorted by curve_order. Divides the edges of curved
+ * patches by new nodes. The caller releases c->curve with memory_free. */
 static void curves_make(struct curves *c, struct surface_builder *b)
 {
     int64_t kept = 0;
@@ -271,8 +272,8 @@ static void curves_make(struct curves *c, struct surface_builder *b)
     }
 }
 
-/* Returns the index of node number `at`, 0 .. b->pieces, along edge k of a patch, counted from its corner k. An edge
- * that is not divided has only its ends. */
+/* Returns the index of node number `at`, 0 .. b->pieces, along edge k of a patch p (a side of an element), counted from
+ * its corner k. An edge that is not divided has only its ends. c: edges of all patches. */
 static int32_t curve_node(const struct surface_builder *b, const struct curves *c, const struct patch *p, int k, int at)
 {
     const struct curve *e = curve_find(c, p, k);
@@ -281,7 +282,8 @@ static int32_t curve_node(const struct surface_builder *b, const struct curves *
     return e->first + (p->corner[k] == e->low ? at : b->pieces - at) - 1;
 }
 
-/* Computes the point X of a triangle with six nodes at the area coordinates u, v of its corners 1 and 2. */
+/* Computes the point X of the patch p, a triangle with six nodes of the mesh m, at the area coordinates u, v of its
+ * corners 1 and 2. */
 static void triangle_point(const struct element_mesh *m, const struct patch *p, real u, real v, real X[DIM_MAX])
 {
     const real L[3] = {1 - u - v, u, v};
@@ -295,7 +297,8 @@ static void triangle_point(const struct element_mesh *m, const struct patch *p, 
     }
 }
 
-/* Computes the point X of a quadrilateral with eight nodes at the reference coordinates x, y in [-1, 1]. */
+/* Computes the point X of the patch p, a quadrilateral with eight nodes of the mesh m, at the reference coordinates x,
+ * y in [-1, 1]. */
 static void quad_point(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     static const int at[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, side[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
@@ -310,8 +313,8 @@ static void quad_point(const struct element_mesh *m, const struct patch *p, real
     }
 }
 
-/* Computes the point X of a quadrilateral at the reference coordinates x, y in [-1, 1], from its eight nodes and, if it
- * has one, the node at its centre. */
+/* Computes the point X of the patch p, a quadrilateral, at the reference coordinates x, y in [-1, 1], from its eight
+ * nodes in the mesh m and, if it has one, the node at its centre. */
 static void quad_point_whole(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     real middle[DIM_MAX];
@@ -321,8 +324,9 @@ static void quad_point_whole(const struct element_mesh *m, const struct patch *p
     for (int d = 0; d < DIM_MAX; d++) X[d] += (1 - x * x) * (1 - y * y) * (m->node[p->centre][d] - middle[d]);
 }
 
-/* Returns the index of the node at position (i, j), each 0 .. b->pieces, of the grid by which a curved patch is
- * divided. On an edge it is the node that neighbouring patches share. Inside the patch a new node is added. */
+/* Returns the index of the node at position (i, j), each 0 .. b->pieces, of the grid by which a curved patch p (a side
+ * of an element) is divided. On an edge it is the node that neighbouring patches share. Inside the patch a new node is
+ * added. c: edges of all patches. */
 static int32_t grid_node(struct surface_builder *b, const struct curves *c, const struct patch *p, int i, int j)
 {
     const int n = b->pieces;
@@ -339,8 +343,8 @@ static int32_t grid_node(struct surface_builder *b, const struct curves *c, cons
     return node_between(b, X, p->corner, p->n);
 }
 
-/* Divides a curved patch into triangles and adds them to the faces. c: edges of all patches; row: working memory for
- * two rows of b->pieces + 1 nodes. */
+/* Divides a curved patch p (a side of an element) into triangles and adds them to the faces of b. c: edges of all
+ * patches; row: working memory for two rows of b->pieces + 1 nodes. */
 static void patch_divide(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     const int n = b->pieces;
@@ -358,8 +362,8 @@ static void patch_divide(struct surface_builder *b, const struct curves *c, cons
     }
 }
 
-/* Divides a flat patch, some edges of which are divided, into triangles around a new node at its centre, and adds them
- * to the faces. c: edges of all patches. */
+/* Divides a flat patch p (a side of an element), some edges of which are divided, into triangles around a new node at
+ * its centre, and adds them to the faces of b. c: edges of all patches. */
 static void patch_star(struct surface_builder *b, const struct curves *c, const struct patch *p)
 {
     real X[DIM_MAX] = {0};
@@ -374,9 +378,9 @@ static void patch_star(struct surface_builder *b, const struct curves *c, const 
     }
 }
 
-/* Adds a patch to the faces as triangles. It is subdivided if it is curved, and divided into triangles around its
- * centre if only its edges are divided. c: edges of all patches; row: working memory for two rows of b->pieces + 1
- * nodes. */
+/* Adds a patch p (a side of an element) to the faces of b as triangles. It is subdivided if it is curved, and divided
+ * into triangles around its centre if only its edges are divided. c: edges of all patches; row: working memory for two
+ * rows of b->pieces + 1 nodes. */
 static void patch_add(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     bool divided = false;

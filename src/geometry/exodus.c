@@ -52,7 +52,7 @@ struct exodus {
 
 /* ---- nodes and blocks -------------------------------------------------------------------------------------------- */
 
-/* Appends all nodes of the file to the mesh. Returns REFUSED if they cannot be read. */
+/* Appends all nodes of the file x to the mesh. Returns REFUSED, with a message, if they cannot be read. */
 static status nodes_add(struct exodus *x)
 {
     real *axis[DIM_MAX] = {NULL};
@@ -66,8 +66,9 @@ static status nodes_add(struct exodus *x)
     return s;
 }
 
-/* Finds the shape *kind of elements from the name of their type and the number of their nodes. Sets *skip to true if
- * they have no area or volume, so that they are skipped. Returns REFUSED for unknown types. */
+/* Finds the shape *kind of elements from the name `type` of their type and the number of their nodes. Sets *skip to
+ * true if they have no area or volume, so that they are skipped, else to false. x: file, for the message. Returns
+ * REFUSED, with a message, for unknown types. */
 static status kind_of(const struct exodus *x, const char *type, int64_t nodes, enum element_kind *kind, bool *skip)
 {
     *skip = false;
@@ -87,8 +88,8 @@ static status kind_of(const struct exodus *x, const char *type, int64_t nodes, e
                                type, (long long)nodes);
 }
 
-/* Appends an element to the mesh. label[nodes]: its nodes, as numbers in the file, which count from 1. Returns REFUSED
- * if a node does not exist. */
+/* Appends an element of shape `kind` to the mesh of x. label[nodes]: its nodes, as numbers in the file, which count
+ * from 1. Returns REFUSED, with a message, if a node does not exist. */
 static status element_add(struct exodus *x, enum element_kind kind, const int64_t *label, int nodes)
 {
     const int corners = element_corners[kind];
@@ -128,8 +129,8 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
     return *set >= 0 ? OK : exodus_report_fault(&x->file, "more than %d blocks and sets", ELEMENT_SETS_MAX);
 }
 
-/* Appends the elements of block `number` (from 1) to the mesh, and makes a set of them. Returns REFUSED for elements of
- * unknown types or with unknown nodes. */
+/* Appends the elements of block `number` (from 1) of the file x to the mesh, and makes a set of them. Returns REFUSED,
+ * with a message, for elements of unknown types or with unknown nodes. */
 static status element_block_add(struct exodus *x, int64_t number)
 {
     char type[NAME_MAX_LENGTH];
@@ -160,8 +161,8 @@ static status element_block_add(struct exodus *x, int64_t number)
 
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
-/* Appends edge number `edge` of element e, with its middle node, to the mesh as a line element. Returns REFUSED if the
- * mesh has too many elements. */
+/* Appends edge number `edge` (from 0) of element e, with its middle node, to the mesh of x as a line element. Returns
+ * REFUSED, with a message, if the mesh has too many elements. */
 static status side_edge_add(struct exodus *x, const struct element *e, int edge)
 {
     const signed char *corner = element_edges[e->kind].corner[edge];
@@ -173,8 +174,8 @@ static status side_edge_add(struct exodus *x, const struct element *e, int edge)
     return OK;
 }
 
-/* Appends side number `side` of the solid element e, with its middle nodes, to the mesh as a triangle or quadrilateral.
- * Returns REFUSED if the mesh has too many elements. */
+/* Appends side number `side` (from 0) of the solid element e, with its middle nodes, to the mesh of x as a triangle or
+ * quadrilateral. Returns REFUSED, with a message, if the mesh has too many elements. */
 static status side_face_add(struct exodus *x, const struct element *e, int side)
 {
     const signed char *corner = element_sides[e->kind].corner[side];
@@ -192,9 +193,9 @@ static status side_face_add(struct exodus *x, const struct element *e, int side)
     return OK;
 }
 
-/* Adds a side of an element to the set number `set`. element: index of the element in the mesh; side: number of the
- * side, from 1. Sides 1 and 2 of a surface element in 3D are its two faces; its edges follow. Returns REFUSED if the
- * element has no such side. */
+/* Adds a side of an element to the set number `set` of x. element: index of the element in the mesh; side: number of
+ * the side, from 1. Sides 1 and 2 of a surface element in 3D are its two faces; its edges follow. Returns REFUSED, with
+ * a message, if the element has no such side. */
 static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 {
     const struct element e = x->m->element[element];
@@ -212,9 +213,9 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     return OK;
 }
 
-/* Finds the element with the number `label` (from 1) in the file and stores its index in the mesh in *element, or -1 if
- * it was skipped. set: index of the set that contains it, for the message. Returns REFUSED if there is no such
- * element. */
+/* Finds the element with the number `label` (from 1) in the file x and stores its index in the mesh in *element, or -1
+ * if the element was skipped. set: index of the set that contains it, for the message. Returns REFUSED, with a message,
+ * if there is no such element. */
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
@@ -244,8 +245,8 @@ static status side_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads node set `number` (from 1) into a set of nodes. An empty node set makes no set. Returns REFUSED for unknown
- * nodes. */
+/* Reads node set `number` (from 1) of the file x into a set of nodes. An empty node set makes no set. Returns REFUSED,
+ * with a message, for unknown nodes. */
 static status node_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_nod_ns", number);
@@ -265,8 +266,8 @@ static status node_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads element set `number` (from 1) into a set of elements. An empty one makes no set. Returns REFUSED for unknown
- * elements. */
+/* Reads element set `number` (from 1) of the file x into a set of elements. An empty element set makes no set. Returns
+ * REFUSED, with a message, for unknown elements. */
 static status element_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_ele_els", number);

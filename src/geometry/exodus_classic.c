@@ -27,8 +27,8 @@ static uint64_t next_bytes(struct header *h, int bytes)
     return value;
 }
 
-/* Reads the number of items that follow, each of at least `least` bytes. Sets h->good to false and returns 0 if the
- * file is too short for them. */
+/* Reads the number of items that follow at the reading position of h, each of at least `least` bytes. Sets h->good to
+ * false and returns 0 if the file is too short for them. */
 static int64_t next_count(struct header *h, int64_t least)
 {
     const uint64_t value = next_bytes(h, h->version == 5 ? 8 : 4);
@@ -36,7 +36,8 @@ static int64_t next_count(struct header *h, int64_t least)
     return h->good ? (int64_t)value : 0;
 }
 
-/* Reads the length of a dimension. It may exceed the size of the file, since no array need have this dimension. */
+/* Reads the length of a dimension at the reading position of h. It may exceed the size of the file, since no array need
+ * have this dimension. */
 static int64_t next_length(struct header *h)
 {
     const uint64_t value = next_bytes(h, h->version == 5 ? 8 : 4);
@@ -44,7 +45,8 @@ static int64_t next_length(struct header *h)
     return h->good ? (int64_t)value : 0;
 }
 
-/* Skips `bytes` bytes and the padding up to a multiple of four. Sets h->good to false if the file ends before. */
+/* Advances the reading position of h by `bytes` bytes and the padding up to a multiple of four. Sets h->good to false
+ * if the file ends before. */
 static void skip_padded(struct header *h, int64_t bytes)
 {
     const int64_t padded = (bytes + 3) / 4 * 4;

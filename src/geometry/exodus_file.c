@@ -38,7 +38,8 @@ bool path_has_exodus_extension(const char *path)
 
 /* ---- the file ---------------------------------------------------------------------------------------------------- */
 
-/* Opens the file f as netCDF-4 (HDF5) or classic netCDF, by its first bytes. Returns REFUSED if it is neither. */
+/* Opens the file f as netCDF-4 (HDF5) or classic netCDF, by its first bytes. Returns REFUSED, with a message, if it is
+ * neither. */
 static status arrays_open(struct exodus_file *f)
 {
     static const char hdf5[] = "\211HDF\r\n\032\n";
@@ -49,8 +50,8 @@ static status arrays_open(struct exodus_file *f)
     return exodus_report_fault(f, "does not begin like a netCDF file; give a file in the format Exodus II");
 }
 
-/* Reads the dimension and the numbers of nodes, blocks and sets, which every mesh has, into f. Returns REFUSED if they
- * are not those of a mesh. */
+/* Reads the dimension and the numbers of nodes, blocks and sets, which every mesh has, into f. Returns REFUSED, with a
+ * message, if they are not those of a mesh. */
 static status counts_read(struct exodus_file *f)
 {
     const int64_t dim = exodus_read_dimension_length(f, "num_dim", 0);
@@ -117,7 +118,7 @@ int64_t exodus_read_dimension_length(const struct exodus_file *f, const char *na
     return 0;
 }
 
-/* Finds the array `name` of the file and describes it in *a. Returns false if there is none. */
+/* Finds the array `name` of the file f and describes it in *a. Returns false if there is no such array. */
 static bool array_find(const struct exodus_file *f, const char *name, struct exodus_array *a)
 {
     if (f->hdf5 >= 0) return exodus_hdf5_find_array(f, name, a);
@@ -137,8 +138,8 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t nam
     return array_find(f, called, &a);
 }
 
-/* Finds the array `name` and describes it in *a. Returns REFUSED if it is missing, does not have n numbers, contains
- * letters, or is larger than its file can be. */
+/* Finds the array `name` of the file f and describes it in *a. Returns REFUSED, with a message, if it is missing, does
+ * not have n numbers, contains letters, or is larger than its file can be. */
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
     if (!array_find(f, name, a)) return exodus_report_fault(f, "array %s is missing", name);

@@ -17,8 +17,8 @@ static const struct format {
     status (*read)(struct element_mesh *, struct source *);
 } formats[] = {{".stl", stl_read}, {".msh", gmsh_read}, {".inp", abaqus_read}}, exodus = {".exo", exodus_read};
 
-/* Returns the format of a file by the extension of its name, in capital or small letters; NULL for an unknown
- * extension. */
+/* Returns the format of the file `path` by the extension of its name, in capital or small letters (a row of a constant
+ * table); NULL for an unknown extension. */
 static const struct format *format_of(const char *path)
 {
     const size_t length = strlen(path);
@@ -27,8 +27,8 @@ static const struct format *format_of(const char *path)
     return path_has_exodus_extension(path) ? &exodus : NULL;
 }
 
-/* Returns REFUSED if all faces of a surface in 3D lie in one plane x, y or z = const to 1e-6 of their extent, as in a
- * mesh of plane elements. path: its file, for the message. */
+/* Returns REFUSED, with a message, if all faces of the surface s in 3D lie in one plane x, y or z = const to 1e-6 of
+ * their extent, as in a mesh of plane elements. path: file of the surface, for the message. */
 static status check_not_plane(const struct hull *s, const char *path)
 {
     const real *low = s->node[0].low, *high = s->node[0].high;
@@ -43,8 +43,8 @@ static status check_not_plane(const struct hull *s, const char *path)
     return OK;
 }
 
-/* Returns REFUSED if a surface encloses nothing, is too large, or has holes so large that inside and outside cannot be
- * distinguished. path: its file, for messages. */
+/* Returns REFUSED, with a message, if the surface s encloses nothing, is too large, or has holes so large that inside
+ * and outside cannot be distinguished; else OK. path: file of the surface, for messages. */
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;

@@ -27,7 +27,8 @@ static void fault_kept(png_structp png, png_const_charp what)
 /* Callback of libpng for warnings: does nothing. */
 static void warning_dropped(png_structp png, png_const_charp what) { (void)png, (void)what; }
 
-/* Makes libpng convert any kind of image to grey values of 8 or 16 bits, big-endian. */
+/* Makes libpng convert any kind of image to grey values of 8 or 16 bits, big-endian. png, info: the image, whose header
+ * has been read. */
 static void make_grey(png_structp png, png_infop info)
 {
     const int colour = png_get_color_type(png, info);
@@ -39,8 +40,9 @@ static void make_grey(png_structp png, png_infop info)
     png_read_update_info(png, info);
 }
 
-/* Reads the image into a new page of p. s: the file. *rows, *bytes: working memory, which the caller frees, also after
- * a failure. Returns REFUSED for an image of another size than the other pages, or of an unsupported kind. */
+/* Reads the image png, info into a new page of p. s: the file. *rows, *bytes: working memory, which the caller frees,
+ * also after a failure. Returns REFUSED, with a message, for an image of another size than the other pages, or of an
+ * unsupported kind. */
 static status page_read(png_structp png, png_infop info, struct pages *p, const struct source *s,
                         png_bytep *volatile *rows, png_bytep volatile *bytes)
 {

@@ -46,8 +46,8 @@ static toff_t tiff_size(thandle_t handle) { return (toff_t)((struct source *)han
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a 16-bit tag of the current page. If the page does not have the tag, returns its default, or
- * 0 without a default. */
+/* Returns the value of the 16-bit tag `tag` of the current page of `tiff`. If the page does not have the tag, returns
+ * its default, or 0 without a default. */
 static int tag_of(TIFF *tiff, uint32_t tag)
 {
     uint16_t value = 0;
@@ -63,7 +63,7 @@ struct samples {
     int64_t width, height;
 };
 
-/* Returns the layout of the current page's samples, from its tags. */
+/* Returns the layout of the samples of the current page of `tiff`, from its tags. */
 static struct samples samples_of(TIFF *tiff)
 {
     uint32_t width = 0, height = 0;
@@ -82,16 +82,16 @@ static struct samples samples_of(TIFF *tiff)
                             .height = height};
 }
 
-/* Returns how many samples per pixel are read directly: 1 for grey, 3 for RGB (further ones are transparency). Returns
- * 0 for another kind, which libtiff converts to RGBA. */
+/* Returns how many samples per pixel of a page with the layout a are read directly: 1 for grey, 3 for RGB (further ones
+ * are transparency). Returns 0 for another kind, which libtiff converts to RGBA. */
 static int samples_used(const struct samples *a)
 {
     const int used = a->photometric <= PHOTOMETRIC_MINISBLACK ? 1 : a->photometric == PHOTOMETRIC_RGB ? 3 : 0;
     return (a->bits == 8 || a->bits == 16) && a->count >= used ? used : 0;
 }
 
-/* Returns REFUSED unless the samples of a page are unsigned integers of up to 16 bits that are stored row by row. path:
- * its file, for messages. */
+/* Returns REFUSED, with a message, unless the samples a of a page are unsigned integers of up to 16 bits that are
+ * stored row by row. path: file of the page, for messages. */
 static status check_samples(const struct samples *a, const char *path)
 {
     if (a->format == SAMPLEFORMAT_IEEEFP || a->format == SAMPLEFORMAT_COMPLEXIEEEFP || a->bits > 16)
@@ -123,8 +123,7 @@ struct planes {
 };
 
 /* Stores n pixels of row y of the file, from column x on, in p->sample, with the orientation of the page applied. from:
- * the pixels, `stride` samples each; first: which sample of a pixel (0 red, 1 green, 2 blue) the first one of `from`
- * is. */
+ * the pixels, `stride` samples each; first: number of the first sample in `from` (0 red, 1 green, 2 blue). */
 static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y, int64_t n, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -140,8 +139,9 @@ static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y
         }
 }
 
-/* Reads all rows or tiles of the page into p->sample. stride: samples per pixel in the rows of the file; first: which
- * sample of a pixel (0 red, 1 green, 2 blue) the rows begin with. Returns false if the file is malformed. */
+/* Reads all rows or tiles of the current page of `tiff` into p->sample. stride: samples per pixel in the rows of the
+ * file; first: number of the sample of a pixel (0 red, 1 green, 2 blue) with which the rows begin. Returns false if the
+ * file is malformed. */
 static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -165,8 +165,8 @@ static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
     return good;
 }
 
-/* Fills page[height * width] with the grey values of a page whose samples can be read directly (grey or RGB).
- * Returns false if the file is malformed. */
+/* Fills page[height * width] with the grey values of the current page of `tiff`, whose samples a can be read directly
+ * (grey or RGB). Returns false if the file is malformed. */
 static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
 {
     const int64_t size = a->width * a->height;
@@ -183,8 +183,8 @@ static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
     return good;
 }
 
-/* Fills page[height * width] with the grey values of a page that libtiff converts to RGBA first. Returns false if the
- * file is malformed. */
+/* Fills page[height * width] with the grey values of the current page of `tiff`, which libtiff converts to RGBA first.
+ * Returns false if the file is malformed. */
 static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t height)
 {
     uint32_t *colour = BARE("image.colours", width * height, uint32_t);
@@ -198,8 +198,8 @@ static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t heig
     return good;
 }
 
-/* Appends the current page of a file to the pages p. s: the file. Returns REFUSED if its samples are not supported or
- * it is malformed. */
+/* Appends the current page of `tiff` to the pages p. s: the file. Returns REFUSED, with a message, if its samples are
+ * not supported or it is malformed. */
 static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
 {
     const struct samples a = samples_of(tiff);

@@ -20,7 +20,7 @@ struct sheets {
     struct sheet *at;
 };
 
-/* Returns the distance between the points a and b [dim] [m]. */
+/* Returns the distance between the points a[dim] and b[dim] [m]. */
 static real corner_distance(const real *a, const real *b, int dim)
 {
     real r2 = 0;
@@ -28,7 +28,7 @@ static real corner_distance(const real *a, const real *b, int dim)
     return sqrt(r2);
 }
 
-/* Returns a copy of face number `face` of a surface, with its centre and size. */
+/* Returns a copy of face number `face` of a surface h, with its centre and size. */
 static struct sheet sheet_of(const struct hull *h, int64_t face)
 {
     struct sheet s = {.size = 0};
@@ -48,7 +48,8 @@ static int by_centre(const void *a, const void *b)
     return (p->centre[0] > q->centre[0]) - (p->centre[0] < q->centre[0]);
 }
 
-/* Returns true if two faces have the same corners, in any order, to within SAME times their size. */
+/* Returns true if the faces p and q have the same corners, in any order, to within SAME times their size. dim:
+ * dimensions, also the number of corners of a face. */
 static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int dim)
 {
     for (int c = 0; c < dim; c++) {
@@ -81,7 +82,7 @@ static struct sheets sheets_doubled(const struct hull *h)
 /* ---- in the plane ------------------------------------------------------------------------------------------------ */
 
 /* Joins the segment `by` to the segment `to` if they have a common end and are collinear: `to` then extends over both.
- * Returns true if it did so. */
+ * Returns true if they were joined. */
 static bool segments_join(struct sheet *to, const struct sheet *by)
 {
     const real near = SAME * fmin(to->size, by->size);
@@ -196,8 +197,8 @@ static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
     return common == 2;
 }
 
-/* Collects the faces that adjoin face number `first` in its plane, directly or through other faces: moves them to the
- * positions after it in the list. Returns their number, `first` included. */
+/* Collects the faces of s that adjoin face number `first` in its plane, directly or through other faces: moves them to
+ * the positions after it in the list. Returns their number, `first` included. */
 static int64_t group_gather(struct sheets *s, int64_t first)
 {
     int64_t n = 1;

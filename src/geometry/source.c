@@ -72,8 +72,9 @@ void source_read_word(struct source *s, char *word, size_t capacity)
     word[n] = '\0';
 }
 
-/* Parses the next word of a text file as a number *value. what: name of the number, for messages. Returns REFUSED if
- * it is no finite number. Words are limited to 63 characters, so that a long file without blanks is refused at once. */
+/* Parses the next word of the text file s as a number *value. what: name of the number, for messages. Returns REFUSED,
+ * with a message, if it is no finite number. Words are limited to 63 characters, so that a long file without blanks is
+ * refused at once. */
 static status text_real(struct source *s, const char *what, real *value)
 {
     char word[64], *end;
@@ -86,8 +87,8 @@ static status text_real(struct source *s, const char *what, real *value)
     return source_report_fault(s, "%.40s is not a %s; a number is expected", word, what);
 }
 
-/* Copies the next `size` bytes of a binary file to `value`. what: name of the value, for messages. Returns REFUSED
- * if the file ends before. */
+/* Copies the next `size` bytes of the binary file s to `value`. what: name of the value, for messages. Returns REFUSED,
+ * with a message, if the file ends before. */
 static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
 {
     if (s->length - s->at < size)

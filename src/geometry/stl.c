@@ -19,7 +19,7 @@ static status corner_add(struct element_mesh *m, const struct source *s, const r
 
 /* ---- binary --------------------------------------------------------------------------------------------------- */
 
-/* Returns the little-endian integer of four bytes at position `at` of the file. */
+/* Returns the little-endian integer of four bytes at position `at` of the file s. */
 static uint32_t word_at(const struct source *s, int64_t at)
 {
     const unsigned char *c = (const unsigned char *)s->text + at;
@@ -33,13 +33,14 @@ static bool is_binary(const struct source *s)
     return s->length >= HEADER + COUNT && s->length == HEADER + COUNT + FACET * (int64_t)word_at(s, HEADER);
 }
 
-/* Returns true if the file can be text: it begins with "solid" and has no zero byte, which all binary files have. */
+/* Returns true if the file s can be text: it begins with "solid" and has no zero byte, which all binary files have. */
 static bool may_be_text(const struct source *s)
 {
     return s->length >= 5 && strncasecmp(s->text, "solid", 5) == 0 && !memchr(s->text, '\0', (size_t)s->length);
 }
 
-/* Reads all triangles of a binary file into the mesh. Returns REFUSED if a coordinate is not finite. */
+/* Reads all triangles of the binary file s into the mesh m. Returns REFUSED, with a message, if a coordinate is not
+ * finite. */
 static status binary_read(struct element_mesh *m, struct source *s)
 {
     const int64_t n = word_at(s, HEADER);
@@ -63,8 +64,8 @@ static status binary_read(struct element_mesh *m, struct source *s)
 
 /* ---- text ----------------------------------------------------------------------------------------------------- */
 
-/* Reads all triangles of a text file into the mesh. Returns REFUSED if a facet does not have three corners, or endsolid
- * is missing. */
+/* Reads all triangles of the text file s into the mesh m. Returns REFUSED, with a message, if a facet does not have
+ * three corners, or endsolid is missing. */
 static status words_read(struct element_mesh *m, struct source *s)
 {
     char word[32];
@@ -108,7 +109,7 @@ static int corner_order(const void *a, const void *b)
  * corner with different last digits. */
 #define SAME_PLACE 1e-6
 
-/* Returns the largest extent of the nodes along x, y and z [unit of the file]. */
+/* Returns the largest extent of the nodes of the mesh m along x, y and z [unit of the file]. */
 static real extent_of(const struct element_mesh *m)
 {
     real extent = 0;
@@ -120,8 +121,8 @@ static real extent_of(const struct element_mesh *m)
     return extent;
 }
 
-/* Replaces corners that coincide, to within SAME_PLACE times the extent of the mesh, by one node, so that neighbouring
- * triangles share nodes. */
+/* Replaces corners of the mesh m that coincide, to within SAME_PLACE times the extent of the mesh, by one node, so that
+ * neighbouring triangles share nodes. */
 static void corners_weld(struct element_mesh *m)
 {
     struct corner_key *key = NEW("stl.corners", m->nodes, struct corner_key);

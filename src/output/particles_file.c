@@ -21,10 +21,11 @@ void particles_file_name(const struct frame_series *series, char *name, size_t c
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if field k (FIELD_*) is in the particles file, as its values do not change from frame to frame. */
+/* Returns true if field number k (FIELD_*) is in the particles file f, as its values do not change from frame to
+ * frame. */
 static bool is_inside(const struct particles_file *f, int k) { return f->fields >> k & 1 && frame_fields[k].fixed; }
 
-/* Returns the size of all rows of field k (FIELD_*) in the particles file [byte]. */
+/* Returns the size of all rows of field number k (FIELD_*) in the particles file f [byte]. */
 static size_t field_bytes(const struct particles_file *f, int k)
 {
     return (size_t)f->n * frame_field_bytes_per_row(&frame_fields[k], f->dim);
@@ -66,8 +67,8 @@ static void particles_write_list(struct hdf *h, int list, int64_t entries, const
     hdf_write_rows_zero_padded(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);
 }
 
-/* Writes the cells of a particles file for VTK, one vertex per particle: cell k consists of point k and starts at entry
- * k of the connectivity. */
+/* Writes the VTK cells of the particles file f to h, one vertex per particle: cell k consists of point k and starts at
+ * entry k of the connectivity. */
 static void particles_write_cells(struct hdf *h, const struct particles_file *f)
 {
     for (int k = 0; k < 3; k++) hdf_write_rows(h, linked[k], HDF_I64, 1, 1, &f->n);
@@ -78,7 +79,7 @@ static void particles_write_cells(struct hdf *h, const struct particles_file *f)
     particles_write_list(h, CELLS_TYPES, f->n, f->cells);
 }
 
-/* Writes the groups, attributes, texts, cells and fields of a particles file to h. */
+/* Writes the groups, attributes, texts, cells and fields of the particles file f to h. */
 static void particles_write_contents(struct hdf *h, const struct particles_file *f)
 {
     static const int32_t version = PARTICLES_VERSION;

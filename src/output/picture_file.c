@@ -37,7 +37,7 @@ static const struct picture_end {
                      true},
 };
 
-/* Reads the last bytes of an open file of `length` bytes, at most `capacity`, into `to`. Returns their number; 0 on a
+/* Reads the last bytes of an open file fd of `length` bytes, at most `capacity`, to to[]. Returns their number; 0 on a
  * fault. */
 static size_t read_end(int fd, int64_t length, char *to, size_t capacity)
 {
@@ -46,7 +46,8 @@ static size_t read_end(int fd, int64_t length, char *to, size_t capacity)
     return have < 0 ? 0 : (size_t)have;
 }
 
-/* Returns true if the lengths of the boxes of a film (MP4) add up to the length of the open file [byte]. */
+/* Returns true if the lengths of the boxes of a film (MP4) add up to `length`, the length of the open file fd
+ * [byte]. */
 static bool boxes_are_whole(int fd, int64_t length)
 {
     int64_t at = 0;

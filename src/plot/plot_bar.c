@@ -138,9 +138,9 @@ static void send_number(FILE *to, double a)
         fputs(" NaN", to);
 }
 
-/* Sends the profile h of the k-th drawn frame to gnuplot as the data block $fK (K is the number k): the columns are x,
- * then the computed and the exact value of every panel. metre: unit of x [m]; scale[QUANTITIES]: units of the
- * panels. */
+/* Sends the profile h of the drawn frame number k (from 0) to gnuplot through `to` as the data block $fK (K is the
+ * number k): the columns are x, then the computed and the exact value of every panel. metre: unit of x [m];
+ * scale[QUANTITIES]: units of the panels. */
 static void send_frame(FILE *to, const struct history *h, int k, double metre, const struct scale *scale)
 {
     fprintf(to, "$f%d << EOD\n", k);
@@ -156,8 +156,9 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
     fputs("EOD\n", to);
 }
 
-/* Colours the background of a panel where the bar consists of peridynamic particles in the profile h. metre: unit of x
- * [m]; half: half a spacing [m]. Returns false, and colours nothing, if the profile has particles of one kind only. */
+/* Writes to gnuplot the commands that colour the background of a panel where the bar consists of peridynamic particles
+ * in the profile h. metre: unit of x [m]; half: half a spacing [m]. Returns false, and colours nothing, if the profile
+ * has particles of one kind only. */
 static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
 {
     int x = history_find_column(h, "x"), kind = history_find_column(h, "kind"), parts = 0;
@@ -176,7 +177,7 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
     return true;
 }
 
-/* Writes the gnuplot commands that plot the curves of panel q (a row of the table `quantity`) for the frames
+/* Writes to gnuplot the commands that plot the curves of panel q (a row of the table `quantity`) for the frames
  * show[frames], with the exact solution dashed. tinted: true if the background shows the peridynamic parts of the bar,
  * so that the key (legend) has an entry for them. */
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
@@ -195,8 +196,8 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
     putc('\n', to);
 }
 
-/* Draws all panels of a bar with its closed-form solution. h[frames]: profiles of the frames show[frames]. Returns
- * FAILED if gnuplot fails. */
+/* Draws all panels of a bar with its closed-form solution on the picture `sheet` with the title `title`. h[frames]:
+ * profiles of the frames show[frames]. Returns FAILED, with a message, if gnuplot fails. */
 static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {

@@ -91,8 +91,8 @@ static double face_brightness(const struct cube *b, int face, const double *towa
     return fabs(facing) >= STRAIGHT * sqrt(length) ? 1 : shade / length;
 }
 
-/* Paints the cube of particle i in the given colour on those pixels on which it is nearer to the viewer than the cubes
- * painted before. */
+/* Paints the cube of particle i of c in the given colour on those pixels of the canvas v on which the cube is nearer to
+ * the viewer than the cubes painted before. */
 static void paint_cube(struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct colour colour)
 {
     struct cube cube;

@@ -33,16 +33,17 @@ static void category_name(char *name, size_t capacity, const char *field, int va
         snprintf(name, capacity, "%s %d", field, value);
 }
 
-/* Returns the value of particle i as a whole number. Values outside -1..2^24 and values that are no number, as in a
- * damaged file, are replaced by one in this range. */
+/* Returns the value of particle i of c as a whole number. Values outside -1..2^24 and values that are no number, as in
+ * a damaged file, are replaced by a number in this range. */
 static int category_value(const struct plotted_particles *c, int64_t i)
 {
     static const float MOST = 1 << 24;
     return (int)fminf(fmaxf(c->value[i], -1), MOST);
 }
 
-/* Finds the values that occur in cloud[clouds]. Returns an allocated array in which seen[1 + value] is true for each of
- * them, and stores the largest value in *last. The caller releases the array with memory_free. */
+/* Finds the values that occur in the drawn particles of the frames cloud[clouds]. Returns an allocated array in which
+ * seen[1 + value] is true for each of them, and stores the largest value in *last. The caller releases the array with
+ * memory_free. */
 static bool *values_seen(int *last, const struct plotted_particles *cloud, int clouds)
 {
     *last = -1;

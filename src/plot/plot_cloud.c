@@ -103,7 +103,8 @@ static void frame_extent(const struct output_frame *f, int d, double *from, doub
     }
 }
 
-/* Returns the coordinate axis along which a body in 3D has the smallest extent; the last one of equal axes. */
+/* Returns the coordinate axis (0 .. 2) along which the particles of frame f have the smallest extent; the last one of
+ * equal axes. */
 static int thinnest_direction(const struct output_frame *f)
 {
     double thinnest = INFINITY;

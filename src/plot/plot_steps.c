@@ -26,8 +26,8 @@ bool run_has_load_steps(const char *folder)
     return in_steps;
 }
 
-/* Writes the gnuplot command for the tics of a horizontal axis from `low` to `high`, so far apart that their numbers do
- * not touch. l: layout of the picture. */
+/* Writes to gnuplot the command for the tics of a horizontal axis from `low` to `high`, so far apart that their numbers
+ * do not touch. l: layout of the picture. */
 static void write_horizontal_tics(FILE *to, const struct curves_layout *l, double low, double high)
 {
     const double most = fmax(fabs(low), fabs(high));
@@ -51,9 +51,10 @@ struct components {
     struct component of[3];
 };
 
-/* Returns the components of a vector quantity of a probe or rigid body; n = 0 if there are none. The name of such a
- * column is `probe`, `by` and `quantity` joined, followed by the axis: for example NAME.force_x for the probe NAME, "."
- * and "force_". since: the quantity is the difference of the values from those in the first row. */
+/* Returns the components of a vector quantity of a probe or rigid body in the history h; n = 0 if there are none. The
+ * name of such a column is `probe`, `by` and `quantity` joined, followed by the axis: for example NAME.force_x for the
+ * probe NAME, "." and "force_". since: true if the quantity is the difference of the values from those in the first
+ * row. */
 static struct components components_of(const struct history *h, const char *probe, const char *by, const char *quantity,
                                        bool since)
 {
@@ -73,7 +74,7 @@ static double component_at(const struct history *h, int64_t row, const struct co
     return c->sign * (history_value_at(h, row, c->column) - c->from);
 }
 
-/* Returns the row of the history in which the magnitude of a component is largest. */
+/* Returns the row of the history h in which the magnitude of component c is largest. */
 static int64_t peak_of(const struct history *h, const struct component *c)
 {
     int64_t at = 0;
@@ -87,7 +88,7 @@ static double largest_of(const struct history *h, const struct component *c)
     return fabs(component_at(h, peak_of(h, c), c));
 }
 
-/* Returns the component with the largest magnitude in any row; c->n must not be 0. */
+/* Returns the component of c with the largest magnitude in any row of the history h; c->n must not be 0. */
 static struct component main_component(const struct history *h, const struct components *c)
 {
     int best = 0;
@@ -96,7 +97,8 @@ static struct component main_component(const struct history *h, const struct com
     return c->of[best];
 }
 
-/* Returns the sign of a component where it first exceeds the share DRIVEN of its largest magnitude. */
+/* Returns the sign (1 or -1) of component c where it first exceeds the share DRIVEN of its largest magnitude in the
+ * history h. */
 static double first_sign(const struct history *h, const struct component *c)
 {
     const double least = DRIVEN * largest_of(h, c);
@@ -121,8 +123,8 @@ struct reactions {
     double dropped; /* displacement without force up to which the history goes beyond the axis [m]; 0: none */
 };
 
-/* Finds the first column, from column `from` on, whose name is the name of a probe followed by `quantity`. Returns its
- * index and stores the name of the probe in `name`. Returns -1 if there is none. */
+/* Finds the first column of the history h, from column `from` on, whose name is the name of a probe followed by
+ * `quantity`. Returns its index and stores the name of the probe in `name`. Returns -1 if there is none. */
 static int probe_from(const struct history *h, int from, const char *quantity, char name[NAME_MAX_LENGTH])
 {
     const size_t tail = strlen(quantity);
@@ -145,9 +147,9 @@ static void reaction_append(struct reactions *r, const struct history *h, const 
     snprintf(a->name, sizeof a->name, "%s", name);
 }
 
-/* Appends to r the curves of a support or rigid body: one for each component along which it is driven. A body that
- * moves by `still` [m] or less is appended only if `resting` is true: the largest component of its force, without a
- * displacement. Nothing is appended if there is no force. */
+/* Appends to r the curves of the support or rigid body `name` in the history h: one for each component along which it
+ * is driven. A body that moves by `still` [m] or less is appended only if `resting` is true: the largest component of
+ * its force, without a displacement. Nothing is appended if there is no force. rigid: true for a rigid body. */
 static void reactions_add_body(struct reactions *r, const struct history *h, const char *name, bool rigid, double still,
                                bool resting)
 {
@@ -169,8 +171,8 @@ static void reactions_add_body(struct reactions *r, const struct history *h, con
     }
 }
 
-/* Finds the point probe that moves, and makes the largest component of its displacement that of all curves. Removes all
- * curves if there is no such probe. */
+/* Finds the first point probe in the history h that moves, and makes the largest component of its displacement that of
+ * all curves of r. Removes all curves if there is no such probe. */
 static void reactions_use_point(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
@@ -183,7 +185,8 @@ static void reactions_use_point(struct reactions *r, const struct history *h)
     }
 }
 
-/* Returns true if all curves show components along one axis, of forces or of displacements. */
+/* Returns true if all curves of r show components along one axis: of forces if `force` is true, else of
+ * displacements. */
 static bool one_axis(const struct reactions *r, bool force)
 {
     bool one = true;
@@ -193,9 +196,9 @@ static bool one_axis(const struct reactions *r, bool force)
     return one;
 }
 
-/* Chooses signs such that curves begin in the first quadrant. The force on a rigid body is opposite to that of a
- * support, which acts along the motion. Curves along several axes keep the signs of the history, and their names get
- * their axis. */
+/* Chooses the signs of the curves r such that they begin in the first quadrant. The force on a rigid body is opposite
+ * to that of a support, which acts along the motion. Curves along several axes keep the signs of the history h, and the
+ * axis is added to their names. */
 static void reactions_choose_signs(struct reactions *r, const struct history *h)
 {
     const bool one = one_axis(r, true) && one_axis(r, false);
@@ -218,7 +221,8 @@ static void range_extend(struct value_range *range, double value)
     range->low = fmin(range->low, value), range->high = fmax(range->high, value);
 }
 
-/* Computes the ends of the axes. Motion after the force has ended is left out where it would fill most of the axis. */
+/* Computes the ends of the axes in r from the values in the history h. Motion after the force has ended is left out
+ * where it would fill most of the axis. */
 static void reactions_set_ranges(struct reactions *r, const struct history *h)
 {
     struct value_range whole = {0, 0};
@@ -241,9 +245,10 @@ static void reactions_set_ranges(struct reactions *r, const struct history *h)
         r->dropped = whole.high > r->displacement.high ? whole.high : whole.low;
 }
 
-/* Finds the curves of force over displacement: those of supports that move, and of rigid bodies that move under a
- * force. If none moves, uses all supports and rigid bodies with a force, over the displacement of the first point probe
- * that moves. still: largest displacement that is round-off [m]. Stores in *r the curves and the ends of the axes. */
+/* Finds the curves of force against displacement in the history h: those of supports that move, and of rigid bodies
+ * that move under a force. If none moves, uses all supports and rigid bodies with a force, against the displacement of
+ * the first point probe that moves. still: largest displacement that is round-off [m]. Stores in *r the curves and the
+ * ends of the axes. */
 static void reactions_find(struct reactions *r, const struct history *h, double still)
 {
     char name[NAME_MAX_LENGTH];
@@ -275,8 +280,8 @@ static bool curves_coincide(const struct reactions *r, const struct history *h, 
     return true;
 }
 
-/* Merges curves that coincide into one that has the names of both. Curves coincide, for example, if two probes measure
- * the same support or opposite supports. */
+/* Merges curves of r that coincide into one curve that has the names of both. Curves coincide, for example, if two
+ * probes of the history h measure the same support or opposite supports. */
 static void reactions_join(struct reactions *r, const struct history *h)
 {
     int kept = 0;
@@ -307,8 +312,8 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Plots the curves r of force against displacement, each with a ring at its largest force. newton, metre: units of the
- * vertical and the horizontal axis. */
+/* Writes to gnuplot the command that plots the curves r of force against displacement, each with a ring at its largest
+ * force. h: history with the values; newton, metre: units of the vertical and the horizontal axis. */
 static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
                            struct unit metre)
 {
@@ -337,8 +342,9 @@ static status say_missing_load(const char *path, const struct reactions *r)
     return report_picture_not_drawn(path, "neither a support nor a rigid body has a force");
 }
 
-/* Writes the label of an axis of forces or displacements to `text`: `what`, and the direction if all curves have one.
- * u: unit of the axis. */
+/* Writes the label of an axis to text[LABEL_ROOM]: force or displacement, the direction if all curves of r are along
+ * one axis, and the unit. force: true for the axis of forces; u: unit of the axis. Also names the displacement up to
+ * which there is no force if the axis leaves it out. */
 static void write_axis_label(char text[LABEL_ROOM], const struct reactions *r, bool force, const struct unit *u)
 {
     bool same = true;
@@ -356,7 +362,8 @@ static void write_axis_label(char text[LABEL_ROOM], const struct reactions *r, b
         snprintf(text + length, LABEL_ROOM - length, ", without force up to %.3g %s", r->dropped / u->factor, u->name);
 }
 
-/* Writes the gnuplot commands for the axes of the curves r. */
+/* Writes to gnuplot the commands for the axes of the curves r. l: layout of the picture; newton, metre: units of the
+ * vertical and the horizontal axis. */
 static void reactions_write_axes(FILE *to, const struct curves_layout *l, const struct reactions *r, struct unit newton,
                                  struct unit metre)
 {
@@ -421,7 +428,8 @@ static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
 }
 
 /* Sends the data block $data to gnuplot: crack area and energy release rate of each load step in which the crack has
- * grown. area, rate: columns of the history h; square: unit of area; factor: unit of the rate [J/m^2]. */
+ * grown. area, rate: indices of their columns in the history h; square: unit of area; factor: unit of the rate
+ * [J/m^2]. */
 static void release_send(FILE *to, const struct history *h, int area, int rate, struct unit square, double factor)
 {
     double before = 0;
@@ -435,8 +443,9 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
     fputs("EOD\n", to);
 }
 
-/* Plots the energy release rate against the crack area. Also plots as horizontal lines the mean rate `mean` [J/m^2]
- * unless it is NAN, and the critical rates toughness[n] [J/m^2] of the materials. rate: unit of the axis of rates. */
+/* Writes to gnuplot the command that plots the energy release rate against the crack area. Also plots as horizontal
+ * lines the mean rate `mean` [J/m^2] unless it is NAN, and the critical rates toughness[n] [J/m^2] of the materials.
+ * rate: unit of the axis of rates. */
 static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
 {
     fprintf(to, "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate'", curve_colour[0]);

@@ -25,7 +25,8 @@ static int64_t sample_values(double *sample, const float *value, int64_t n)
     return kept;
 }
 
-/* Copies finite positions among position[n] [m] as sample_values copies values. */
+/* Copies the finite positions among position[n] [m], at most SAMPLE_MOST of them evenly spaced by index, to
+ * sample[SAMPLE_MOST]. Returns their number. */
 static int64_t sample_positions(double *sample, const double *position, int64_t n)
 {
     const int64_t stride = n / SAMPLE_MOST + 1;
@@ -57,9 +58,9 @@ static struct span positions_extent(const double *value, int64_t n)
     return s;
 }
 
-/* Returns the range to be shown [m] along axis k of the map. It contains the initial body. For each of cloud[clouds] it
- * contains the range of the particles without the outermost 1 % at each end, extended by 20 % at both ends. It is
- * limited to the extent of all particles. */
+/* Returns the range to be shown [m] along axis k (0 or 1) of the map. It contains the initial body. For each of the
+ * frames cloud[clouds] it contains the range of the particles without the outermost 1 % at each end, extended by 20 %
+ * at both ends. It is limited to the extent of all particles. */
 static struct span span_along(const struct plotted_particles *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
@@ -77,7 +78,7 @@ static struct span span_along(const struct plotted_particles *cloud, int clouds,
     return (struct span){fmax(shown.from, all.from), fmin(shown.to, all.to)};
 }
 
-/* Returns the number of particles of a cloud that are outside the rectangle of the view. */
+/* Returns the number of particles of c that are outside the rectangle of the view v. */
 static int64_t count_outside(const struct view *v, const struct plotted_particles *c)
 {
     int64_t outside = 0;
@@ -122,11 +123,11 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
 static const double EXTREME = 0.002, HOT = 0.01, HOT_TIMES = 1.5;
 enum { EXTREMES_LEAST = 3 };
 
-/* Returns the largest magnitude for which the colour scale of a field has to suffice. The magnitude of a value is its
- * distance above `low`, or its absolute value in a field of both signs. Only magnitudes above 0 count, because most of
- * a body can be at rest or elastic. Of these a small share of outliers is omitted, and the result is limited to
- * HOT_TIMES the magnitude that the share HOT of them exceeds. Returns 0 if there are none. sample[SAMPLE_MOST]: work
- * array. */
+/* Returns the largest magnitude for which the colour scale of the field of c has to suffice. The magnitude of a value
+ * is its distance above `low`, or its absolute value if `scale` is that of a field of both signs. Only magnitudes above
+ * 0 count, because most of a body can be at rest or elastic. Of these a small share of outliers is omitted, and the
+ * result is limited to HOT_TIMES the magnitude that the share HOT of them exceeds. Returns 0 if there are none.
+ * sample[SAMPLE_MOST]: work array. */
 static double magnitude_of(double *sample, const struct plotted_particles *c, enum field_scale scale, double low)
 {
     const int64_t stride = c->n / SAMPLE_MOST + 1;
@@ -171,8 +172,8 @@ static status range_end_read(real *value, const struct plot_request *r, int end,
                       printable_name(r->range[1]).text, printable_name(r->range[end]).text, what);
 }
 
-/* Counts the particles whose values are below and above the ends of the colour scale, and stores the largest numbers
- * over cloud[clouds] in v->beyond. */
+/* Counts in each of the frames cloud[clouds] the particles whose values are below and above the ends of the colour
+ * scale of view v, and stores the largest numbers in v->beyond. */
 static void count_beyond(struct view *v, const struct plotted_particles *cloud, int clouds)
 {
     const bool damage = map_of_field(v->field) == MAP_DAMAGE;
@@ -208,8 +209,8 @@ static status view_set_options(struct view *v, const struct plot_request *r)
     return OK;
 }
 
-/* Returns true if the rectangle of a view shows a part of one of cloud[clouds]: a particle in the rectangle or within
- * two spacings of it, or a part of a rigid body. */
+/* Returns true if the rectangle of view v shows a part of one of the frames cloud[clouds]: a particle in the rectangle
+ * or within two spacings of it, or a part of a rigid body. */
 static bool view_shows_any(const struct view *v, const struct plotted_particles *cloud, int clouds)
 {
     bool any = false;
@@ -224,8 +225,9 @@ static bool view_shows_any(const struct view *v, const struct plotted_particles 
 /* Largest size of the rectangle of --crop over that of the body. */
 static const double CROP_MOST = 200;
 
-/* Returns REFUSED if the view v is cropped to a rectangle in which there is nothing to see, else OK. around: view of
- * everything, whose rectangle the message states. */
+/* Returns REFUSED, with a message, if the view v is cropped to a rectangle in which there is nothing to see, else OK.
+ * around: view of everything, whose rectangle the message states; r: request with the crop; cloud[clouds]: drawn
+ * particles of the frames. */
 static status view_check_crop(const struct view *v, const struct view *around, const struct plot_request *r,
                               const struct plotted_particles *cloud, int clouds)
 {

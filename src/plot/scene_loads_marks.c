@@ -62,17 +62,17 @@ struct acting {
     bool varies;
 };
 
-/* Returns the boundary condition of the scene from which the load l was made. It is not always l->boundary, since
- * static solvers replace prescribed displacements in it by velocities. */
+/* Returns the boundary condition of the scene of run e from which the load l was made. It is not always l->boundary,
+ * since static solvers replace prescribed displacements in it by velocities. */
 static const struct boundary *boundary_of(const struct run *e, const struct load *l)
 {
     const int64_t number = l - e->loads.load;
     return number < e->scene->boundaries ? &e->scene->boundary[number] : l->boundary;
 }
 
-/* Computes vector[dim], the force density, displacement or velocity that the load l prescribes for its k-th particle at
- * time t [s], in the unit in which loads of this kind are given (such as Pa). Returns its magnitude in this unit. For a
- * pressure the vector has the direction of the force. */
+/* Computes vector[dim], the force density, displacement or velocity that the load l of run e prescribes for its
+ * particle number k at time t [s], in the unit in which loads of this kind are given (such as Pa). Returns its
+ * magnitude in this unit. For a pressure the vector has the direction of the force. */
 static double vector_at(const struct run *e, const struct load *l, int64_t k, double t, real *vector)
 {
     const struct particles *p = &e->part;
@@ -128,9 +128,9 @@ static void face_on(void *context, int32_t particle, int axis, int side, real ar
     ((uint8_t *)context)[particle] |= area > 0;
 }
 
-/* Returns an allocated array with 1 for each particle that has a face under the pressure load l, else 0. A pressure is
- * distributed over two layers of particles, of which only the outer one has a face. The caller releases the array with
- * memory_free. */
+/* Returns an allocated array with 1 for each particle of run e that has a face under the pressure load l, else 0. A
+ * pressure is distributed over two layers of particles, of which only the outer layer has a face. The caller releases
+ * the array with memory_free. */
 static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
@@ -213,8 +213,8 @@ struct chosen {
     int64_t layers[DIM_MAX], every;
 };
 
-/* Returns true if the arrow of particle i is drawn: along every axis the particle is on one of the lattice layers that
- * the selection c draws. */
+/* Returns true if the arrow of particle i of p is drawn: along every axis the particle is on one of the lattice layers
+ * that the selection c draws. */
 static bool chosen_has(const struct chosen *c, const struct particles *p, int32_t i)
 {
     real X[DIM_MAX];

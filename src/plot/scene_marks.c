@@ -37,7 +37,7 @@ void marks_add_point(struct marks *m, const real *position, const double *arrow)
 /* Interrupts the line in the current data block: positions that follow are not connected with those before. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
-/* Adds an entry with the text `text` to the key of the picture. The entry belongs to the element (line, points or
+/* Adds an entry `text` to the key (legend) of the picture of m. The entry belongs to the element (line, points or
  * arrows) that was added last to the plot command. */
 static void key_line_add(struct marks *m, const char *text)
 {
@@ -67,8 +67,9 @@ void marks_add_colour_to_key(struct marks *m, struct colour colour, const char *
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Cuts the ends of a straight crack in the plane, end[2][DIM_MAX] [m], to the part that has particles within a spacing:
- * a crack is often given longer than the body. Leaves a crack without such particles as it is. */
+/* Cuts the ends of a straight crack in the plane, end[2][DIM_MAX] [m], to the part that has particles of p within a
+ * spacing: a crack is often given longer than the body. Leaves a crack without such particles as it is. spacing:
+ * lattice spacing [m]. */
 static void crack_cut(const struct particles *p, double spacing, real end[2][DIM_MAX])
 {
     const real along[2] = {end[1][0] - end[0][0], end[1][1] - end[0][1]}, length = hypot(along[0], along[1]);
@@ -84,7 +85,7 @@ static void crack_cut(const struct particles *p, double spacing, real end[2][DIM
         end[1][d] = end[0][d] + along[d] * to / length, end[0][d] += along[d] * from / length;
 }
 
-/* Sends the outline of a crack as a line, which is closed for a polygon in 3D. */
+/* Sends the outline of the crack c to the current data block of m as a line, which is closed for a polygon in 3D. */
 static void crack_line(struct marks *m, const struct crack *c)
 {
     real end[2][DIM_MAX];
@@ -127,8 +128,8 @@ void marks_draw_lines_of_precracks(struct marks *m)
  * circle. */
 enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
-/* Sends the edges of the box with the corners from[dim] and to[dim] [m] to the current data block as lines: four in 2D,
- * twelve in 3D. */
+/* Sends the edges of the box with the corners from[dim] and to[dim] [m] to the current data block of m as lines: four
+ * in 2D, twelve in 3D. */
 static void box_lines(struct marks *m, const real *from, const real *to, int dim)
 {
     for (int a = 0; a < dim; a++)
@@ -152,15 +153,15 @@ static void circle_line(struct marks *m, const real *centre, double radius)
     }
 }
 
-/* Adds a point at the initial position of every crack tip to the current block of marks. */
+/* Adds a point at the initial position of every crack tip of the run to the current data block of m. */
 static void tip_marks(struct marks *m)
 {
     const struct crack_tips *t = &m->engine->fracture->tips;
     for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
 }
 
-/* Draws the position, line or region of probe number k. text: its entry in the key, "" for none. Of a probe
- * without a position only the symbol in the key is drawn. */
+/* Draws the position, line or region of probe number k of the scene of m. text: entry of the probe in the key, "" for
+ * none. Of a probe without a position only the symbol in the key is drawn. */
 static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
@@ -235,8 +236,8 @@ void marks_draw_boxes_of_named_regions(struct marks *m)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the finest cell number `cell` is the one at the lower corner of the coarse cell that contains it, so
- * that each coarse cell is drawn once. Stores the indices of the finest cell along the axes in k[dim]. */
+/* Returns true if the finest cell number `cell` of l is the cell at the lower corner of the coarse cell that contains
+ * it, so that each coarse cell is drawn once. Stores the indices of the finest cell along the axes in k[dim]. */
 static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -248,8 +249,8 @@ static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k
     return corner;
 }
 
-/* Draws the outlines of all coarse mesh cells of the level `level` >= 1, whose edge is 2^level times that of the finest
- * cells. Returns the number of these cells. */
+/* Draws the outlines of all coarse mesh cells of the level `level` >= 1 in the picture of m. Their edge is 2^level
+ * times that of the finest cells. Returns the number of these cells. */
 static int64_t level_cells_draw(struct marks *m, int level)
 {
     const struct mesh_levels *l = &m->engine->frame->levels;

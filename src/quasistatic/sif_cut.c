@@ -21,9 +21,9 @@ enum { CONVERSIONS_MOST = 4 }; /* of material points and direction, one after th
 
 /* ---- bonds across a segment -------------------------------------------------------------------------------------- */
 
-/* Appends to `list` a record of each intact bond in row r (bonds of one particle) that crosses one of `segments`. Bonds
- * and segments are projected onto the plane in which the tips move. A record contains row, entry and energy of a
- * bond. */
+/* Appends to `list` a record of each intact bond in row r of b (bonds of one particle of p) that crosses one of
+ * `segments`. Bonds and segments are projected onto the plane in which the tips of l move. A record contains row, entry
+ * and energy of a bond. */
 static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, const struct particles *p, int64_t r,
                           const struct crack_list *segments, struct break_list *list)
 {
@@ -43,8 +43,8 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     }
 }
 
-/* Makes a list of the segment from .. to of the path of a tip (two coordinates each, in the plane in which the tips
- * move [m]) and of its mirror images, and stores it in `segments`. Release it with crack_list_free. */
+/* Makes in `segments` a list of the segment from[2] .. to[2] of the path of `tip` (coordinates in the plane in which
+ * the tips of l move [m]) and of its mirror images. Release it with crack_list_free. */
 static void segment_images(const struct sif_cracks *l, const struct sif_crack_tip *tip, const real from[2],
                            const real to[2], struct crack_list *segments)
 {
@@ -73,7 +73,8 @@ static void segment_cost_set(const struct sif_cracks *l, const struct particles 
         list->bond[k].held = state_based ? whole / (real)list->n : list->bond[k].held * whole / sum;
 }
 
-/* Appends to `list` the bonds that cross the next segment of the path of `tip`. Returns their total energy cost [J]. */
+/* Appends to `list` the bonds of b that cross the next segment of the path of `tip`, one of the tips of l. Returns
+ * their total energy cost [J]. p: particles. */
 static real segment_bonds(const struct sif_cracks *l, const struct bonds *b, const struct particles *p,
                           const struct sif_crack_tip *tip, struct break_list *list)
 {
@@ -106,8 +107,8 @@ void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip)
 
 /* ---- trials ------------------------------------------------------------------------------------------------------ */
 
-/* Marks the material points within a horizon of the next segment of the path of `tip` for conversion to peridynamic
- * particles, since only bonds can break. Returns the number of points marked. */
+/* Marks the material points of p within a horizon of the next segment of the path of `tip` (a tip of l) for conversion
+ * to peridynamic particles, since only bonds can break. Returns the number of points marked. */
 static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, const struct sif_crack_tip *tip)
 {
     real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->position[0], tip->position[1]};
@@ -124,9 +125,9 @@ static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, 
     return marked;
 }
 
-/* Determines the direction of growth of all tips that can grow, and converts material points near their next segments
- * to peridynamic particles. Since converted points change the equilibrium, both are repeated until none is converted,
- * at most CONVERSIONS_MOST times. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Determines the direction of growth of all SIF-driven tips of run e that can grow, and converts material points near
+ * their next segments to peridynamic particles. Since converted points change the equilibrium, both are repeated until
+ * none is converted, at most CONVERSIONS_MOST times. Returns FAILED, with a message, if an equilibrium is not found. */
 static status tips_turn_all(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
@@ -143,9 +144,9 @@ static status tips_turn_all(struct run *e)
     return OK;
 }
 
-/* Breaks the bonds of list l and finds the equilibrium at the present pseudo-time. Stores in a->release the energy that
- * the body releases, divided by the square of the load size (norm of prescribed displacements or forces). Returns
- * FAILED, with a message, if there is no equilibrium. */
+/* Breaks the bonds of list l in run e and finds the equilibrium at the present pseudo-time. Stores in a->release the
+ * energy that the body releases, divided by the square of the load size (norm of prescribed displacements or forces).
+ * Returns FAILED, with a message, if there is no equilibrium. */
 static status list_break_try(struct run *e, const struct break_list *l, struct crack_increment *a)
 {
     const real before = statics_energy_released(e->statics, &e->bonds);
@@ -177,10 +178,10 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     return tried;
 }
 
-/* Computes tip->ahead.release, the energy that the next increment of a tip releases over the square of the load size
- * (norm of prescribed displacements or forces), by a trial in which the bonds in list l break and which is then undone.
- * For the first increment of the tip also estimates tip->behind, a fictitious increment before it. Returns FAILED, with
- * a message, if an equilibrium is not found. */
+/* Computes tip->ahead.release, the energy that the next increment of `tip` in run e releases divided by the square of
+ * the load size (norm of prescribed displacements or forces), by a trial in which the bonds in list l break and which
+ * is then undone. For the first increment of the tip also estimates tip->behind, a fictitious increment before it.
+ * Returns FAILED, with a message, if an equilibrium is not found. */
 static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct break_list *l)
 {
     struct memory_archive saved;
@@ -246,7 +247,7 @@ static status increment_try_together(struct run *e)
     return tried;
 }
 
-/* Computes the next increment of a tip: its bonds, which are appended to `list`; its cost and energy release,
+/* Computes the next increment of `tip` in run e: its bonds, which are appended to `list`; its cost and energy release,
  * tip->ahead; and tip->due, the load size (norm of prescribed displacements or forces) at which it is made. tip->due is
  * INFINITY if the tip does not grow: under compression (K_I < 0), or if there are no bonds ahead of it, so that it has
  * ended. Returns FAILED, with a message, if an equilibrium is not found. */

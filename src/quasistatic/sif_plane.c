@@ -63,8 +63,8 @@ void sif_plane_project_particle(const struct sif_plane *plane, const struct part
 
 /* ---- requirements in space --------------------------------------------------------------------------------------- */
 
-/* Stores the common direction of the fronts of all pre-cracks in plane->front. Returns NULL, or a text with the reason
- * why there is no common direction. */
+/* Stores the common direction of the fronts of all pre-cracks in t in plane->front, as a unit vector. Returns NULL, or
+ * a text (not to be freed) with the reason why there is no common direction. */
 static const char *front_find(const struct crack_tips *t, struct sif_plane *plane)
 {
     bool found = false;
@@ -81,7 +81,8 @@ static const char *front_find(const struct crack_tips *t, struct sif_plane *plan
     return found ? NULL : "no pre-crack ends in the body";
 }
 
-/* Stores in plane->middle the coordinate, along the direction of the fronts, of the middle of the first front [m]. */
+/* Stores in plane->middle the coordinate, along the direction of the fronts, of the middle of the first front in t
+ * [m]. */
 static void front_middle(const struct crack_tips *t, struct sif_plane *plane)
 {
     for (int k = t->n - 1; k >= 0; k--)
@@ -89,8 +90,8 @@ static void front_middle(const struct crack_tips *t, struct sif_plane *plane)
 }
 
 /* Lists in plane->mirror the planes of symmetry parallel to the crack fronts, each with the axis of the plane of the
- * tips to which it is perpendicular. Returns NULL, or a text with the reason, if one is neither parallel nor
- * perpendicular to the fronts. */
+ * tips to which it is perpendicular. Returns NULL, or a text (not to be freed) with the reason, if a plane of symmetry
+ * is neither parallel nor perpendicular to the fronts. */
 static const char *mirrors_find(struct sif_plane *plane)
 {
     for (int k = 0; k < plane->body_mirrors; k++) {
@@ -129,8 +130,8 @@ bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack
     return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
-/* Returns NULL if all pre-cracks of l are rectangles with edges along the crack fronts, else a text with the reason why
- * they are not. */
+/* Returns NULL if all pre-cracks of l are rectangles with edges along the crack fronts of `plane`, else a text (not to
+ * be freed) with the reason why they are not. */
 static const char *cracks_check(const struct crack_list *l, const struct sif_plane *plane)
 {
     for (int k = 0; k < l->n; k++) {
@@ -148,8 +149,8 @@ static const char *cracks_check(const struct crack_list *l, const struct sif_pla
     return NULL;
 }
 
-/* Returns NULL if all crack fronts of t run through the whole width of the body, else a text with the reason why they
- * do not. */
+/* Returns NULL if all crack fronts of t run through the whole width of the body of p along plane->front, else a text
+ * (not to be freed) with the reason why they do not. */
 static const char *fronts_check(const struct crack_tips *t, const struct particles *p, const struct sif_plane *plane)
 {
     const real h = plane->spacing;
@@ -182,8 +183,8 @@ const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struc
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the share of particle i that belongs to the body [1]: 1, halved for each plane of symmetry that is
- * perpendicular to the crack front and passes through the particle. */
+/* Returns the share (0 to 1) of particle i of p that belongs to the body: 1, halved for each plane of symmetry that is
+ * perpendicular to the crack front of `plane` and passes through the particle. */
 static real share_beside_mirrors(const struct sif_plane *plane, const struct particles *p, int64_t i)
 {
     real share = 1;
@@ -195,8 +196,8 @@ static real share_beside_mirrors(const struct sif_plane *plane, const struct par
     return share;
 }
 
-/* Returns the length that the cube of particle i has in common with a line parallel to the crack front [m]. P: point in
- * which the line intersects the plane of the tips, two coordinates [m]. */
+/* Returns the length that the cube of particle i of p has in common with a line parallel to the crack front of `plane`
+ * [m]. P[2]: point in which the line intersects the plane of the tips [m]. */
 static real chord(const struct sif_plane *plane, const struct particles *p, int64_t i, const real *P)
 {
     const real half = 0.5 * cbrt(p->volume0[i]);

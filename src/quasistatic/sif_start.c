@@ -14,8 +14,8 @@
     0.9 /* smallest distance of rows of particles: that of rows along a lattice axis, not a diagonal [spacings] */
 enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 
-/* Stores in tip->length_behind the length of the longest pre-crack that ends at the tip [m], and in tip->reversed
- * whether the tip is at the first corner of a pre-crack. */
+/* Stores in tip->length_behind the length of the longest pre-crack of the scene of l that ends at the tip [m], and in
+ * tip->reversed whether the tip is at the first corner of a pre-crack. */
 static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *tip)
 {
     const struct scene *s = l->scene;
@@ -30,9 +30,10 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
     }
 }
 
-/* Moves a tip that lies on a row of particles sideways to half the distance to the next row, so that round-off does not
- * decide further growth. Returns true if the tip has been moved. A crack along a row assigns its particles to one of
- * its faces (crack_cuts_bond); the tip is moved to the side of the row on which bonds are then cut. */
+/* Moves a tip that lies on a row of particles of p sideways to half the distance to the next row, so that round-off
+ * does not decide further growth. Returns true if the tip has been moved. A crack along a row assigns its particles to
+ * one of its faces (crack_cuts_bond); the tip is moved to the side of the row on which bonds are then cut. plane: plane
+ * in which tips move. */
 static bool tip_off_row(const struct sif_plane *plane, const struct particles *p, struct sif_crack_tip *tip)
 {
     const real h = plane->spacing, *along = tip->along;
@@ -54,7 +55,8 @@ static bool tip_off_row(const struct sif_plane *plane, const struct particles *p
     return true;
 }
 
-/* Creates the tips of the pre-cracks that end in the body. */
+/* Creates in e->statics->sif the SIF-driven tips (directed by stress-intensity factors) of the pre-cracks of run e that
+ * end in the body. */
 static void sif_tips_start(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;

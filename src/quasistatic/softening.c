@@ -22,8 +22,9 @@ enum { BISECTIONS_MOST = 100 };
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
 
-/* Sets the weight of a softening bond, with index q in row `row`, to that of its largest stretch k [1]. It stays above
- * 0, the weight of broken bonds, until the bond is broken. Does nothing in bond-based models. */
+/* Sets the weight of a softening bond of b, with index q in row `row`, to the value for its largest stretch k
+ * (dimensionless). The weight stays above 0, the weight of broken bonds, until the bond is broken. Does nothing in
+ * bond-based models. */
 static void bond_weigh(struct bonds *b, int64_t row, int64_t q, real k)
 {
     const struct softened *soft = &b->soft;
@@ -61,7 +62,7 @@ void softening_list_make(struct softening_list *l, const struct bonds *b, const 
     FOR_SOFTENING_BONDS(b, row, it) softening_list_add(l, b, p, row, &it.bond, stretch_divisor);
 }
 
-/* Returns the energy that a bond has dissipated once its largest stretch is k [J]. */
+/* Returns the energy that `bond` of list l has dissipated once its largest stretch is k (dimensionless) [J]. */
 static real spent_at(const struct softening_list *l, const struct softening_bond *bond, real k)
 {
     return bond->energy * softening_normalised_dissipated_energy(l->curve, bond->onset, bond->end, k);
@@ -78,9 +79,9 @@ real softening_list_dissipated_energy(const struct softening_list *l, real stret
     return sum;
 }
 
-/* Returns the smallest factor between 0 and `max_factor` by which the stretches of the listed bonds must be multiplied
- * so that the bonds have dissipated `energy` [J]; `max_factor` if they dissipate less. Uses the false position method
- * with the Illinois rule (Dowell & Jarratt 1971). */
+/* Returns the smallest factor between 0 and `max_factor` by which the stretches of the bonds in list l must be
+ * multiplied so that the bonds have dissipated `energy` [J]; `max_factor` if they dissipate less. Uses the false
+ * position method with the Illinois rule (Dowell & Jarratt 1971). */
 real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor)
 {
     real low = 0, at_low = -energy, at_high = softening_list_dissipated_energy(l, max_factor) - energy;
@@ -113,8 +114,9 @@ void softening_list_store_largest_stretches(const struct softening_list *l, stru
 
 /* ---- equilibria -------------------------------------------------------------------------------------------------- */
 
-/* Stores the largest stretch of bond `bond` of row `row` as that of the last equilibrium. A bond that has not exceeded
- * its onset of softening counts as not begun again. limit: critical stretches and softening of bonds. */
+/* Stores the largest stretch of bond `bond` of row `row` of b as that of the last equilibrium. A bond that has not
+ * exceeded its onset of softening then counts as one that does not soften yet. p: particles; limit: critical stretches
+ * and softening of bonds. */
 static void settle_bond(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
                         const struct bond *bond)
 {
@@ -143,8 +145,8 @@ void softening_restore_equilibrium_stretches(struct bonds *b)
     }
 }
 
-/* Weighs the softening bonds of a row by their largest stretches of the last equilibrium if `settled`, else by the
- * present ones. */
+/* Sets the weights of the softening bonds in row `row` of b (bonds of one particle) by their largest stretches: those
+ * of the last equilibrium if `settled`, else the present ones. */
 static void row_weigh_softened(struct bonds *b, int64_t row, bool settled)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {

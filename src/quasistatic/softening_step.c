@@ -53,8 +53,8 @@ struct search {
     real residual; /* of the last state, with k = max(k_0, s) [1] */
 };
 
-/* Moves the body to `factor` times the displacements q->u of the last solution (q = f->q). The forces computed there
- * are not used. */
+/* Moves the body of the search f to `factor` times the displacements f->q->u of the last solution. The forces computed
+ * there are not used. */
 static void body_scale(const struct search *f, real factor)
 {
     struct newton_solver *q = f->q;
@@ -63,8 +63,8 @@ static void body_scale(const struct search *f, real factor)
     q->force(q->context, &q->at, &q->z);
 }
 
-/* Returns the factor on the present displacements at which the next particle reaches its strength surface [1]; INFINITY
- * if none is near. Stresses grow in proportion to the displacements. */
+/* Returns the dimensionless factor on the present displacements at which the next particle of the search f reaches its
+ * strength surface; INFINITY if none is near. Stresses grow in proportion to the displacements. */
 static real factor_at_surface(const struct search *f)
 {
     const real ratio = bonds_largest_stress_to_strength_ratio(f->bonds, f->part, f->source);
@@ -99,9 +99,9 @@ static real secants_choose(struct search *f, real most, real least)
     return factor;
 }
 
-/* Returns the norm of the unbalanced forces at the displacements q->u of the last solution over q->scale, the force
- * scale of the solver [1]; 0 if they are round-off. Stores the forces in q->f. Components that boundaries prescribe are
- * left out. */
+/* Returns the relative residual of solver q: the norm of the unbalanced forces at the displacements q->u of the last
+ * solution, divided by q->scale, the force scale of the solver; 0 if the forces are round-off. Stores the forces in
+ * q->f. Components that boundaries prescribe are left out. */
 static real residual_now(struct newton_solver *q)
 {
     real sum = 0;
@@ -111,9 +111,10 @@ static real residual_now(struct newton_solver *q)
     return sqrt(sum) > q->noise ? sqrt(sum) / q->scale : 0;
 }
 
-/* Finds the equilibrium of a load step with softening bonds by iteration: solves with the largest stretches of the
- * bonds, and thus their stiffnesses, fixed, then chooses these stretches anew from the solution. The tolerance of a
- * solution is reduced as these stretches converge. Returns FAILED, with a message, if no equilibrium is found. */
+/* Finds the equilibrium of a load step of run e with softening bonds by iteration, for the search f: solves with the
+ * largest stretches of the bonds, and thus their stiffnesses, fixed, then chooses these stretches anew from the
+ * solution. The tolerance of a solution is reduced as these stretches converge. Returns FAILED, with a message, if no
+ * equilibrium is found. */
 static status search_run(struct run *e, struct search *f)
 {
     struct statics *s = e->statics;
@@ -164,10 +165,10 @@ static void family_losses_add(struct bonds *b, const struct particles *p, const 
     for (int d = 0; d < p->dim; d++) memory_free(midway.x[d]);
 }
 
-/* Searches for the equilibrium that ends a load step. spent: energy that bonds shall dissipate in the step [J];
- * INFINITY if the loads are those of pseudo-time t [s]. With given loads, work in excess of the growth of energies
- * counts as lost, in motion that is not resolved. If the search fails, restores the state before it and returns its
- * status. */
+/* Searches for the equilibrium that ends a load step of run e. spent: energy that bonds shall dissipate in the step
+ * [J]; INFINITY if the loads are those of pseudo-time t [s]. With given loads, work in excess of the growth of energies
+ * counts as lost, in motion that is not resolved. If the search fails, restores the state before it and returns the
+ * status of the search: FAILED, with a message, if there is no equilibrium. */
 static status step_try(struct run *e, real t, real spent)
 {
     struct statics *s = e->statics;
@@ -205,11 +206,11 @@ real softening_least_toughness(const struct scene *s, const struct bond_source *
     return least;
 }
 
-/* Makes one load step of a body whose bonds soften. Under energy control, bonds dissipate a given energy in each step.
+/* Makes one load step of run e, whose bonds soften. Under energy control, bonds dissipate a given energy in each step.
  * If no equilibrium is found, the search is repeated with a half, a quarter .. of this energy. The first step under
- * energy control dissipates the share FIRST_SHARE of it only: on a coarse lattice loads may be largest where bonds
- * begin to soften, and the work over a step is computed from both its ends. pseudo_time: pseudo-time at the end of the
- * step under other controls [s]. */
+ * energy control dissipates only the share FIRST_SHARE of the energy: on a coarse lattice loads may be largest where
+ * bonds begin to soften, and the work over a step is computed from both its ends. pseudo_time: pseudo-time at the end
+ * of the step under other controls [s]. Returns FAILED, with a message, if no equilibrium is found. */
 status softening_make_load_step(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;
