@@ -171,8 +171,8 @@ static void reactions_add_body(struct reactions *r, const struct history *h, con
     }
 }
 
-/* Finds the first point probe in the history h that moves, and makes the largest component of its displacement that of
- * all curves of r. Removes all curves if there is no such probe. */
+/* Finds the first point probe in the history h that moves, stores its name in r->over, and makes the largest component
+ * of its displacement that of all curves of r. Leaves r unchanged, with r->over empty, if there is no such probe. */
 static void reactions_use_point(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
