@@ -147,9 +147,9 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     return sum / (real)(parts << dim);
 }
 
-/* Corrects the momentum of cell J of `level` (cells with the edge of 2^level finest cells), which has been merged from
- * finer cells. Its corners have got the velocities of the finest nodes at their positions. The difference between the
- * momentum of the finest cells and that of cell J with these velocities is added to the corners in equal parts. q:
+/* Corrects the momentum of cell J of `level` of l (cells with the edge of 2^level finest cells), which has been merged
+ * from finer cells. Its corners have the velocities of the finest nodes at their positions. The difference between the
+ * momentum of the finest cells and that of cell J with these velocities is added to the corners in equal parts. q[dim]:
  * indices of the cell along the axes. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
@@ -170,8 +170,8 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
     }
 }
 
-/* Corrects the momenta of all coarse cells that have been merged from finer ones (merged_correct). before: levels that
- * the cells of level 0 (the finest) had before the change. */
+/* Corrects the momenta of all coarse cells of l that have been merged from finer cells (merged_correct). before: levels
+ * that the cells of level 0 (the finest) had before the change. */
 static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
 {
     for (int level = 1; level <= l->n; level++) {
@@ -185,9 +185,9 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
     }
 }
 
-/* Computes the velocities of the nodes of all levels from their momenta. Then sets all forces and the momenta of level
- * 0 (the finest) to 0, and the momenta of coarse nodes to those that belong to their velocities by the blended mass
- * matrix (kernels/mesh/mesh_inertia.h). */
+/* Computes the velocities of the nodes of all levels of l from their momenta. Then sets all forces and the momenta of
+ * level 0 (the finest) to 0, and the momenta of coarse nodes to those that belong to their velocities by the blended
+ * mass matrix (kernels/mesh/mesh_inertia.h). */
 static void velocities_make(struct mesh_levels *l)
 {
     for (int level = 0; level <= l->n; level++) {

@@ -37,7 +37,7 @@ static real rise_of(const struct boundary *b)
     return steepest > 0 ? most / steepest : INFINITY;
 }
 
-/* Returns the largest edge of cells that resolve the waves of the load *r in a body of thickness `across`, all lengths
+/* Returns the largest edge of cells that resolve the waves of the load r in a body of thickness `across`, all lengths
  * in spacings. It is r->waves/RISES, where r->waves is the distance that waves travel while the load rises. If the load
  * is no pulse, it may also be across/edges, if that is larger: then `edges` cells fit across the body. */
 static real edge_for(const struct load_rise *r, real across, real edges)
@@ -45,8 +45,8 @@ static real edge_for(const struct load_rise *r, real across, real edges)
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
 }
 
-/* Keeps in *least, of the loads *least and *one, the one that requires the smaller cells in a body of thickness
- * `across` [spacings]. */
+/* Replaces *least, the load that requires the smallest cells so far, by *one if that requires smaller cells in a body
+ * of thickness `across` [spacings]. */
 static void rise_take(struct load_rise *least, const struct load_rise *one, real across)
 {
     const real now = edge_for(least, across, ACROSS), next = edge_for(one, across, ACROSS);

@@ -185,7 +185,7 @@ static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
     return group;
 }
 
-/* Returns true if a slit or void separates point i from its mirror image at a plane of symmetry. */
+/* Returns true if a slit or void of m separates point i from its mirror image at the plane of symmetry `plane`. */
 static bool image_parted(const struct slit_maker *m, int32_t i, const struct mirror_plane *plane)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -252,8 +252,8 @@ static void node_divide(struct slit_maker *m, int64_t I)
     m->split[I] = m->node.n > before;
 }
 
-/* Finds the cell and the point in it (m->point) of each particle, then divides the cells and nodes near slits and
- * voids. */
+/* Finds the cell and the point in it (m->point) of each particle of the mesh, then divides the cells and nodes near
+ * slits (gaps for pre-cracks) and voids. */
 static void slits_divide(struct slit_maker *m)
 {
     const int64_t n = m->mesh->grid.n;
@@ -273,12 +273,12 @@ static void slits_divide(struct slit_maker *m)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Returns how many extra nodes or cells, made where slits divide nodes and cells, are stored in a row of nodes of grid
- * g: LANES fewer than the row has, since whole vectors are read and written beyond its ends. */
+/* Returns how many extra nodes or cells, made where slits (gaps for pre-cracks) divide nodes and cells, are stored in a
+ * row of nodes of grid g: LANES fewer than the row has, since whole vectors are read and written beyond its ends. */
 static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
 
-/* Returns the index in the arrays of nodes and of cells at which extra node or cell number k is stored. Extra nodes and
- * cells are made where slits divide nodes and cells. */
+/* Returns the index in the arrays of nodes and of cells of the mesh at which extra node or cell number k (from 0) is
+ * stored. Extra nodes and cells are made where slits (gaps for pre-cracks) divide nodes and cells. */
 static int64_t extra_index(const struct mesh *mesh, int64_t k)
 {
     const struct grid *g = &mesh->grid;
@@ -299,17 +299,17 @@ static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
     return s->corner + (int64_t)s->cell[I] * corners;
 }
 
-/* Returns the cell that holds piece g of cell I of the grid: I itself for g = 0, else an extra cell. A piece is a set
- * of points of a cell that no slit separates. */
+/* Returns the cell of the mesh that holds piece g of cell I of the grid: I itself for g = 0, else an extra cell. A
+ * piece is a set of points of a cell that no slit separates. */
 static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 {
     while (g-- > 0) I = mesh->slits.next[I];
     return I;
 }
 
-/* Enters the extra cells, into which slits divide cells of the grid, in the tables of the mesh: links them to the cells
- * from which they were divided, gives them the corners of these cells, and stores the cell of each point of a divided
- * cell. */
+/* Enters the extra cells of m, into which slits (gaps for pre-cracks) divide cells of the grid, in the tables of the
+ * mesh: links them to the cells from which they were divided, gives them the corners of these cells, and stores the
+ * cell of each point of a divided cell. */
 static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -330,8 +330,8 @@ static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
     }
 }
 
-/* Enters the extra nodes, which slits make at the positions of nodes of the grid, in the tables of the mesh: their
- * positions, and the cells of which they are corners. */
+/* Enters the extra nodes of m, which slits (gaps for pre-cracks) make at the positions of nodes of the grid, in the
+ * tables of the mesh: their positions, and the cells of which they are corners. */
 static void tables_nodes(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;

@@ -8,8 +8,9 @@
 #include "kernels/mesh/mesh_law.h"
 #include "kernels/mesh/mesh_point.h"
 
-/* Adds the contribution of point number q (0 .. 2^dim - 1) of a cell to the stiffness matrix K for displacements of the
- * corners [N/m], column by column. m: elastic constants; h: edge of the cell [m]; V: volume of the point [m^3]. */
+/* Adds the contribution of point number q (0 .. 2^dim - 1) of a cell to K[n][n], the stiffness matrix for displacements
+ * of the corners [N/m], n = 2^dim dim, column by column. m: elastic constants; h: edge of the cell [m]; V: volume of
+ * the point [m^3]. */
 static void point_stiffness(real *K, const struct elastic *m, int dim, real h, real V, int q)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -31,10 +32,10 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
-/* Changes the stiffness K[n][n] of cell I for displacements of its corners [N/m] such that all points of `material`
- * have one dilatation, the mean of theirs (mesh_law.h): K - sum V k t (x) t + N V k T (x) T. t: derivative of the trace
- * of the strain at a point by the displacements; T: mean of t over the N points; V: volume of a point; k:
- * mean_dilatation_stiffness. m: elastic constants of the material. */
+/* Changes the stiffness K[n][n] of cell I of the mesh for displacements of its corners [N/m] such that all points (of
+ * p) of `material` have one dilatation, the mean of theirs (mesh_law.h): K - sum V k t (x) t + N V k T (x) T. t:
+ * derivative of the trace of the strain at a point by the displacements; T: mean of t over the N points; V: volume of a
+ * point; k: mean_dilatation_stiffness. m: elastic constants of the material. */
 static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
                                uint8_t material, real *K)
 {
@@ -56,8 +57,8 @@ static void average_dilatation(const struct mesh *mesh, const struct elastic *m,
         for (int a = 0; a < n; a++) K[b * n + a] += by * sum[a] * sum[b] / points;
 }
 
-/* Returns true if point q (0 .. 2^dim - 1) of cell I, of `material`, is the first point of the cell of this
- * material. */
+/* Returns true if point q (0 .. 2^dim - 1) of cell I of the mesh, of `material`, is the first point of the cell with
+ * this material. p: particles. */
 static bool first_of_material(const struct mesh *mesh, const struct particles *p, int64_t I, int q, uint8_t material)
 {
     for (int k = 0; k < q; k++) {
@@ -93,8 +94,9 @@ struct scaled_cell {
     int n;
 };
 
-/* Computes y = m^-1/2 K m^-1/2 x for one cell, with its stiffness K and the lumped masses m of its corners, column by
- * column in whole vectors. context: the scaled matrix, a struct scaled_cell. Called by largest_eigenvalue. */
+/* Computes y[n] = m^-1/2 K m^-1/2 x for one cell and a vector x[n], with its stiffness K and the lumped masses m of its
+ * corners, column by column in whole vectors. context: the scaled matrix, a struct scaled_cell. largest_eigenvalue
+ * calls it. */
 static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled_cell *c = context;
@@ -104,9 +106,10 @@ static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 }
 
 /* Returns the largest eigenvalue of m^-1/2 K m^-1/2 [1/s^2] for one cell with the points in the bit set `places` (K:
- * stiffness, m: lumped masses of these points at the corners). m: elastic constants; h: edge of the cell [m]; V: volume
- * of a point [m^3]; density: [kg/m^3]. No eigenvalue of the mesh exceeds that of its stiffest cell alone. Cells whose
- * points have one dilatation are softer; this value is an upper bound for them. */
+ * stiffness, m: lumped masses of these points at the corners); a stable time step is at most 2 divided by its square
+ * root. Argument m: elastic constants; h: edge of the cell [m]; V: volume of a point [m^3]; density: mass density
+ * [kg/m^3]. No eigenvalue of the mesh exceeds that of its stiffest cell alone. Cells whose points have one dilatation
+ * are softer; this value is an upper bound for them. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -121,7 +124,7 @@ static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, re
     return largest_eigenvalue(n, mesh_scaled_stiffness, &(struct scaled_cell){K, n});
 }
 
-/* Returns the points of cell I that exist, as one bit for each of its 2^dim integration points. */
+/* Returns the points of cell I of the mesh that exist, as one bit for each of its 2^dim integration points. */
 static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
 {
     const int dim = mesh->grid.dim;
@@ -130,8 +133,8 @@ static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
-/* Returns true if bonds carry a part of the stress of a point of cell I (partial stress), so that the cell is softer
- * than without bonds. partial: NULL if no point has bonds. */
+/* Returns true if bonds carry a part of the stress of a point of cell I of the mesh (partial stress), so that the cell
+ * is softer than without bonds. partial: NULL if no point has bonds. */
 static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
 {
     if (!partial || !partial->index) return false;

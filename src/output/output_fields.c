@@ -17,8 +17,8 @@ static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int
         rows[columns * r + c] = (float)(less ? of[row[r]] - less[row[r]] : of[row[r]]);
 }
 
-/* Copies vectors of[dim][n], or the differences of - less if `less` is not NULL, to the rows first .. end - 1 of an
- * array with dim floats per row. row[r]: index of the particle of row r. */
+/* Copies vectors of[dim][n], or the differences of - less if `less` is not NULL, to the rows first .. end - 1 of the
+ * array `rows` with dim floats per row. row[r]: index of the particle of row r. */
 static void copy_vectors(float *rows, const int32_t *row, int64_t first, int64_t end, real *const *of,
                          real *const *less, int dim)
 {
@@ -44,8 +44,8 @@ static void copy_velocity(const struct frame_source *s, const int32_t *row, int6
     copy_vectors(rows, row, first, end, s->p->v, NULL, s->p->dim);
 }
 
-/* Copies one number per particle, of[row[r]], to the rows r = first .. end - 1 of an array with one column. row[r]:
- * index of the particle of row r. */
+/* Copies one number per particle, of[row[r]], to the rows r = first .. end - 1 of the array `rows` with one column.
+ * row[r]: index of the particle of row r. */
 static void copy_scalars(float *rows, const int32_t *row, int64_t first, int64_t end, const real *of)
 {
     copy_column(rows, 1, 0, row, first, end, of, NULL);
@@ -59,8 +59,8 @@ static inline int tensor_stored(int dim) { return dim == 1 ? 1 : dim == 2 ? 4 : 
  * differ in 2D only, where struct particles has xx yy xy. */
 static const int tensor_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
 
-/* Copies the stress of particle i [Pa] to row[6] in VTK's order xx yy zz xy yz xz. In plane strain this includes the
- * out-of-plane component zz. */
+/* Copies the stress of particle i of p [Pa] to row[6] in VTK's order xx yy zz xy yz xz. In plane strain this includes
+ * the out-of-plane component zz. */
 static void stress_row(const struct particles *p, int64_t i, real *row)
 {
     for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
@@ -79,8 +79,8 @@ static void copy_stress(const struct frame_source *s, const int32_t *row, int64_
         ((float *)rows)[stored * r + 2] = (float)particle_out_of_plane_stress(p, row[r]);
 }
 
-/* Computes the rows first .. end - 1 of a field that is derived from stress or velocity, such as the von Mises stress.
- * row[r]: index of the particle of row r. */
+/* Computes the rows first .. end - 1 of the array `rows` for a field that is derived from stress or velocity, such as
+ * the von Mises stress. s: source of the frame; row[r]: index of the particle of row r. */
 static void copy_derived(const struct derived_field *field, const struct frame_source *s, const int32_t *row,
                          int64_t first, int64_t end, float *rows)
 {
@@ -96,7 +96,7 @@ static void copy_derived(const struct derived_field *field, const struct frame_s
 
 /* ---- fields of the displacement gradient ------------------------------------------------------------------------- */
 
-/* Returns the Green-Lagrange strain 1/2 (F_zz^2 - 1) of particle i normal to the plane in plane stress [1]; 0 in other
+/* Returns the Green-Lagrange strain 1/2 (F_zz^2 - 1) of particle i of s normal to the plane in plane stress; 0 in other
  * spaces. An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. In a yielding material
  * plastic flow preserves volume. There F_zz = J/J_plane, where J is the elastic volume ratio that follows from the mean
  * stress, and J_plane the area ratio in the plane. strain[6]: in-plane strains, in the order xx yy zz xy yz xz. */
@@ -110,7 +110,7 @@ static real strain_across(const struct frame_source *s, int64_t i, const real *s
     return 0.5 * (square(elastic / plane) - 1);
 }
 
-/* Computes strain[6], the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of particle i [1], from its displacement
+/* Computes strain[6], the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of particle i of s, from its displacement
  * gradient H, in the order xx yy zz xy yz xz. */
 static void strain_row(const struct frame_source *s, int64_t i, real *strain)
 {
@@ -300,8 +300,8 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
  * field k + 1. */
 enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
-/* Returns true if a frame contains a field: its data exist and, if the field is written on request only, the scene
- * requests it. */
+/* Returns true if a frame of source s contains `field`, a row of frame_fields: its data exist and, if the field is
+ * written on request only, the scene requests it. */
 static bool field_exists(const struct frame_field *field, const struct frame_source *s)
 {
     const int64_t k = field - frame_fields;

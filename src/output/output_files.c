@@ -79,7 +79,8 @@ enum { UNFINISHED_MOST = 8 };
 static struct path unfinished[UNFINISHED_MOST];
 static pthread_mutex_t unfinished_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* Replaces the path `from` by `to` in the list `unfinished`, if it is there. */
+/* Replaces the path `from` by `to` in the list `unfinished` of files that are being written, if it is there. "" as
+ * `from` adds `to` to the list, "" as `to` removes `from`. */
 static void unfinished_replace(const char *from, const char *to)
 {
     bool found = false;
@@ -284,8 +285,8 @@ status file_write_whole(const char *path, const void *bytes, size_t length)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Creates one folder, unless it exists or is a symbolic link to a folder. Returns REFUSED if a file, or a link to
- * anything else, has this name; FAILED if it cannot be created. */
+/* Creates the folder `path`, but not its parents, unless it exists or is a symbolic link to a folder. Returns REFUSED
+ * if a file, or a link to anything else, has this name; FAILED if it cannot be created, both with a message. */
 static status folder_make_one(const char *path)
 {
     if (mkdir(path, 0777) == 0) return file_sync_folder(path);
@@ -334,7 +335,7 @@ status files_visit(const char *folder, bool (*name_is_chosen)(const char *name, 
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Reads up to `capacity` bytes from the open file fd. Returns their number, or -1 on a fault. */
+/* Reads up to `capacity` bytes from the open file fd to bytes[]. Returns their number, or -1 on a fault. */
 static int64_t output_files_read_all(int fd, char *bytes, size_t capacity)
 {
     size_t have = 0;

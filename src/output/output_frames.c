@@ -81,9 +81,9 @@ static void job_drop_contact(struct frame_job *job)
     if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
 }
 
-/* Chooses the particles file, with the data that do not change, to which the frame of `job` links. It is the last
- * particles file of the series of frames, or a new one if its contents would differ. source: data of the frame;
- * scene_text: text of the scene, which the file contains. */
+/* Chooses the particles file (the data that do not change from frame to frame) to which the frame of `job` links. It is
+ * the last particles file of the series of frames, or a new one if its contents would differ. source: data of the
+ * frame; scene_text: text of the scene, which the file contains. */
 static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
 {
     struct frame_series *s = job->series;
@@ -102,9 +102,9 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
     job->particles.compress = job->compress;
 }
 
-/* Creates the job of writing a frame of a series at time t [s] and time step number `step`, and copies the fields of
- * the particles into it, so that the run can go on while it is written. scene_text: text of the scene, for the
- * particles file. The caller owns the job. */
+/* Returns the job of writing a frame of a series (of the whole run or of one region) to the output o at time t [s] and
+ * time step number `step`, and copies the fields of the particles of `source` into it, so that the run can go on while
+ * it is written. scene_text: text of the scene, for the particles file. The caller owns the job. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
@@ -136,7 +136,7 @@ static int32_t *ascending_order(int64_t n)
     return order;
 }
 
-/* Returns an allocated array of the indices of the particles, [p->n], in ascending order of their ids. Ids are unique
+/* Returns an allocated array of the indices of the particles p, [p->n], in ascending order of their ids. Ids are unique
  * but need not be consecutive. Returns NULL if memory is exhausted. The caller releases the array with free. */
 static int32_t *order_by_id(const struct particles *p)
 {
@@ -154,7 +154,8 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-/* Releases the list of the particles that the frames of a series show. They are selected again for the next frame. */
+/* Releases the list of the particles that the frames of the series s (of the whole run or of one region) show. They are
+ * selected again for the next frame. */
 static void rows_free(struct frame_series *s)
 {
     free(s->rows.index);
@@ -172,10 +173,10 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Selects the particles that the frames of a series show, in the order of their ids, and stores them in s->rows. The
- * selection is kept until output_discard_particle_order, or until the number of particles changes. It is made again for
- * each frame if the series has a region and there are material points of coarse grid cells, which may change at any
- * step. Returns false if memory is exhausted. */
+/* Selects the particles of `source` that the frames of the series s show, in the order of their ids, and stores them in
+ * s->rows. The selection is kept until output_discard_particle_order, or until the number of particles changes. It is
+ * made again for each frame if the series has a region and there are material points of coarse grid cells, which may
+ * change at any step. Returns false if memory is exhausted. */
 static bool rows_make(struct frame_series *s, const struct frame_source *source)
 {
     const struct particles *more = source->extra.more;
@@ -275,8 +276,8 @@ status output_wait_for_frame(struct output *o)
     return s;
 }
 
-/* Appends a frame that is about to be written to the list of its series, the frames of the whole run or of one region.
- * If writing fails later, output_wait_for_frame removes it from the list. */
+/* Appends the frame of `job`, which is about to be written, to the list of its series s, the frames of the whole run or
+ * of one region. If writing fails later, output_wait_for_frame removes it from the list. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frames", s->entry, s->frames + 1);

@@ -49,8 +49,8 @@ static bool escape(struct reader *r)
     return true;
 }
 
-/* Parses a JSON string. Stores pointers to its beginning and its end in the text, without the quotes, in *from and *to.
- * Escapes are not replaced. Returns false if the string is malformed. */
+/* Parses a JSON string at the reading position of r. Stores pointers to its beginning and its end in the text, without
+ * the quotes, in *from and *to. Escapes are not replaced. Returns false if the string is malformed. */
 static bool string(struct reader *r, const char **from, const char **to)
 {
     if (!summary_read_take(r, '"')) return false;
@@ -206,9 +206,9 @@ static status read_text(const char *path, char **text)
     return OK;
 }
 
-/* Parses summary.json in a folder from the first to the last byte, and finds the value of `key`. *text: receives the
- * contents of the file, which the caller frees, also on a fault. Returns FAILED, with file and line in the message,
- * if it is not JSON. */
+/* Parses summary.json in `folder` from the first to the last byte with the reader r, and finds the value of `key`:
+ * r->found points to it, or is NULL. *text: receives the contents of the file, which the caller frees with free, also
+ * on a fault. Returns FAILED, with file and line in the message, if it is not JSON. */
 static status summary_read_document(struct reader *r, const char *folder, const char *key, char **text)
 {
     char path[4096];
@@ -225,9 +225,9 @@ static status summary_read_document(struct reader *r, const char *folder, const 
     return status_set(FAILED, "%s:%d: not JSON", path, line);
 }
 
-/* Finds the value of `key`, or of its name in another version of Cleave, in summary.json of a folder. *text:
- * receives the contents of the file, which the caller frees; *found: first byte of the value in it. Returns FAILED,
- * with *text freed, if the file is not JSON or has no such key. */
+/* Finds the value of `key`, or of its name in another version of Cleave, in summary.json of `folder`. *text: receives
+ * the contents of the file, which the caller frees with free; *found: first byte of the value in it. Returns FAILED,
+ * with a message and *text freed, if the file is not JSON or has no such key. */
 static status summary_read_find(const char *folder, const char *key, char **text, const char **found)
 {
     struct reader r = {0};
