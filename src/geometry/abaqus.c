@@ -38,9 +38,9 @@ static const char *parameter(const struct deck *d, const char *name) { return ab
 
 /* ---- nodes and elements ---------------------------------------------------------------------------------------- */
 
-/* Finds or creates the set whose name is the value of the parameter `name`, and stores its index in *set; -1 if the
- * parameter is missing. of_nodes: true for a set of nodes, false for one of elements. Returns REFUSED if there are too
- * many sets. */
+/* Finds or creates the set of deck d whose name is the value of the parameter `name` of the current keyword, and stores
+ * its index in *set; -1 if the parameter is missing. of_nodes: true for a set of nodes, false for a set of elements.
+ * Returns REFUSED, with a message, if there are too many sets. */
 static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
 {
     const char *given = parameter(d, name);
@@ -48,8 +48,9 @@ static status set_named(struct deck *d, const char *name, bool of_nodes, int *se
     return given && *set < 0 ? source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX) : OK;
 }
 
-/* Reads the data lines of *NODE, each a label and coordinates. If the keyword has the parameter NSET, the nodes are
- * added to this set. Returns REFUSED for malformed lines and for other than Cartesian coordinates. */
+/* Reads the data lines of *NODE in deck d, each a label and coordinates. If the keyword has the parameter NSET, the
+ * nodes are added to this set. Returns REFUSED, with a message, for malformed lines and for other than Cartesian
+ * coordinates. */
 static status nodes_read(struct deck *d)
 {
     int set;
@@ -98,8 +99,9 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
                                field);
 }
 
-/* Reads the data lines of *ELEMENT, each a label and nodes. If the keyword has the parameter ELSET, the elements are
- * added to this set. Points, lines and joints are skipped. Returns REFUSED for unknown types and malformed lines. */
+/* Reads the data lines of *ELEMENT in deck d, each a label and nodes. If the keyword has the parameter ELSET, the
+ * elements are added to this set. Points, lines and joints are skipped. Returns REFUSED, with a message, for unknown
+ * types and malformed lines. */
 static status elements_read(struct deck *d)
 {
     int set;
@@ -127,8 +129,9 @@ static status elements_read(struct deck *d)
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Reads a line after GENERATE: first label, last label and step. Adds the labels first, first + step, .. last to set
- * number `set`. Returns REFUSED if the step is not positive, last is below first, or there are too many members. */
+/* Reads a line of deck d after GENERATE: first label, last label and step. Adds the labels first, first + step, .. last
+ * to set number `set`. Returns REFUSED, with a message, if the step is not positive, last is below first, or there are
+ * too many members. */
 static status generate_line(struct deck *d, int set)
 {
     int32_t bound[3] = {0, 0, 1};
@@ -143,8 +146,8 @@ static status generate_line(struct deck *d, int set)
     return OK;
 }
 
-/* Adds the present members of the set called `name` to the set number `set`. of_nodes: true for sets of nodes, false
- * for sets of elements. Returns REFUSED if there are too many sets or members. */
+/* Adds the present members of the set called `name` in deck d to the set number `set`. of_nodes: true for sets of
+ * nodes, false for sets of elements. Returns REFUSED, with a message, if there are too many sets or members. */
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
     const int other = element_mesh_find_or_create_set(d->m, name, of_nodes);
@@ -173,8 +176,8 @@ static void sets_resolve(struct deck *d, const struct scope *scope)
     }
 }
 
-/* Returns the index of the part called `name` or, if `instance` is true, of the part of which an instance is called
- * `name`. Returns -1 if there is none. */
+/* Returns the index of the part of deck d called `name` or, if `instance` is true, of the part of which an instance is
+ * called `name`. Returns -1 if there is none. */
 static int scope_find(const struct deck *d, const char *name, bool instance)
 {
     for (int k = 1; k < d->scopes; k++)
@@ -212,8 +215,8 @@ static status set_join_nodes_of(struct deck *d, int set, const char *name)
     return OK;
 }
 
-/* Reads the set of *NSET or *ELSET: labels, names of other sets, or ranges. of_nodes: true for *NSET. Returns REFUSED
- * for malformed lines, a set without name or an unknown instance. */
+/* Reads the set of *NSET or *ELSET in deck d: labels, names of other sets, or ranges. of_nodes: true for *NSET. Returns
+ * REFUSED, with a message, for malformed lines, a set without name or an unknown instance. */
 static status set_read(struct deck *d, bool of_nodes)
 {
     int set;
@@ -247,8 +250,8 @@ static status set_read(struct deck *d, bool of_nodes)
 
 /* ---- parts ---------------------------------------------------------------------------------------------------- */
 
-/* Replaces the node label *node of element k by the index of the node. scope: the part to which the element belongs.
- * Returns REFUSED if the part has no such node. */
+/* Replaces the node label *node of element number k of deck d by the index of the node. scope: the part to which the
+ * element belongs. Returns REFUSED, with a message, if the part has no such node. */
 static status node_resolve(const struct deck *d, const struct scope *scope, int64_t k, int32_t *node)
 {
     const int64_t index = label_map_find(&scope->node_of, *node);
@@ -259,8 +262,8 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
     return OK;
 }
 
-/* Ends the current part of the deck, or what is outside parts, and replaces its labels by indices. A middle node with
- * label 0 is missing; its edge is then straight. Returns REFUSED for unknown or repeated labels. */
+/* Ends the current part of deck d, or what is outside parts, and replaces its labels by indices. A middle node with
+ * label 0 is missing; its edge is then straight. Returns REFUSED, with a message, for unknown or repeated labels. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -309,8 +312,9 @@ static status scope_change(struct deck *d, const char *name)
     return OK;
 }
 
-/* Reads an instance: up to two lines, with a displacement, then two points of an axis and an angle in degrees. Moves
- * the nodes of its part to this position. Returns REFUSED if the part is unknown or already has an instance. */
+/* Reads an instance of deck d: up to two lines, with a displacement, then two points of an axis and an angle in
+ * degrees. Moves the nodes of its part to this position. Returns REFUSED, with a message, if the part is unknown or
+ * already has an instance. */
 static status instance_read(struct deck *d)
 {
     const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");

@@ -33,7 +33,8 @@ status pages_append_page(struct pages *p, const struct source *s, int64_t width,
     return OK;
 }
 
-/* Appends all pages of the PNG or TIFF file `path` to p. Returns REFUSED if it is neither or malformed. */
+/* Appends all pages of the PNG or TIFF file `path` to p. Returns REFUSED, with a message, if the file is neither or
+ * malformed. */
 static status file_read(struct pages *p, const char *path)
 {
     struct source s;
@@ -47,8 +48,8 @@ static status file_read(struct pages *p, const char *path)
     return result;
 }
 
-/* Appends the pages of the files path[files] to p. dim: dimensions of the space. Returns REFUSED for an invalid file,
- * and if there is more than one page in 2D. */
+/* Appends the pages of the files path[files] to p. dim: dimensions of the space. Returns REFUSED, with a message, for
+ * an invalid file, and if there is more than one page in 2D. */
 static status files_read(struct pages *p, int files, char *const *path, int dim)
 {
     for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));
@@ -57,7 +58,7 @@ static status files_read(struct pages *p, int files, char *const *path, int dim)
                       (long long)p->n);
 }
 
-/* Reverses the order of rows in each page: the file has the top row first, and y must increase with the row. */
+/* Reverses the order of rows in each page of p: the file has the top row first, and y must increase with the row. */
 static void rows_flip(struct pages *p)
 {
     for (int64_t k = 0; k < p->n; k++)

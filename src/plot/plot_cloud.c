@@ -17,7 +17,7 @@ static const double TIE = 1e-3;
 /* ---- spacing ----------------------------------------------------------------------------------------------------- */
 
 /* Returns how many of n particles are sampled to estimate the spacing: so few that the number of distance comparisons,
- * samples times n, is at most about COMPARISONS. */
+ * samples times n, is at most about COMPARISONS, but between SAMPLES_MIN and SAMPLES, and at most n. */
 static int64_t sample_count(int64_t n)
 {
     int64_t samples = (int64_t)(COMPARISONS / (double)(n + 1));

@@ -36,15 +36,15 @@ static const double BAR_HALF = 0.02;
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Returns the number that determines the colour of particle i: that of its material in the scene file, or of its body
- * if all bodies have the same material. */
+/* Returns the number that determines the colour of particle i of p: that of its material in the file of scene s, or of
+ * its body if all bodies have the same material. */
 static int part_number(const struct scene *s, const struct particles *p, int64_t i)
 {
     return s->materials > 1 ? s->material_number[p->material[i]] : p->body[i];
 }
 
 /* Appends a square to the cloud c, the particles of the picture, at the position x[dim] [m] projected on the picture
- * plane. size: edge of the square [m]. */
+ * plane. size: edge of the square [m]; colour: its colour. */
 static void cloud_add(struct plotted_particles *c, const real *x, int dim, double size, struct colour colour)
 {
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
@@ -129,7 +129,8 @@ static int64_t count_part(const struct particles *part, const struct scene *scen
     return n;
 }
 
-/* Writes a description of a rigid body for the key into text[TEXT_ROOM], for example `ball: rigid, 4.1 g, 150 m/s`. */
+/* Writes a description of the rigid body b for the key to text[TEXT_ROOM], for example `ball: rigid, 4.1 g, 150 m/s`.
+ * dim: dimension of the scene. */
 static void rigid_words(char *text, const struct scene_body *b, int dim)
 {
     double speed = 0;
@@ -179,7 +180,7 @@ static void key_of_parts(struct marks *m)
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
 /* Returns a view of the particles c of a scene whose rectangle has a margin of `arrow` [m], the length of the longest
- * arrow, around the body. */
+ * arrow of a load, around the body. */
 static struct view scene_view(const struct plotted_particles *c, double arrow)
 {
     struct view v = view_make_around_particles(c, 1);
@@ -236,8 +237,8 @@ static struct layout scene_layout(const struct view *v, const struct marks *m, b
     return l;
 }
 
-/* Writes the gnuplot command that places the key of a scene: beside the panel, or below it in a narrow picture. Letters
- * are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
+/* Writes to gnuplot the command that places the key of a scene: beside the panel, or below it in a narrow picture.
+ * Letters are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
 static void set_scene_key(FILE *to, const struct layout *l, const struct marks *m)
 {
     const bool narrow = picture_is_too_narrow_for_key();
@@ -253,7 +254,8 @@ static void set_scene_key(FILE *to, const struct layout *l, const struct marks *
             l->key_columns > 1 ? KEY_LETTERS * m->widest / GNUPLOT_LETTER - m->letters : 0.0, size);
 }
 
-/* Writes the title of the picture of a scene: `title`, or if it is NULL the name of the scene and its particles. */
+/* Writes the title of the picture of scene s to gnuplot g: `title`, or if it is NULL the name of the scene and the
+ * number of its particles `part`. */
 static void draw_scene_title(struct gnuplot *g, const struct scene *s, const struct particles *part, const char *title)
 {
     const struct unit metre = unit_for_length(s->spacing);
@@ -277,8 +279,8 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
 }
 
-/* Writes one gnuplot plot command that draws the image of the particles c, and the marks over it. marks: elements of
- * the plot command for the marks; metre: unit of the axes. */
+/* Writes to gnuplot one plot command that draws the image of the particles c in the view v, and the marks over it. l:
+ * layout; metre: unit of the axes; marks: elements of the plot command for the marks; format: format of the picture. */
 static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
                        const struct unit *metre, const char *marks, enum picture_format format)
 {
@@ -307,8 +309,9 @@ static void draw_marks(struct marks *m)
     marks_draw_symbols_of_probes(m);
 }
 
-/* Draws the particles c and the marks m of a scene. metre: unit of the axes; data: gnuplot commands with the data of
- * the marks; elements: arguments of the plot command for the marks. Returns FAILED if gnuplot fails. */
+/* Draws the particles c and the marks m of a scene in the view v on the picture `sheet`. metre: unit of the axes; data:
+ * gnuplot commands with the data of the marks; elements: arguments of the plot command for the marks. Returns FAILED,
+ * with a message, if gnuplot fails. */
 static status draw_collected(struct sheet sheet, const struct marks *m, const struct view *v,
                              const struct plotted_particles *c, const struct unit *metre, const char *data,
                              const char *elements)
@@ -325,8 +328,8 @@ static status draw_collected(struct sheet sheet, const struct marks *m, const st
     return gnuplot_close(&g);
 }
 
-/* Draws the run e, whose particles are in the cloud c. title: title of the picture, or NULL for the name of the scene
- * with the number of particles. Returns FAILED if gnuplot fails. */
+/* Draws the run e, whose particles are in the cloud c, on the picture `sheet`. title: title of the picture, or NULL for
+ * the name of the scene with the number of particles. Returns FAILED, with a message, if gnuplot fails. */
 static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c, const char *title)
 {
     char *elements = NULL, *data = NULL;
@@ -354,8 +357,8 @@ static status draw_scene(struct sheet sheet, struct run *e, struct plotted_parti
 
 /* ---- command ----------------------------------------------------------------------------------------------------- */
 
-/* Determines the path of the picture of a scene: the option -o, or a file in results/. Returns REFUSED if the file may
- * not be replaced. */
+/* Determines *path, the path of the picture of scene s: the option -o of the request r, or a file in results/. Returns
+ * REFUSED, with a message, if the file may not be replaced. */
 static status scene_sheet(struct path *path, const struct scene *s, const struct plot_request *r)
 {
     char name[sizeof s->name + 16];
@@ -363,8 +366,9 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
     return picture_choose_path(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
-/* Creates the run e of the scene, draws it and prints what was drawn. Returns REFUSED for an outside view of a scene
- * that is not three-dimensional; FAILED if the run cannot be created or gnuplot fails. */
+/* Creates the run e of scene s, draws it as the request r says and prints what was drawn. Returns REFUSED for an
+ * outside view of a scene that is not three-dimensional; FAILED if the run cannot be created or gnuplot fails, with a
+ * message. */
 static status draw_made(struct run *e, const struct scene *s, const struct plot_request *r)
 {
     struct path path;

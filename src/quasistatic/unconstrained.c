@@ -250,7 +250,8 @@ static void mirror_nodes_resist(const struct search *s)
     }
 }
 
-/* Returns the number of the fragment of a particle or mirror image, -1 if it has no unknown. */
+/* Returns the number (from 0) of the fragment of a particle or mirror image in the search s, -1 if it has no
+ * unknown. */
 static int32_t fragment_of(const struct search *s, int32_t particle)
 {
     const int32_t k = unknown_of(s, image_source_particle(s->part, s->loads->image, particle));

@@ -7,9 +7,10 @@
     0.05 /* tolerated unbalanced share of the loads on a fragment; faces of lattices are uneven (empirical) */
 #define UNHELD_SMALL 0.01 /* share of all loads below which unbalanced loads do not end a run (empirical) */
 
-/* Returns how far the applied forces on a fragment are from balance along its free motions: the largest |sum| of their
- * components along a motion over the sum of the absolute values [1]; *size receives the latter. Motions along which the
- * forces are much smaller than along another one are ignored. */
+/* Returns how far the applied forces on fragment f (a piece of the body that nothing holds) are from balance along its
+ * free motions, 0 to 1: the largest |sum| of their components along a motion divided by the sum of the absolute values,
+ * which *size receives. Motions along which the forces are much smaller than along another motion are ignored. s:
+ * applied forces; part: particles. */
 static real unbalanced_share(const struct statics *s, const struct particles *part,
                              const struct unconstrained_fragment *f, real *size)
 {
@@ -28,8 +29,8 @@ static real unbalanced_share(const struct statics *s, const struct particles *pa
     return most;
 }
 
-/* Returns the sum of the absolute values of all components of the applied forces, over the square root of `nodes`, the
- * number of nodes of a fragment. It is comparable to *size of unbalanced_share. */
+/* Returns the sum of the absolute values of all components of the applied forces on particles `part`, divided by the
+ * square root of `nodes`, the number of nodes of a fragment [N]. It is comparable to *size of unbalanced_share. */
 static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
 {
     real sum = 0;
@@ -38,9 +39,9 @@ static real applied_sum(const struct particles *part, const struct statics *stat
     return sum / sqrt((real)nodes);
 }
 
-/* Returns how far the forces on a fragment with nodes of the mesh are from balance: the largest component of its forces
- * along a free motion, over applied_sum [1]; internal forces in equilibrium have none. Returns 0 without such nodes or
- * applied forces. */
+/* Returns how far the forces on fragment f (a piece of the body that nothing holds) with nodes of the mesh are from
+ * balance: the largest component of its forces along a free motion, divided by applied_sum; internal forces in
+ * equilibrium have none. Returns 0 without such nodes or applied forces. */
 static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
                                       const struct unconstrained_fragment *f)
 {

@@ -16,8 +16,8 @@ enum { LOAD_TIMES = 64, LOAD_PARTICLES = 1024 }; /* load times, and particles of
 /* The two sorts of loads: prescribed displacements of supports and rigid bodies [m], applied forces [N]. */
 enum { DISPLACEMENTS, FORCES, SORTS };
 
-/* Computes the scalar products of the loads at time t with the loads at time u [s]: product[DISPLACEMENTS] for the
- * prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. */
+/* Computes the scalar products of the loads of run e at time t with its loads at time u [s]: product[DISPLACEMENTS] for
+ * the prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. */
 static void products(const struct run *e, real t, real u, real *product)
 {
     const int dim = e->part.dim;
@@ -95,9 +95,9 @@ static int64_t load_times(const struct loads *loads, real end, real *t)
     return n;
 }
 
-/* Finds the times at which the loads are largest, point most against the largest ones, and are most perpendicular to
- * them. Stores the times in worst[SORTS] and scalar products of the loads in found[SORTS], separately for prescribed
- * displacements and for applied forces. */
+/* Finds the times at which the loads of run e are largest, point most against the largest loads, and are most
+ * perpendicular to them. Stores the times [s] in worst[SORTS] and scalar products of the loads in found[SORTS],
+ * separately for prescribed displacements and for applied forces. */
 static void worst_times_find(const struct run *e, struct worst *worst, struct found *found)
 {
     const int64_t n = load_times(&e->loads, e->scene->duration, NULL);
@@ -125,8 +125,9 @@ status engine_find_equilibrium_for_cost_estimate(struct run *e, real t)
     return unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
 }
 
-/* Finds the equilibrium at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical stretch
- * exceeds *ratio, stores it in *ratio and t in *at. Returns FAILED, with a message, if there is no equilibrium. */
+/* Finds the equilibrium of run e at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical
+ * stretch there exceeds *ratio, stores it in *ratio and t in *at. Returns FAILED, with a message, if there is no
+ * equilibrium. */
 static status worst_try(struct run *e, real t, real *at, real *ratio)
 {
     if (isnan(t)) return OK;

@@ -149,10 +149,10 @@ static int cell_crossings_list(const struct net *g, int64_t k, struct cell_cross
     return n;
 }
 
-/* Finds the point of a grid cell that is nearest, in the least-squares sense, to the planes of the surface at its n
- * crossings c: on an edge or corner of the body where it has one. The descent begins at the mean of the crossings,
- * where it stays along directions in which the surface is flat. Stores the point in at[dim], in cells from the node
- * below. */
+/* Finds the point of a grid cell that is nearest, in the least-squares sense, to the planes of the surface at its
+ * crossings c[n] with the edges of the cell: on an edge or corner of the body where it has one. The descent begins at
+ * the mean of the crossings, where it stays along directions in which the surface is flat. Stores the point in at[dim],
+ * in cells from the lowest node of the cell. */
 static void cell_point_fit(const struct cell_crossing *c, int n, int dim, real *at)
 {
     for (int e = 0; e < dim; e++) {
@@ -170,8 +170,8 @@ static void cell_point_fit(const struct cell_crossing *c, int n, int dim, real *
     }
 }
 
-/* Creates the points of the surface s->X, one for each grid cell that the surface crosses. Stores the index of the
- * point in g->point. */
+/* Creates the points s->X of the surface s, one for each cell of grid g that the surface crosses. Stores the index of
+ * the point in g->point. */
 static void surface_points_make(struct rigid_surface *s, struct net *g)
 {
     for (int64_t k = 0; k < g->nodes; k++) {
@@ -191,8 +191,8 @@ static void surface_points_make(struct rigid_surface *s, struct net *g)
     }
 }
 
-/* Makes a face for each edge of the grid that the surface crosses, between the points of the cells around this edge. An
- * edge at the rim of the grid is never crossed. */
+/* Makes a face of the surface s for each edge of grid g that the surface crosses, between the points of the cells
+ * around this edge. An edge at the rim of the grid is never crossed. */
 static void surface_faces_make(struct rigid_surface *s, const struct net *g)
 {
     s->corners = g->dim == 2 ? 2 : 4;
@@ -233,9 +233,9 @@ void rigid_surface_free(struct rigid_surface *s)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Finds the point of the box low[dim] .. high[dim] [m] that is nearest to a region. Candidates are the corners of the
- * box, its centre, and the centres of its edges and faces. Stores the point in X[dim] [m] and returns the level set of
- * the region there [m]. */
+/* Finds the point of the box low[dim] .. high[dim] [m] that is nearest to the region `shape`. Candidates are the
+ * corners of the box, its centre, and the centres of its edges and faces. Stores the point in X[dim] [m] and returns
+ * the level set of the region there [m]. */
 static real box_point_nearest(const struct region *shape, int dim, const real *low, const real *high, real *X)
 {
     real least = INFINITY;
@@ -286,7 +286,8 @@ bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, rea
     return bounded;
 }
 
-/* Makes the surfaces of all rigid bodies on the first call. Unbounded bodies are cut to a box around the particles. */
+/* Makes the surfaces of all rigid bodies in rigid->surface on the first call; later calls do nothing. Unbounded bodies
+ * are cut to a box around the particles `part`. */
 static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles *part)
 {
     if (rigid->surface) return;
@@ -299,14 +300,14 @@ static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles 
     }
 }
 
-/* Prints the opening tag of a VTK data array with this type, name and number of components. */
+/* Writes to `to` the opening tag of a VTK data array with the given type, name and number of components. */
 static void print_array(FILE *to, const char *type, const char *name, int columns)
 {
     fprintf(to, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name,
             columns);
 }
 
-/* Prints a VTK data array with centre, present position and rotation matrix of each rigid body, which
+/* Writes to `to` a VTK data array with centre, present position and rotation matrix of each rigid body, which
  * rigids_read_placements_of_frame reads. */
 static void print_motion(FILE *to, const struct rigid_set *rigid)
 {
@@ -320,7 +321,7 @@ static void print_motion(FILE *to, const struct rigid_set *rigid)
     fputs("</DataArray>\n", to);
 }
 
-/* Prints the present positions of the surface points of all rigid bodies as the VTK element Points. */
+/* Writes to `to` the present positions of the surface points of all rigid bodies as the VTK element Points. */
 static void print_points(FILE *to, const struct rigid_set *rigid)
 {
     fputs("<Points>\n", to);
@@ -334,8 +335,8 @@ static void print_points(FILE *to, const struct rigid_set *rigid)
     fputs("</DataArray>\n</Points>\n", to);
 }
 
-/* Prints the faces of all rigid bodies as VTK lines in the plane, as polygons in space, with the number of the body of
- * each face. */
+/* Writes to `to` the faces of all rigid bodies as VTK lines in the plane, as polygons in space, with the number of the
+ * body of each face. */
 static void print_faces(FILE *to, const struct rigid_set *rigid)
 {
     const char *kind = rigid->dim == 2 ? "Lines" : "Polys";
