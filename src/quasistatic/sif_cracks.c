@@ -36,7 +36,8 @@ bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct si
 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the material of the particle nearest to the tip, among the particles of the body that contains the tip. */
+/* Returns the material (not to be freed) of the particle of p nearest to `tip`, among the particles of the body that
+ * contains the tip. l: SIF-driven cracks, with the materials. */
 static const struct material *material_at(const struct sif_cracks *l, const struct particles *p,
                                           const struct sif_crack_tip *tip)
 {
@@ -51,9 +52,9 @@ static const struct material *material_at(const struct sif_cracks *l, const stru
     return &l->scene->material[p->material[nearest]];
 }
 
-/* Returns a list of all crack segments in the plane in which the tips move: the pre-cracks and the path of the tips.
- * *n: receives their number. The list refers to the stored path, which must not change while the list is used. Release
- * it with crack_segments_free. */
+/* Returns a list of all crack segments of l in the plane in which the tips move: the pre-cracks and the path of the
+ * tips. *n: receives their number. The list refers to the stored path, which must not change while the list is used.
+ * Release it with crack_segments_free. */
 static struct crack *crack_segments(const struct sif_cracks *l, int *n)
 {
     const int given = l->source->cracks;
@@ -76,9 +77,10 @@ static void crack_segments_free(struct crack *crack, int n)
     memory_free(crack);
 }
 
-/* Returns the elastic constants for the crack-tip fields at `tip`. In 2D they are those of the plane space. In 3D they
- * are those of plane stress if the fit is at a distance of half the thickness or more from the front (Nakamura & Parks
- * 1988), else those of plane strain. radius: mean radius of the ring of particles used for the fit [m]. */
+/* Returns the elastic constants for the crack-tip fields at `tip`, a tip of l. In 2D they are those of the plane space.
+ * In 3D they are those of plane stress if the fit is at a distance of half the thickness or more from the front
+ * (Nakamura & Parks 1988), else those of plane strain. p: particles, which give material and thickness; radius: mean
+ * radius of the ring of particles used for the fit [m]. */
 static struct crack_medium medium_at(const struct sif_cracks *l, const struct particles *p,
                                      const struct sif_crack_tip *tip, real radius)
 {
@@ -123,7 +125,7 @@ void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct part
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-/* Returns the tip with the largest growth, the first one of several with equal growth; NULL if there is no tip. on:
+/* Returns the tip of l with the largest growth, the first of several with equal growth; NULL if there is no tip. on:
  * true to consider only tips that can grow further, false for all tips. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
 {
@@ -155,8 +157,8 @@ void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real posi
 
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the fraction of the segment from a to b at which crack segment c intersects it [1]; 1 if it does not. a, b:
- * points in the plane in which the tips move, two coordinates each [m]. */
+/* Returns the fraction (0 to 1) of the segment from a[2] to b[2] at which crack segment c intersects it; 1 if they do
+ * not intersect. a, b: points in the plane in which the tips move [m]. */
 static real intersection_share(const struct crack *c, const real *a, const real *b)
 {
     const real *p = c->corner[0], *q = c->corner[1];
@@ -168,8 +170,8 @@ static real intersection_share(const struct crack *c, const real *a, const real 
     return !parallel && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
 }
 
-/* Returns true if an end of crack segment c is at most `within` [m] from the tip. This is so for the last segment of
- * the tip's own path. */
+/* Returns true if an end of crack segment c is at most `within` [m] from `tip`, as is the last segment of the path of
+ * the tip. */
 static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip *tip, real within)
 {
     return sif_plane_point_distance(c->corner[0], tip->position) <= within ||
@@ -201,9 +203,9 @@ real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *
     return toughness_of_material(&cracks->source->family, cracks->scene->model, material_at(cracks, p, tip));
 }
 
-/* Returns true if the body continues ahead of the tip: if enough particles whose motion is not prescribed are near the
- * point one spacing ahead. Enough are two in 2D, in 3D two for each spacing of the width of the body along the crack
- * front. */
+/* Returns true if the body of p continues ahead of `tip`: if enough particles whose motion is not prescribed are near
+ * the point one spacing ahead. Enough are two in 2D, in 3D two for each spacing of the width of the body along the
+ * crack front. l: cracks, with the plane of the tips. */
 static bool body_continues(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
 {
     const real h = l->plane.spacing;
@@ -231,10 +233,10 @@ static void sif_path_add(struct sif_cracks *l, int k, const real *to)
     for (int d = 0; d < 2; d++) s->at[tip->reversed][d] = tip->position[d], s->at[!tip->reversed][d] = to[d];
 }
 
-/* Turns tip->along, the x axis of the frame in which stress-intensity factors are computed, towards the direction of
- * growth. The difference decays exponentially with the growth, over a length SMOOTHING h. At a kink of a pre-crack the
- * axis takes the direction of growth at once, and the crack then grows straight for some spacings. growth: length of
- * the present increment [m]; h: lattice spacing [m]. */
+/* Turns tip->along, the x axis of the frame in which stress-intensity factors of `tip` are computed, towards the
+ * direction of growth. The difference decays exponentially with the growth, over a length SMOOTHING h. At a kink of a
+ * pre-crack the axis takes the direction of growth at once, and the crack then grows straight for some spacings.
+ * growth: length of the present increment [m]; h: lattice spacing [m]. */
 static void tip_frame_turn(struct sif_crack_tip *tip, real growth, real h)
 {
     const real *a = tip->last, *b = tip->heading, share = -expm1(-growth / (SMOOTHING * h));

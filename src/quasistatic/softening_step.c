@@ -71,11 +71,12 @@ static real factor_at_surface(const struct search *f)
     return ratio > 0 ? AT_SURFACE / ratio : INFINITY;
 }
 
-/* Returns the factor on the displacements of the last solution at which bonds dissipate the energy f->spent, but at
- * most `most` and the one at which the next particle reaches its strength surface. Sets the largest stretches of the
- * bonds to those at this factor. most: ratio of the loads at the end to the present ones; least: that of the loads of
- * the last equilibrium [1]. If f->spent is INFINITY (the loads are given), the factor is `most`, and a strength surface
- * does not reduce it below `least`. f->at_end: set to true if the factor is `most`. */
+/* Returns the dimensionless factor on the displacements of the last solution of the search f at which bonds dissipate
+ * the energy f->spent, but at most `most` and the factor at which the next particle reaches its strength surface. Sets
+ * the largest stretches of the bonds to those at this factor. most: loads at the end of the step divided by the present
+ * loads; least: loads of the last equilibrium divided by the present loads. If f->spent is INFINITY (the loads are
+ * given), the factor is `most`, and a strength surface does not reduce it below `least`. f->at_end: set to true if the
+ * factor is `most`. */
 static real secants_choose(struct search *f, real most, real least)
 {
     const bool given = !isfinite(f->spent);
