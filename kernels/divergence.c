@@ -4,9 +4,9 @@
 #include "kernels.h"
 #include "kernels/simd/variants.h"
 
-/* Returns a mask of the eight particles list[0 .. 7] in which the lane of a particle is set if it has diverged: if it
- * is faster than allowed or has a position or velocity that is not finite. limit2: square of the largest allowed speed
- * [m^2/s^2]; dim: dimensions of space. */
+/* Returns a mask with one lane for each of the eight particles p[list[0 .. 7]]. A lane is set if its particle has
+ * diverged: its speed is above the limit, or a component of its position or velocity is not finite. limit2: square of
+ * the speed limit [m^2/s^2]; dim: dimensions of space. */
 static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const int32_t *list, real limit2,
                                                const int dim)
 {
@@ -20,8 +20,9 @@ static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const 
     return lanes_diverged_mask(speed2, place, limit2);
 }
 
-/* Returns true if any of the n particles in `list` has diverged: is faster than allowed or has a position or velocity
- * that is not finite. limit2: square of the largest allowed speed [m^2/s^2]; dim: dimensions of space. */
+/* Returns true if any of the n particles of p whose indices are in `list` has diverged: its speed is above the limit,
+ * or a component of its position or velocity is not finite. limit2: square of the speed limit [m^2/s^2]; dim:
+ * dimensions of space. */
 static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit2,
                                        const int dim)
 {

@@ -24,23 +24,24 @@ enum { STEPS_PLANE_STRESS = 8 };
  * strength is 0. */
 #define LEAST_YIELD 1e-10
 
-/* Returns the number of independent components that relative_stress computes in `space`: 6 in 3D, 4 in plane strain, 3
- * in plane stress, 1 in 1D. */
+/* Returns the number of components of the relative stress (stress less back stress) that relative_stress computes in
+ * `space`: 6 in 3D, 4 in plane strain, 3 in plane stress, 1 in 1D. */
 static ALWAYS_INLINE int components(const enum space space)
 {
     return space == SPACE_SOLID ? 6 : space == SPACE_PLANE_STRAIN ? 4 : space == SPACE_PLANE_STRESS ? 3 : 1;
 }
 
-/* Returns how many of the components xx yy zz xy yz zx of a tensor can differ from 0 in a space, those normal to a
- * plane included; only xx in 1D. */
+/* Returns how many of the first components xx yy zz xy yz zx of a symmetric tensor can differ from 0 in `space`: 1 in
+ * 1D (xx), 4 in plane stress and plane strain (zz, normal to the plane, included), 6 in 3D. */
 static ALWAYS_INLINE int tensor_components(const enum space space)
 {
     return space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
 }
 
-/* Computes the independent components xi[] of the relative stress s - g X of eight points [Pa], with the trial stress s
- * and the back stress X of the points p. In 3D and plane strain these are the components of the deviator of s - g X; in
- * plane stress xx + yy, xx - yy and xy; in 1D the uniaxial stress. g: factor on the back stress [1]. */
+/* Computes the relative stress s - g X of eight points [Pa], with the trial stress s (p->s) and the back stress X
+ * (p->back). xi: receives components(space) entries: in 3D and plane strain the deviator of s - g X in the order xx yy
+ * zz xy yz zx; in plane stress the components xx + yy, xx - yy and xy; in 1D the uniaxial stress. g: factor on the back
+ * stress [1]. */
 static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
 {
     if (space == SPACE_LINE) {
@@ -57,10 +58,10 @@ static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, l
     for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_broadcast(0)) - g * p->back[c];
 }
 
-/* Computes 3/2 x:y [Pa^2] for two relative stresses (stress less back stress) x, y of eight points, as the sum of two
- * parts, which plastic flow reduces at different rates in plane stress. *even: in plane stress the part of the
- * component xx + yy, in 1D the whole product, else 0; *odd: the part of all other components. x[], y[]: components in
- * the order of relative_stress. */
+/* Computes the product 3/2 x:y [Pa^2] of two relative stresses (stress less back stress) of eight points, as the sum of
+ * two parts that plastic flow reduces at different rates. x, y: components(space) entries in the order of
+ * relative_stress [Pa]. *even: receives the part of the component xx + yy in plane stress, the whole product in 1D,
+ * otherwise 0; *odd: receives the part of all other components. */
 static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes *even, lanes *odd,
                                            const enum space space)
 {
@@ -73,17 +74,18 @@ static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes
         for (int c = 0; c < components(space); c++) *odd += (c < 3 ? 1.5 : 3.0) * x[c] * y[c];
 }
 
-/* The equation for t = da/q of eight points, with the increment da of plastic strain and the equivalent relative stress
- * q: q(t)^2 = even/(1 + A t)^2 + odd/(1 + B t)^2. even, odd: parts of the squared trial relative stress [Pa^2]; A, B:
- * rates at which they shrink [Pa]; q: equivalent stress at t = 0 [Pa]. */
+/* The equation from which plastic flow of eight points follows, for the unknown t = da/q [1/Pa]: da is the increment of
+ * equivalent plastic strain, q the equivalent relative stress (stress less back stress). q(t)^2 = even/(1 + A t)^2 +
+ * odd/(1 + B t)^2. even, odd: the two parts of the squared trial value of q [Pa^2]; A, B: stiffnesses by which they
+ * fall [Pa]; q: equivalent relative stress at t = 0 [Pa]. */
 struct flow_equation {
     lanes even, odd, A, B, q;
 };
 
-/* Returns the coefficients of the yield equation of eight points. Its unknown is t = da/q, the increment da of plastic
- * strain over the equivalent relative stress q; it states how q falls with t (struct flow_equation). Stores the
- * relative stress s - g X, with the back stress X, in xi[] [Pa]. g: factor on the back stress [1]; stiffness: kinematic
- * hardening modulus that acts over the step [Pa]. */
+/* Returns the yield equation of eight points (struct flow_equation): how the equivalent relative stress q falls with t
+ * = da/q, da being the increment of plastic strain. law: flow law of the points; p: their trial stress and back stress.
+ * g: factor on the back stress X [1]; stiffness: kinematic hardening modulus that acts over the step [Pa]. xi: receives
+ * the relative stress s - g X [Pa] (relative_stress). */
 static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
@@ -96,18 +98,19 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     return e;
 }
 
-/* Returns the stiffness r [Pa] in the law by which plastic flow reduces the relative stress xi of eight points: xi/(1 +
- * r t) with t = da/q [1/Pa], the increment da of plastic strain over the equivalent relative stress q. In 1D r is
- * Young's modulus (e->A), in 3D and plane strain three times the shear modulus (e->B), plus the kinematic hardening
- * modulus. Not for plane stress, where two parts of xi fall at different rates. */
+/* Returns the stiffness r [Pa] in the law xi/(1 + r t), by which plastic flow reduces the relative stress xi (stress
+ * less back stress) of eight points. t = da/q [1/Pa]: increment da of plastic strain, divided by the equivalent
+ * relative stress q. e: yield equation of the points. In 1D r is Young's modulus (e->A), in 3D and plane strain three
+ * times the shear modulus (e->B), plus the kinematic hardening modulus. Not for plane stress, where two parts of xi
+ * fall at different rates. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
     return space == SPACE_LINE ? e->A : e->B;
 }
 
-/* Returns for eight points the equivalent relative stress q [Pa] that remains after plastic flow, from the yield
- * equation *e. t: increment of plastic strain over q [1/Pa]; *fall: in plane stress receives -q dq/dt [Pa^3], else is
- * not set. */
+/* Returns for eight points the equivalent relative stress q [Pa] (of stress less back stress) that remains after
+ * plastic flow. e: yield equation; t: increment of plastic strain, divided by q [1/Pa]. *fall: in plane stress receives
+ * -q dq/dt [Pa^3], else is not set. */
 static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
 {
     if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
@@ -117,10 +120,11 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
         lanes_max(e->even * u * u + e->odd * v * v, lanes_broadcast(1e-200))); /* points without stress */
 }
 
-/* Returns for eight points the solution t of 1 - slope t - bound/q(t) = 0, or 0 where q(0) is below bound. With t =
- * da/q, the increment da of plastic strain over the equivalent relative stress q, it means q = bound + slope da. bound:
- * yield stress at the start [Pa]; slope: its derivative by the plastic strain [Pa]. In plane stress t follows from
- * Newton's method, started at t = 0, else from a closed form. */
+/* Solves 1 - slope t - bound/q(t) = 0 for eight points and returns t [1/Pa], or 0 for a point with q(0) below `bound`
+ * (no flow). With t = da/q, the increment da of plastic strain divided by the equivalent relative stress q, the
+ * equation means q = bound + slope da. e: yield equation q(t); bound: yield stress at the start [Pa]; slope: its
+ * derivative by the plastic strain [Pa]. In plane stress t follows from Newton's method, started at t = 0, else from a
+ * closed form. */
 static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes bound, lanes slope,
                                           const enum space space)
 {
@@ -136,8 +140,9 @@ static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes b
 }
 
 /* Returns for eight points the kinematic hardening modulus [Pa] that acts over a small step: C - gamma (3/2) xi:X/q. C
- * and gamma are modulus and recall constant of the Armstrong-Frederick law; the recall of the back stress X moves the
- * yield surface back. xi[]: trial relative stress [Pa]; q: its equivalent stress [Pa]. */
+ * and gamma are modulus and recall constant of the Armstrong-Frederick law (law->kinematic); the recall of the back
+ * stress X (p->back) moves the yield surface back. xi: trial relative stress [Pa], in the order of relative_stress; q:
+ * its equivalent stress [Pa]. */
 static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct law_points *p, const lanes *xi,
                                              lanes q, const enum space space)
 {
@@ -150,8 +155,9 @@ static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct
     return law->kinematic.modulus - law->kinematic.recall * (even + odd) / q;
 }
 
-/* Recall of the back stress X in a step along a constant direction N of flow, d eps_p = N da, from X_n at its start: X
- * = left X_n + (2/3) C added N da, with the kinematic modulus C. */
+/* Change of the back stress X with recall (Armstrong-Frederick law) in a step along a constant direction N of plastic
+ * flow, d eps_p = N da, for eight points: X = left X_n + (2/3) C added N da, with X_n at the start of the step and the
+ * kinematic modulus C. left, added: factors [1]. */
 struct flow_recall {
     lanes left, added;
 };
@@ -168,9 +174,9 @@ static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
     return (struct flow_recall){left, lanes_choose(small, series, (1.0 - left) / least)};
 }
 
-/* Returns for eight points the solution w > 0 of w + log w = z, by three Newton steps, from w = z for z above 0.3 and
- * from w = exp z below. The relative error is at most 2.1e-5 (near z = 0.3), and 2e-10 above z = 3 and below -2. The
- * caller linearises once more about w, which squares this error. */
+/* Returns for eight points the solution w > 0 of w + log w = z, for the rate term of the flow law. Three Newton steps
+ * start from w = z if z is above 0.3, else from w = exp z. The relative error is at most 2.1e-5 (near z = 0.3), and
+ * 2e-10 above z = 3 and below -2. The caller linearises once more about w, which squares this error. */
 static ALWAYS_INLINE lanes omega(lanes z)
 {
     const lanes middle = lanes_broadcast(0.3);
@@ -179,14 +185,15 @@ static ALWAYS_INLINE lanes omega(lanes z)
     return w;
 }
 
-/* Replaces the yield stress *bound of slow flow at the start of a small step [Pa], and its derivative *slope by the
- * plastic strain [Pa], by the tangent of the yield stress at the plastic strain rate of the step. With the increment da
- * of plastic strain over the duration dt the yield stress is
- *     (bound + slope da)(1 + C log(da/(eps0 dt)))   where da > eps0 dt, else bound + slope da.
+/* Accounts for the strain-rate dependence of the flow law of eight points in a small step. *bound [Pa] and *slope [Pa]:
+ * on entry the yield stress of slow flow at the start of the step and its derivative by the plastic strain; on return
+ * the tangent of the yield stress at the plastic strain rate of the step. With the increment da of plastic strain over
+ * the duration dt (p->duration) the yield stress is
+ *   (bound + slope da)(1 + C log(da/(eps0 dt)))   where da > eps0 dt, else bound + slope da.
  * The tangent is taken at the da at which this stress equals the equivalent stress, which falls linearly with da;
- * `omega` gives a first estimate of it. The rate is that of the plastic strain, not of the total strain: the latter
- * falls to 0 where loads reverse, and the plastic strain would then depend on the size of the step. trial: equation for
- * t at the start of the step. */
+ * `omega` gives a first estimate of da. The rate is that of the plastic strain, not of the total strain, because the
+ * latter falls to 0 where loads reverse, and the plastic strain would then depend on the size of the step. trial: yield
+ * equation at the start of the step. */
 static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law_points *p,
                                          const struct flow_equation *trial, lanes *bound, lanes *slope,
                                          const enum space space)
@@ -205,10 +212,11 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law
     *slope = lanes_choose(fast, rise, *slope);
 }
 
-/* Returns t = da/q of eight points for a small step, by one linearised evaluation (da: increment of plastic strain, q:
- * equivalent relative stress). trial, xi[]: yield equation and relative stress [Pa] of the trial state; bound: yield
- * stress at the start of the step [Pa]; slope: its derivative by the plastic strain [Pa]. *back: receives the factors
- * by which the back stress changes in the step (recall_after). */
+/* Returns the plastic flow t = da/q [1/Pa] of eight points in a small step, by one linearised evaluation (da: increment
+ * of plastic strain, q: equivalent relative stress). law: flow law; p: state of the points; trial, xi: yield equation
+ * and relative stress [Pa] of the trial state; bound: yield stress at the start of the step [Pa]; slope: its derivative
+ * by the plastic strain [Pa]. *back: receives the factors by which the back stress changes in the step
+ * (recall_after). */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -225,9 +233,10 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
     return t;
 }
 
-/* Returns t = da/q of eight points for a step of any size, to round-off (da: increment of plastic strain, q: equivalent
- * relative stress). bound: yield stress at the start of the step [Pa]. *back: receives the factors by which the back
- * stress changes in the step (recall_after). */
+/* Returns the plastic flow t = da/q [1/Pa] of eight points in a step of any size, by iteration to round-off (da:
+ * increment of plastic strain, q: equivalent relative stress). law: flow law; p: trial state of the points; bound:
+ * yield stress at the start of the step [Pa]. *back: receives the factors by which the back stress changes in the step
+ * (recall_after). */
 static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
@@ -250,10 +259,10 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     return t;
 }
 
-/* Computes the increments of plastic strain of eight points, strain[] = 3/2 t xi [1] (components xx yy zz xy yz zx),
- * and updates their stress p->s and back stress p->back by them. xi[]: relative stress at the end of the step [Pa],
- * components in the order of relative_stress; t: increment of equivalent plastic strain over equivalent relative stress
- * [1/Pa]; back: factors by which the back stress changes in the step (recall_after). */
+/* Applies plastic flow to eight points: computes their increments of plastic strain, strain = 3/2 t xi [1] (components
+ * xx yy zz xy yz zx), and changes their stress p->s and back stress p->back accordingly. xi: relative stress at the end
+ * of the step [Pa], in the order of relative_stress; t: increment of equivalent plastic strain, divided by the
+ * equivalent relative stress [1/Pa]; back: factors by which the back stress changes in the step (recall_after). */
 static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {
@@ -274,9 +283,9 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
         p->back[c] = back->left * p->back[c] + back->added * (C * strain[c]);
 }
 
-/* Returns for eight points the plastic work of a step per reference volume [J/m^3]: strain : (s_0 v_0 + s_1 v_1)/2,
- * with the stresses s_0, s_1 and the relative volumes v_0, v_1 at the start and at the end of the step. strain:
- * increments of plastic strain [1]. */
+/* Returns for eight points the plastic work of a small step per reference volume [J/m^3], by the trapezoidal rule:
+ * strain : (s_0 v_0 + s_1 v_1)/2, with the stresses s_0, s_1 and the relative volumes v_0, v_1 at the start and at the
+ * end of the step (in p). strain: increments of plastic strain [1], xx yy zz xy yz zx. */
 static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_broadcast(0);
@@ -287,10 +296,11 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
 }
 
 /* Returns for eight points the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress
- * and back stress along the path on which the trial stress grows in proportion, at constant temperature and
- * direction of flow. The integral of the back stress over the increment a is X:N b + (C/gamma) (a - b), b = (1 -
- * exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. back: X at the start of the step [Pa]; more:
- * increment of a [1]; strain: increment of plastic strain [1]. */
+ * and back stress along the path on which the trial stress grows in proportion, at constant temperature and direction
+ * of flow. The integral of the back stress over the increment a of plastic strain is X:N b + (C/gamma) (a - b), b = (1
+ * - exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. p: state at the end of the step; back: back
+ * stress X at its start [Pa]; more: increment a [1]; strain: increments of the components of plastic strain [1], xx yy
+ * zz xy yz zx. */
 static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_points *p, const lanes *back, lanes more,
                                      const lanes *strain, const enum space space)
 {
@@ -306,9 +316,10 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
     return work + along * added + C / recall * more * (1.0 - added);
 }
 
-/* Maps the trial stresses of those of eight points that are in p->active back to the yield surface, and updates their
- * plastic state. space, mode: the space, and whether the step is small and explicit or a load step (both constants).
- * Returns a bit for each point, set if it yields; points that do not yield are not changed. */
+/* Maps the trial stresses of eight points back to the yield surface, and updates their plastic state: stress, back
+ * stress, plastic strain, work, temperature. law: flow law; p: trial state of the points, of which only those in the
+ * mask p->active may yield. space, mode: compile-time constants, mode LAW_EXPLICIT for small steps or LAW_LOAD_STEP for
+ * steps of any size. Returns a mask with bit l set if point l yields; the other points are not changed. */
 static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_points *p, const enum space space,
                                             const enum law_mode mode)
 {

@@ -5,8 +5,9 @@
 #include "mesh_run.h"
 #include "base/team.h"
 
-/* Returns true if none of the nodes first .. end - 1 has mass. On the finest mesh most nodes have none, where coarse
- * cells replace its cells. mass: mass of each node, or its inverse (0 for a node without mass). */
+/* Returns true if none of the nodes first .. end - 1 has mass. It saves time on the finest mesh, most of whose nodes
+ * have none where coarse cells replace its cells. mass: mass of each node, or its inverse (0 for a node without
+ * mass). */
 static bool none_moves(const real *mass, int64_t first, int64_t end)
 {
     enum { PIECE = 64 };
@@ -20,9 +21,9 @@ static bool none_moves(const real *mass, int64_t first, int64_t end)
     return true;
 }
 
-/* Adds the kinetic energy of the nodes first .. end - 1 of a mesh to sum[0] [J]: m v^2/2, or for coarse cells, whose
- * mass matrix is not diagonal, half the product of momentum and velocity. context: the mesh (struct mesh).
- * reproducible_sums calls it for each block of nodes. */
+/* Adds the kinetic energy of the nodes first .. end - 1 of a mesh [J] to sum[0]: m v^2/2, or for coarse cells, whose
+ * mass matrix is not diagonal, half the product of momentum and velocity. context: the mesh (struct mesh). Called by
+ * reproducible_sums for each block of nodes. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -45,10 +46,10 @@ real mesh_kinetic(const struct mesh *mesh)
 }
 
 /* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 of a mesh to sum[0] [J/s^2], with nodal forces f and masses
- * m. Times dt^2 it is the difference between the mean of the kinetic energies before and after a step and m v_before .
- * v_after/2, the kinetic part of the energy that leap-frog conserves. Coarse cells with a blended (lumped and
- * consistent) mass matrix contribute by this matrix instead of m (mesh_inertia.h). context: the mesh (struct mesh).
- * reproducible_sums calls it for each block of nodes. */
+ * m. Multiplied by dt^2 it is the difference between two energies: the mean of the kinetic energies before and after a
+ * step, and m v_before . v_after/2, the kinetic part of the energy that leap-frog conserves. Coarse cells with a
+ * blended (lumped and consistent) mass matrix contribute by this matrix instead of m (mesh_inertia.h). context: the
+ * mesh (struct mesh). Called by reproducible_sums for each block of nodes. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -77,8 +78,9 @@ real mesh_kick(const struct mesh *mesh, real dt)
     return dt * dt * sum;
 }
 
-/* Arguments of mesh_strain for the functions that compute the energy of one row of cells or one group of partial
- * cells. */
+/* Arguments of mesh_strain, packed for the functions that compute the elastic energy of one row of cells or one group
+ * of eight partial cells: the mesh, its material points, the elastic constants of each material, and whether the strain
+ * is finite. */
 struct strain_sum {
     const struct mesh *mesh;
     const struct particles *p;
@@ -94,9 +96,10 @@ static ALWAYS_INLINE real lanes_sum(lanes a)
     return all;
 }
 
-/* Returns the elastic energy of group number `group` of eight partial cells [J]: cells with missing points, partial
- * stresses, several materials or doubled nodes. Vector lanes beyond the last cell have no stiffness and contribute
- * 0. */
+/* Returns the elastic energy of a group of eight partial cells [J]: cells that the regular loop does not treat, because
+ * of missing points, partial stresses, several materials or doubled nodes. s: mesh, particles, elastic constants;
+ * group: number of the group, from 0; finite: true for finite strain. Vector lanes beyond the last cell have no
+ * stiffness and contribute 0. */
 static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
 {
     const struct mesh *mesh = s->mesh;
@@ -113,9 +116,9 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
-/* Returns the elastic energy of `run`, a row of consecutive cells with all points of one material, computed for eight
- * cells at a time [J]. Vector lanes beyond the end of the row contribute 0. s: mesh, particles and elastic constants;
- * finite: true for finite strain. */
+/* Returns the elastic energy of a row of consecutive cells along x with all points of one material [J], computed for
+ * eight cells at a time. s: mesh, particles and elastic constants; run: the row; finite: true for finite strain. Vector
+ * lanes beyond the end of the row contribute 0. */
 static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim,
                                      const bool finite)
 {

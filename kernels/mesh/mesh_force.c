@@ -31,18 +31,20 @@ FLOW(1)
 FLOW(2)
 FLOW(3)
 
-/* Computes the stress of the mean strain (s->P) and the forces on the bending modes (s->force) of eight cells whose
- * points yield, by return mapping at each point. Updates the plastic state of the points. cell: eight cell indices, -1
- * for a lane without cell; m: elastic constants of all materials; s->e, s->mode: strain of the cells, input. */
+/* Computes by return mapping the stress of eight cells whose points yield, and updates the plastic state of the points
+ * in p. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all materials. s: on entry the
+ * strain of the cells (s->e, s->mode); receives the stress of the mean strain (s->P) and the forces on the bending
+ * modes (s->force). */
 static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         const int32_t *cell, struct mesh_cell *s, const int dim)
 {
     (dim == 1 ? cells_flow_1 : dim == 2 ? cells_flow_2 : cells_flow_3)(mesh, p, m, cell, s);
 }
 
-/* Computes the forces f[c][i] on corner c along axis i of eight cells whose points yield [N], and updates the plastic
- * state of the points. The cells are the k-th and the next seven in the row of consecutive cells `run`. u[c][i]:
- * displacements of the corners [m]; m: elastic constants of all materials; finite: true for finite strain. */
+/* Computes the forces of eight cells whose points yield [N], and updates the plastic state of the points in p. The
+ * cells are number k to k + 7 in `run`, a row of consecutive cells along x. u[c][i]: displacement of corner c along
+ * axis i [m]; f[c][i]: receives the force on corner c along axis i; m: elastic constants of all materials; finite: true
+ * for finite strain. */
 static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, int64_t k, lanes u[CORNERS_MAX][3],
                                    lanes f[CORNERS_MAX][3], const int dim, const bool finite)
@@ -57,11 +59,12 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
     cell_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
-/* Adds the forces of the cells of a row of consecutive cells `run` to the nodes. Sets run->stressed if the principal
- * stress at a point of an elastic row may exceed the conversion stress; false for rows that yield (flows). Cells next
- * to each other share nodes: the forces on the upper corners along x of eight cells are shifted by one lane and added
- * to those on the lower corners of the next cells, so that each node is written once. all: elastic constants of all
- * materials. */
+/* Adds the forces of the cells of `run`, a row of consecutive cells along x, to the nodes of the mesh. Sets
+ * run->stressed if the principal stress at a point of an elastic row may exceed the conversion stress. all: elastic
+ * constants of all materials; finite: true for finite strain; flows: true for a row whose points yield, for which
+ * run->stressed becomes false. Neighbouring cells share nodes: the forces on the upper corners along x of eight cells
+ * are shifted by one lane and added to those on the lower corners of the next cells, so that each node is written
+ * once. */
 static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
                                     const struct elastic *all, const int dim, const bool finite, const bool flows)
 {
@@ -130,8 +133,9 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
 
 /* ---- partial cells ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if all cells of group number `group` of eight partial cells (cells with missing points, partial
- * stresses, several materials or doubled nodes) are at rest, so that they need no forces. */
+/* Returns true if all cells of a group of eight partial cells are at rest, so that they need no forces. A partial cell
+ * has missing points, partial stresses, several materials or doubled nodes. group: number of the group in the mesh,
+ * from 0. */
 static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
@@ -140,9 +144,10 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
     return level == 0;
 }
 
-/* Marks in mesh->partial_stressed the cells of group number `group` of eight partial cells in which the principal
- * stress at a point may exceed the conversion stress of the material. A partial cell has missing points, partial
- * stresses, several materials or doubled nodes. s: strain of the cells; m: elastic constants of all materials. */
+/* Marks in mesh->partial_stressed those of a group of eight partial cells in which the principal stress at a point may
+ * exceed the conversion stress of the material. A partial cell has missing points, partial stresses, several materials
+ * or doubled nodes. m: elastic constants of all materials; group: number of the group, from 0; s: strain of the eight
+ * cells. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *s, const int dim)
 {
@@ -157,10 +162,10 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
     }
 }
 
-/* Computes the forces on the corners of group number `group` of eight partial cells into mesh->partial_force [N]. A
- * partial cell has missing points, partial stresses, several materials or doubled nodes. Marks in
- * mesh->partial_stressed the cells in which a stress may exceed the conversion stress. Where points yield, their
- * plastic state is updated. m: elastic constants of all materials; finite: true for finite strain. */
+/* Computes the forces on the corners of a group of eight partial cells [N] into mesh->partial_force, and marks in
+ * mesh->partial_stressed the cells in which a stress may exceed the conversion stress. A partial cell has missing
+ * points, partial stresses, several materials or doubled nodes. The plastic state of points in p that yield is updated.
+ * m: elastic constants of all materials; group: number of the group, from 0; finite: true for finite strain. */
 static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         int64_t group, const int dim, const bool finite)
 {
@@ -187,9 +192,9 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
 
-/* Adds the forces in mesh->partial_force of all active partial cells (cells with missing points, partial stresses,
- * several materials or doubled nodes) to the nodes. Several cells share a node, so the forces are added serially and in
- * order. */
+/* Adds the forces in mesh->partial_force of all partial cells that are not at rest to the nodes. A partial cell has
+ * missing points, partial stresses, several materials or doubled nodes. Several cells share a node, so the forces are
+ * added by one thread and in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
     for (int64_t group = 0; group < mesh_partial_cell_group_count(mesh); group++) {

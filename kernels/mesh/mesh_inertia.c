@@ -3,23 +3,25 @@
 
 #include "kernels/simd/lanes.h"
 
-/* Returns w[-1] + 4 w[0] + w[1] at eight nodes along x from address w on. This is six times the average S w, with the
- * consistent mass matrix S = (1, 4, 1)/6 of linear cells in 1D. */
+/* Returns six times the average S w of nodal values at eight nodes along x: w[-1] + 4 w[0] + w[1], with the weights S =
+ * (1, 4, 1)/6 of the consistent mass matrix of linear cells in 1D. w: address of the value at the first of the eight
+ * nodes. */
 static ALWAYS_INLINE lanes line_smooth(const real *w)
 {
     return (lanes_load(w - 1) + lanes_load(w + 1)) + 4.0 * lanes_load(w);
 }
 
-/* Returns 36 times the average S w of the nodal values w, with the weights S = (1, 4, 1)/6 along x and along y, at
- * eight nodes from address w on. row: index distance of neighbours along y. */
+/* Returns 36 times the average S w of nodal values at eight nodes along x, with the weights S = (1, 4, 1)/6 along x and
+ * along y. w: address of the value at the first of the eight nodes; row: index distance of neighbours along y. */
 static ALWAYS_INLINE lanes plane_smooth(const real *w, int64_t row)
 {
     return (line_smooth(w - row) + line_smooth(w + row)) + 4.0 * line_smooth(w);
 }
 
-/* Returns the average S w of the nodal values w, at eight nodes from address w on. S = (1, 4, 1)/6 along each axis are
- * the weights of the consistent mass matrix of linear cells. All cells at these nodes must have the blended (lumped and
- * consistent) mass matrix of mesh_inertia.h. row, layer: index distances of neighbours along y and z. */
+/* Returns the average S w of nodal values at eight nodes along x. S = (1, 4, 1)/6 along each axis are the weights of
+ * the consistent mass matrix of linear cells. w: address of the value at the first node; row, layer: index distances of
+ * neighbours along y and z. Valid only if all cells at these nodes have the blended (lumped and consistent) mass matrix
+ * of mesh_inertia.h. */
 static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_smooth(w) * (1.0 / 6);
@@ -27,9 +29,9 @@ static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, con
     return ((plane_smooth(w - layer, row) + plane_smooth(w + layer, row)) + 4.0 * plane_smooth(w, row)) * (1.0 / 216);
 }
 
-/* Returns one velocity component of node I [m/s], for a node between cells with the blended (lumped and consistent)
- * mass matrix of mesh_inertia.h and cells with the lumped one. w: the same component of momentum over lumped mass of
- * all nodes [m/s]. */
+/* Returns one velocity component of node I [m/s]. It serves nodes at which cells with the blended (lumped and
+ * consistent) mass matrix of mesh_inertia.h meet cells with the lumped one. w: the same component of momentum, divided
+ * by lumped mass, of all nodes [m/s]. */
 static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, int64_t I, const int dim)
 {
     const int corners = 1 << dim;
@@ -44,8 +46,9 @@ static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, 
     return w[I] + mesh->match * mesh->inverse_mass[I] * sum;
 }
 
-/* Computes one velocity component v of the nodes in row number r of a mesh (a row along x), eight nodes at a time. w:
- * the same component of the nodes' momentum over mass [m/s]; v, w: arrays over all nodes of the mesh. */
+/* Computes one velocity component v of the nodes of one row along x of a mesh, eight nodes at a time. r: number of the
+ * row, from 0; w: the same component of momentum, divided by lumped mass [m/s]; v: velocity [m/s]; both arrays cover
+ * all nodes of the mesh. */
 static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const real *w, real *v, const int dim)
 {
     const int64_t row = dim > 1 ? mesh->corner[2] : 0, layer = dim > 2 ? mesh->corner[4] : 0,

@@ -6,9 +6,10 @@
 #include "kernels/simd/lanes.h"
 
 /* Replaces the force on all nodal components with prescribed velocity ("walls") by mass times the change of this
- * velocity per time. Stores for each wall its reaction [N s], the impulse that balances the other forces on the node.
- * Adds impulse [N s] and work [J] of all walls to impulse[] and *work. dt_velocity: time over which forces change the
- * velocities [s]. Walls of one axis are consecutive in the list, and their sums are added at their end. */
+ * velocity per time. dt_velocity: time over which forces change the velocities [s]. Stores in each wall its reaction [N
+ * s], the impulse that balances the other forces on the node. Adds the impulse of all walls to impulse[axis] [N s] and
+ * their work to *work [J]. Walls of one axis are consecutive in the list; their sums are added at the end of the
+ * axis. */
 static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
@@ -51,8 +52,8 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
 
 #define OFF_PLACE 1e-6 /* largest deviation from a prescribed position that counts as round-off [cells]; empirical */
 
-/* Sets the nodal components with prescribed velocity ("walls") to this velocity exactly, without the round-off of the
- * step, and likewise their displacement, if it is within OFF_PLACE cell edges of its prescribed value. A displacement
+/* Sets the nodal components with prescribed velocity ("walls") exactly to this velocity, without the round-off of the
+ * step. Sets their displacement likewise, if it is within OFF_PLACE cell edges of its prescribed value. A displacement
  * that differs by more, for example of a node that started from another displacement, follows the velocity alone. dt:
  * time step [s]. */
 static void walls_move(struct mesh *mesh, real dt)
@@ -68,8 +69,8 @@ static void walls_move(struct mesh *mesh, real dt)
     }
 }
 
-/* Sets the entries of the force component `force` [all nodes] at the active nodes of a row to 0. row: number of the row
- * of nodes along x; active nodes are those of parts of the mesh that are not at rest. */
+/* Sets the force on the active nodes of one row of the mesh to 0 (active: in a part of the mesh that is not at rest).
+ * row: number of the row of nodes along x, from 0; force: one force component of all nodes [N]. */
 static void row_clear(const struct mesh *mesh, int64_t row, real *force)
 {
     const struct mesh_row_blocks blocks = mesh_blocks_of_row(mesh, row);
@@ -85,11 +86,11 @@ void mesh_clear(struct mesh *mesh)
         for (int d = 0; d < mesh->grid.dim; d++) row_clear(mesh, r, mesh->grid.force[d]);
 }
 
-/* Advances velocity and displacement of the active (not resting) nodes of row number `row`, along x, by a leap-frog
- * step, eight nodes at a time. Entries beyond the last node have neither force nor mass and stay at rest. dt: time over
- * which velocities move the nodes [s]; dt_velocity: time over which forces change the velocities [s]. Returns the
- * square of the largest velocity component [m^2/s^2], INFINITY if one is not finite. Maxima ignore NaN, so the sum of
- * all components is tested. */
+/* Advances velocity and displacement of the active nodes (not at rest) of one row by a leap-frog step, eight nodes at a
+ * time. row: number of the row of nodes along x, from 0; dt: time over which velocities move the nodes [s];
+ * dt_velocity: time over which forces change the velocities [s]. Entries beyond the last node have neither force nor
+ * mass and stay at rest. Returns the square of the largest velocity component [m^2/s^2], or INFINITY if any component
+ * is not finite; because maxima ignore NaN, the sum of all components is tested for this. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0];
@@ -114,9 +115,10 @@ static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 }
 
 /* Adds mass and force of each mirror node, a node beyond a plane of symmetry that is midway between two nodes, to its
- * image node, so that the image moves with the mass and force of both (grid_move.c). Stores the own mass of the image
- * and the impulse on the mirror node for mesh_mirror_nodes_spread. Several mirror nodes may have one image; they are
- * few and processed in order by one thread. */
+ * image node, so that the image moves with the mass and force of both (grid_move.c). dt_velocity: time over which
+ * forces change the velocities [s]. Stores the own mass of the image and the impulse on the mirror node for
+ * mesh_mirror_nodes_spread. Several mirror nodes may have one image; they are few and are processed in order by one
+ * thread. */
 static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
@@ -137,8 +139,8 @@ static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
 
 /* Undoes mesh_mirror_nodes_gather after the step: restores the masses, and divides the force between each mirror node
  * (a node beyond a plane of symmetry) and its image by their masses. Sets velocity and displacement of the mirror node
- * to the reflected ones of its image. Adds the reaction of the plane to impulse [N s]: a component that changes sign
- * counts twice, for the node and for its image. */
+ * to the reflected ones of its image. Adds the reaction of the plane to impulse[axis] [N s]: a component that changes
+ * sign by the reflection counts twice, for the node and for its image. */
 static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
 {
     struct grid *g = &mesh->grid;
@@ -160,9 +162,9 @@ static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
     }
 }
 
-/* Integrates the nodal forces over the time dt_velocity [s], for a mesh of coarse cells. Their mass matrix is not
- * diagonal: the forces change the momentum over the lumped mass (grid.momentum [m/s]), from which the velocities are
- * then computed (mesh_velocity). */
+/* Changes the velocities of the nodes of a mesh of coarse cells by the forces on them, over the time dt_velocity [s].
+ * The mass matrix of these cells is not diagonal: the forces change grid.momentum [m/s], the momentum divided by the
+ * lumped mass, from which mesh_velocity then computes the velocities. */
 static void momentum_move(struct mesh *mesh, real dt_velocity)
 {
 #pragma omp parallel for schedule(static)

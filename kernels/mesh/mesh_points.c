@@ -6,8 +6,7 @@
 #include "mesh_run.h"
 #include "kernels/pd/rotation.h"
 
-/* Calls X for 1, 2 and 3 dimensions, for functions with one body for all; the parallel region is inside each
- * instance. */
+/* Calls X for 1, 2 and 3 dimensions. The parallel region of a function is inside each of its three instances. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
 /* Returns the number of cells that may have points: all cells of the mesh, or those of the list mesh->filled_cell. */
@@ -16,7 +15,7 @@ static ALWAYS_INLINE int64_t cells_of_points(const struct mesh *mesh)
     return mesh->absent ? mesh->filled_cells : mesh->grid.n;
 }
 
-/* Returns the index of the k-th cell that may have points (cells_of_points). */
+/* Returns the index of the k-th cell that may have points, k from 0 to cells_of_points(mesh) - 1. */
 static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 {
     return mesh->absent ? mesh->filled_cell[k] : k;
@@ -24,8 +23,8 @@ static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Sets position and velocity of material points of cell I by linear interpolation from its nodes. places: bit q is set
- * for those of the points q = 0 .. 2^dim - 1 that are moved. */
+/* Sets position and velocity in p of material points of cell I by linear interpolation from the nodes of the cell.
+ * places: bit q is set for each point q = 0 .. 2^dim - 1 of the cell that is to be moved. */
 static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -45,7 +44,7 @@ static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p
     }
 }
 
-/* Sets position and velocity of the one point i by linear interpolation from the nodes of its cell. */
+/* Sets position and velocity in p of the single point i by linear interpolation from the nodes of its cell. */
 static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *p, int64_t i, const int dim)
 {
     const int64_t I = mesh->place[i] >> dim;
@@ -112,8 +111,8 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
 
 /* ---- bonded points ----------------------------------------------------------------------------------------------- */
 
-/* Computes the rotations of eight cells from their strain s, in 2D as cos - 1 and sin, in 3D as quaternions. rotates:
- * true for the finite rotation s->R, false for that of the antisymmetric part of the displacement gradient. */
+/* Computes the rotations of eight cells from their strain s: rotation[] receives cos - 1 and sin of the angle in 2D, a
+ * quaternion in 3D. rotates: true for the finite rotation s->R, false for that of small displacement gradients. */
 static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_broadcast(0);
@@ -139,8 +138,8 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Computes p->end_strain and, in models with rotations, p->end_rotation of the material points with state-based bonds
- * in group `group` of eight partial cells, from the strain of these cells. finite: true for finite strain. */
+/* Computes p->end_strain and, in models with rotations, p->end_rotation of those points with state-based bonds that are
+ * in eight partial cells (with missing points or several materials). group: number of these cells, from 0. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -188,8 +187,8 @@ void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-/* Adds the forces p->f on material points of cell I to its nodes by their interpolation weights. places: bit q is set
- * for those of the points q = 0 .. 2^dim - 1 whose forces are added. */
+/* Adds the forces p->f on material points of cell I to the nodes of the cell, by their interpolation weights. places:
+ * bit q is set for each point q = 0 .. 2^dim - 1 of the cell whose force is added. */
 static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -217,9 +216,10 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 
 /* ---- stress ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the Cauchy stress of point i of material m in p: the stress s at the strain e at small strain; at finite
- * strain R sym(s U) R^T/det U, with U = 1 + e and the rotation R of the cell, and also the volume of the point. In
- * sheets that yield the stress is divided by the stretch of the thickness. R, e: dim x dim, row by row. */
+/* Stores the Cauchy stress of point i in p: the stress s of the strain e at small strain; at finite strain R sym(s U)
+ * R^T/det U, with U = 1 + e and the rotation R of the cell, and also the volume of the point. In plates that yield
+ * (plane stress) the stress is divided by the stretch of the thickness. m: elastic constants of the point's material;
+ * R, e: dim x dim, row by row; finite: true for finite strain. */
 static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
                                              const real *e, const int dim, bool finite)
 {
@@ -260,8 +260,7 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     p->volume[i] = p->volume0[i] * det;
 }
 
-/* Stores the Cauchy stress and, at finite strain, the volume of the points of cell I in p. m: elastic constants of all
- * materials. */
+/* Stores Cauchy stress and, at finite strain, volume of the points of cell I in p. m: elastic constants [material]. */
 static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                       const int dim, bool finite)
 {
@@ -293,7 +292,7 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
         stress_3(mesh, p, m, finite);
 }
 
-/* Stores the displacement gradients du_a/dX_b of the points of cell I in to[a dim + b]. */
+/* Stores the displacement gradient du_a/dX_b [1] of each point i of cell I in to[a dim + b][i]. */
 static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX];
@@ -325,8 +324,8 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Sets FLAG_STRESSED for those points of cell I whose stress exceeds the limit for conversion to peridynamic particles.
- * m: elastic constants of all materials; finite: true for finite strain. */
+/* Sets FLAG_STRESSED in p for those points of cell I whose stress exceeds the limit for conversion to peridynamic
+ * particles. m: elastic constants of all materials; finite: true for finite strain. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {
@@ -350,7 +349,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Sets FLAG_STRESSED of points of cell I, by a function for one `dim` that is not inlined (cell_points_mark). */
+/* Sets FLAG_STRESSED of points of cell I (cell_points_mark), by a function for one `dim` that is not inlined. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -362,9 +361,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns for each of eight cells the largest, over its points, of a bound of the principal stresses [Pa] and, with a
- * strength surface, of cell_strength_bound. This is closer than the bound of mesh_force. m: elastic constants; s:
- * strain of the cells; there[q]: mask of cells with point number q, NULL if all have all points. */
+/* Returns an upper bound of the stress in each of eight cells [Pa], closer than that of mesh_force: the maximum over
+ * its points of a bound of the principal stresses and, with a strength surface, of cell_strength_bound. m: elastic
+ * constants; s: strain of the cells; there[q]: mask of cells that have point number q; NULL if all have all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -401,7 +400,7 @@ static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct m
                       : cells_tension_3(m, s, there);
 }
 
-/* Returns true if cell I has a point of a material other than number `material`. */
+/* Returns true if cell I has a point whose material is not number `material`; p: the particles. */
 static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material,
                                      const int dim)
 {
@@ -412,8 +411,8 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
     return false;
 }
 
-/* Returns for each of eight cells, the k-th and the next of the row of cells `run`, an upper bound of the principal
- * stresses at its points [Pa] (places_tension). m: elastic constants; finite: true for finite strain. */
+/* Returns for the cells k to k + 7 of the row of cells `run` an upper bound of the principal stresses at their points
+ * [Pa] (places_tension). m: elastic constants of their material; finite: true for finite strain. */
 static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                        int64_t k, const int dim, const bool finite)
 {
@@ -424,8 +423,9 @@ static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct ela
     return cells_tension(m, &s, NULL, dim);
 }
 
-/* Sets FLAG_STRESSED of the points in `run` (a row of consecutive cells) whose principal stress exceeds their
- * conversion stress. Only cells in which a bound of the stress exceeds it are examined point by point. */
+/* Sets FLAG_STRESSED of the points in `run`, a row of consecutive cells, whose principal stress exceeds their
+ * conversion stress. Examines only cells in which an upper bound of the stress exceeds it. m: elastic constants
+ * [material]. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, const int dim, const bool finite)
 {
@@ -450,9 +450,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED of the points in group `group` of eight partial cells whose principal stress exceeds their
- * conversion stress. Examines only cells in which the bound places_tension exceeds the conversion stress, and cells for
- * which it is no bound: those with several materials and those with mean dilatation. */
+/* Sets FLAG_STRESSED of the points of eight partial cells (with missing points or several materials) whose principal
+ * stress exceeds the conversion stress. Examines only cells whose bound places_tension exceeds it, and cells for which
+ * it is no bound (several materials, mean dilatation). group: number of the eight cells, from 0. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {
@@ -475,8 +475,8 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     }
 }
 
-/* Returns true if mesh_force has marked a cell of group `group` of eight partial cells (cells with stiffness matrices
- * of their own), as one in which a stress may exceed the conversion stress. */
+/* Returns true if mesh_force has marked one of eight partial cells (with missing points, partial stresses or several
+ * materials) as one in which a stress may exceed the conversion stress. group: number of the eight cells, from 0. */
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 {
     bool any = false;

@@ -4,8 +4,8 @@
 #include "mesh_partial.h"
 #include "mesh_run.h"
 
-/* Arguments of mesh_points_flow: mesh, particles, elastic constants of all materials, and time step dt [s]; 0: stresses
- * are stored, and no point flows. */
+/* Arguments of mesh_points_flow: mesh, particles, elastic constants of all materials, and time step dt [s]. With dt = 0
+ * the stresses are only stored and no point flows. */
 struct flow_step {
     const struct mesh *mesh;
     const struct particles *p;
@@ -13,8 +13,9 @@ struct flow_step {
     real dt;
 };
 
-/* Updates the plastic state of the points of eight cells at the end of an explicit step. cell: eight cell indices, -1
- * for a lane without cell; u[c][i]: displacements of their corners [m]; finite: true for finite strain. */
+/* Updates the plastic state of the points of eight cells at the end of an explicit step, or only stores their stresses
+ * if f->dt is 0. f: arguments of the sweep; cell: eight cell indices, -1 for a lane without cell; u[c][i]: displacement
+ * of corner c along axis i [m]; finite: true for finite strain. */
 static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *cell, lanes u[CORNERS_MAX][3],
                                      const int dim, const bool finite)
 {

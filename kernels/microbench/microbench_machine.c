@@ -16,9 +16,10 @@
 
 enum { STENCIL_MOST = 128, MARGIN = 3 };
 
-/* A lattice of particles and its bonds. Index of a particle: sum over the axes of its position (in spacings) times
- * `stride`, with a margin of particles around the lattice. offset, inverse_length: index distance and inverse reference
- * length of each neighbour; x, f: positions and forces of all particles. */
+/* A lattice of particles and its bonds. A particle's index is the sum over the axes of its position (in spacings) times
+ * stride[axis]; a margin of particles surrounds the lattice. neighbours: number of bonds of each particle; offset[k],
+ * inverse_length[k]: index distance and inverse reference length [1/spacing] of neighbour k; x[axis], f[axis]:
+ * positions and forces of all particles. */
 struct microbench_lattice {
     int dim;
     int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all; /* particles, index of the first; all: with margins */
@@ -28,7 +29,7 @@ struct microbench_lattice {
     real *x[DIM_MAX], *f[DIM_MAX];
 };
 
-/* Computes the forces of all bonds on eight particles of the lattice, those with the indices i to i + 7. */
+/* Computes the forces of all bonds on the eight particles i to i + 7 of the lattice s and stores them in s->f. */
 static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, int64_t i, const int dim)
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
@@ -68,7 +69,7 @@ DIM_VARIANTS(SWEEP)
 #define SWEEP_ENTRY(D) [D] = stencil_sweep_##D##d,
 static void (*const stencil_sweep[DIM_MAX + 1])(struct microbench_lattice *) = {DIM_VARIANTS(SWEEP_ENTRY)};
 
-/* Computes index distances and inverse lengths of all neighbours of a lattice particle within 3.015 spacings. */
+/* Stores in s the index distances and inverse lengths of all neighbours of a lattice particle within 3.015 spacings. */
 static void find_neighbours(struct microbench_lattice *s)
 {
     const int reach[DIM_MAX] = {MARGIN, s->dim > 1 ? MARGIN : 0, s->dim > 2 ? MARGIN : 0};
@@ -82,8 +83,8 @@ static void find_neighbours(struct microbench_lattice *s)
             }
 }
 
-/* Sets the positions of all particles to those of a lattice with spacing 1 and a small non-uniform strain, so that no
- * operand has a special value. */
+/* Sets the positions s->x of all particles to those of a lattice with spacing 1 and a small non-uniform strain, so that
+ * no operand of the timed loop has a special value. */
 static void place_lattice(struct microbench_lattice *s)
 {
     for (int64_t i = 0; i < s->all; i++) {

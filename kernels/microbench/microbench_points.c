@@ -12,7 +12,9 @@
 
 enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES = NODES_X * (CELLS_Y + 1) };
 
-/* Data of the plain material point method: n points, edge h of a cell [m], time step dt [s], elastic constants [Pa]. */
+/* Data of the plain material point method. n: number of points; h: edge of a cell [m]; dt: time step [s]; c11, c12,
+ * shear: elastic constants [Pa]; start: cells + 1 entries; the next line of arrays belongs to points (position,
+ * velocity, mass, volume, stress), the last to nodes. */
 struct microbench_points {
     int64_t n;
     real h, dt, c11, c12, shear;
@@ -21,13 +23,14 @@ struct microbench_points {
     real *m, *px, *py, *fx, *fy, *ux, *uy; /* nodes: mass, momentum, force, velocity */
 };
 
-/* Weights N of the linear shape functions of a point at the four corners of its cell [1], and their slopes gx, gy
- * [1/m]. */
+/* Weights N of the linear shape functions of one point at the four corners of its cell [1], and their derivatives gx,
+ * gy by x and y [1/m]. */
 struct corner {
     real N[CORNERS], gx[CORNERS], gy[CORNERS];
 };
 
-/* Returns weights and slopes of point i at the four corners of its cell. cx, cy: indices of the cell along x and y. */
+/* Returns the shape functions of point i at the four corners of its cell, and their derivatives. cx, cy: indices of the
+ * cell along x and y. */
 static ALWAYS_INLINE struct corner corner_make(const struct microbench_points *p, int64_t i, int cx, int cy)
 {
     const real inverse = 1 / p->h, r = p->x[i] * inverse - cx, s = p->y[i] * inverse - cy;
@@ -36,16 +39,18 @@ static ALWAYS_INLINE struct corner corner_make(const struct microbench_points *p
                            .gy = {-(1 - r) * inverse, -r * inverse, (1 - r) * inverse, r * inverse}};
 }
 
-/* Returns the index of the node at corner k (0 to 3) of cell cx, cy. */
+/* Returns the index of the node at a corner of a cell. k: number of the corner, 0 to 3, x fastest; cx, cy: indices of
+ * the cell along x and y. */
 static ALWAYS_INLINE int64_t corner_node(int cx, int cy, int k) { return (int64_t)(cy + k / 2) * NODES_X + cx + k % 2; }
 
-/* Adds sum[k] to the nodal array `field` at each corner k of cell cx, cy. */
+/* Adds the four values sum[k] to the nodal array `field`, one at each corner k of a cell. cx, cy: indices of the cell
+ * along x and y. */
 static void add_corners(real *field, int cx, int cy, const real *sum)
 {
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* Adds mass, momentum and internal force of the points of a cell to its four nodes: the first map of a step. cx, cy:
+/* First map of a step: adds mass, momentum and internal force of the points of one cell to its four nodes. cx, cy:
  * indices of the cell along x and y. */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
@@ -66,8 +71,9 @@ static void cell_scatter(struct microbench_points *p, int cx, int cy)
     add_corners(p->fx, cx, cy, fx), add_corners(p->fy, cx, cy, fy);
 }
 
-/* Adds the change of the nodal velocities (in p->fx, fy) to the velocities of the points of a cell, and adds their
- * momentum to the nodes again: the second map of a step. cx, cy: indices of the cell along x and y. */
+/* Second map of a step, for the points of one cell: adds the change of the nodal velocities (in p->fx, fy) to the
+ * velocities of the points, then adds the momentum of the points to the nodes again. cx, cy: indices of the cell along
+ * x and y. */
 static void cell_remap(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -82,8 +88,8 @@ static void cell_remap(struct microbench_points *p, int cx, int cy)
     add_corners(p->px, cx, cy, px), add_corners(p->py, cx, cy, py);
 }
 
-/* Updates stress and volume of point i by the strain increments xx, yy, xy and the rotation angle `spin` of a step,
- * with the objective rate of Jaumann. */
+/* Updates stress and volume of point i for one step, with the objective stress rate of Jaumann. xx, yy, xy: strain
+ * increments [1]; spin: rotation angle of the step [rad]. */
 static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, int64_t i, real xx, real yy, real xy,
                                                   real spin)
 {
@@ -94,8 +100,8 @@ static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, i
     p->volume[i] *= 1 + xx + yy;
 }
 
-/* Updates position, stress and volume of the points of a cell from the nodal velocities: the third map of a step. cx,
- * cy: indices of the cell along x and y. */
+/* Third map of a step: updates position, stress and volume of the points of one cell from the nodal velocities. cx, cy:
+ * indices of the cell along x and y. */
 static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -139,8 +145,8 @@ static void nodes_clear(struct microbench_points *p)
     for (int I = 0; I < NODES; I++) p->m[I] = p->px[I] = p->py[I] = p->fx[I] = p->fy[I] = 0;
 }
 
-/* Computes the change of velocity of all nodes (into fx, fy) and their new velocity (ux, uy) from momentum and force;
- * sets the momentum to 0. */
+/* Computes for all nodes the change of velocity (into fx, fy) and the new velocity (ux, uy) from momentum and force,
+ * and then sets the momentum to 0. */
 static void nodes_move(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)

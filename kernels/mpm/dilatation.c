@@ -2,8 +2,9 @@
 #include "dilatation.h"
 #include "row.h"
 
-/* Adds `share` of the difference between mean and own dilatation in a step to n <= MEAN_POINTS listed points of a
- * cell. */
+/* Adds `share` [1] of the difference between the mean dilatation of a cell and a point's own dilatation in a step to
+ * the stress and volume of points of the cell. list: indices of the points in p; n: their number, at most MEAN_POINTS;
+ * t: time step, dilatations and elastic constants. */
 static ALWAYS_INLINE void cell_add_mean_dilatation(struct particles *p, const struct transfer_data *t,
                                                    const int32_t *list, int n, real share, const int dim)
 {

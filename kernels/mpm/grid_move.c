@@ -5,8 +5,8 @@
 #include "kernels/dashpot.h"
 #include "kernels/kernels.h"
 
-/* EACH_NODE(CALL) calls CALL(I, dimensions) for all nodes I of grid g (a variable of the caller), with the number of
- * dimensions as a constant, so that nodes fill the lanes of vectors. */
+/* EACH_NODE(CALL) calls CALL(I, dimensions) for all nodes I of the grid g, a variable of the caller. The number of
+ * dimensions is a compile-time constant, so that nodes fill the lanes of vectors. */
 #define NODES_OF(D, CALL)                                                                                              \
     case D:                                                                                                            \
         _Pragma("omp parallel for simd schedule(static)") for (int64_t I = 0; I < g->n; I++) CALL(I, D);               \
@@ -31,9 +31,10 @@ void grid_clear(struct grid *g)
 }
 
 /* Sets one velocity component of a node of the grid, and its change in the step (g->force), to the values that the wall
- * w prescribes. The impulse of the wall replaces that of the forces on the node, and with APIC also the momentum that
- * points have given to the node. Adds it [N s] and the work of the wall [J] to impulse[] and *work, and stores the
- * reaction of the wall [N s]. Does nothing for nodes lighter than smallest_mass [kg]. */
+ * w prescribes (wall: a nodal component with prescribed velocity). The impulse of the wall replaces that of the forces
+ * on the node, and with APIC also the momentum that points have given to the node. Adds this impulse to impulse[axis]
+ * [N s] and the work of the wall to *work [J]; stores the reaction in w [N s]. Does nothing for nodes lighter than
+ * smallest_mass [kg]. */
 static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX],
                       real *work)
 {
@@ -61,8 +62,9 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
  * they are processed in order by one thread. */
 
 /* Adds mass, reflected force and reflected momentum of each mirror node (a node beyond a plane of symmetry) to its
- * image node, and sets them to 0 at the mirror node. Stores in its member `taken` the impulse that its points gave to
- * the mirror node [N s]. dt_velocity: time over which forces change the velocities [s]. */
+ * image node, and sets them to 0 at the mirror node. Stores in its member `taken` the impulse that the points gave to
+ * the mirror node [N s]. transfer: scheme of the grid; dt_velocity: time over which forces change the velocities
+ * [s]. */
 static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, real dt_velocity)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++) {
@@ -80,10 +82,11 @@ static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, rea
     }
 }
 
-/* Sets velocity and change of velocity of each mirror node to the reflected ones of its image node, and adds the
- * reaction of the plane of symmetry to impulse [N s]. A component that changes sign needs the impulse m_g dv_g - dt f_g
- * at the node and an equal impulse at its image: together they do no work, since node and image move in opposite
- * directions. */
+/* Sets velocity and change of velocity of each mirror node (a node beyond a plane of symmetry) to the reflected ones of
+ * its image node, and adds the reaction of the plane to impulse[axis] [N s]. A component that changes sign needs the
+ * impulse m_g dv_g - dt f_g at the node and an equal impulse at its image: together they do no work, since node and
+ * image move in opposite directions. transfer: scheme of the grid, which decides whether the momentum from the points
+ * counts, too. */
 static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, real impulse[DIM_MAX])
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++) {
@@ -123,8 +126,8 @@ static real whole_mass(const struct grid *g, int64_t I)
     return g->mass[I] * (real)(1 << __builtin_popcount(g->held[I] & (HELD - 1)));
 }
 
-/* Returns the node that determines the motion of the light node I: the heaviest adjacent node with more mass than
- * g->light_mass, along the axes if there is one, else along diagonals; -1 if there is none. */
+/* Returns the node from which the motion of the light node I is extrapolated: the heaviest adjacent node with more mass
+ * than g->light_mass, along the axes if there is one, else along diagonals. Returns -1 if there is none. */
 static int64_t leader_of(const struct grid *g, int64_t I)
 {
     int64_t leader = -1;
@@ -153,9 +156,9 @@ static int by_node(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Lists in g->follower the light nodes of this step, heavier than smallest_mass and lighter than g->light_mass [kg],
- * with the heavier nodes from which their acceleration is extrapolated (struct follower); ascending by node. Nodes held
- * by walls other than planes of symmetry are left out. */
+/* Lists in g->follower the light nodes of this step, at least smallest_mass and below g->light_mass [kg], each with the
+ * two heavier nodes from which its acceleration is extrapolated (struct follower). Ascending by node. Nodes held by
+ * walls other than planes of symmetry are left out. */
 static void followers_find(struct grid *g, real smallest_mass)
 {
     int64_t n = 0;
@@ -176,9 +179,9 @@ static void followers_find(struct grid *g, real smallest_mass)
     array_sort(g->follower, n, sizeof *g->follower, by_node);
 }
 
-/* Adds `times` the force and `times` the mass of the light node I to the heavier node J, from which the acceleration of
- * I is extrapolated. The momentum of J is scaled with its mass, so that its velocity does not change, but not across a
- * plane of symmetry, which takes the momentum that J has. */
+/* Adds the force and the mass of the light node I, multiplied by `times`, to the heavier node J, from which the
+ * acceleration of I is extrapolated. The momentum of J is scaled with its mass, so that its velocity does not change;
+ * components normal to a plane of symmetry through J are left as they are. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
     const real more = times * g->mass[I] / g->mass[J];
@@ -189,8 +192,8 @@ static void lend(struct grid *g, int64_t I, int64_t J, real times)
     g->mass[J] += times * g->mass[I];
 }
 
-/* Finds the light nodes, whose acceleration is extrapolated from heavier nodes (g->follower), and transfers their force
- * and mass to these. With FLIP there are none. smallest_mass: nodes lighter than this are left out [kg]. Called before
+/* Finds the light nodes of the grid (g->follower), whose acceleration is extrapolated from heavier nodes, and transfers
+ * their force and mass to these. With FLIP there are none. smallest_mass: lighter nodes are left out [kg]. Call before
  * velocities are computed. */
 static void followers_in(struct grid *g, enum transfer transfer, real smallest_mass)
 {
@@ -210,8 +213,8 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
     for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 0;
 }
 
-/* Extrapolates the change of velocity of the light nodes in g->follower from the heavier nodes and adds it to their
- * velocity. Called after velocities are computed. */
+/* Extrapolates the change of velocity of the light nodes in g->follower from two heavier nodes each and adds it to the
+ * velocity of the light node. Call after velocities are computed. */
 static void followers_out(struct grid *g)
 {
     for (int64_t k = 0; k < g->followers; k++)
@@ -222,10 +225,10 @@ static void followers_out(struct grid *g)
         }
 }
 
-/* Applies dashpots to the nodal velocities of the grid after the forces have changed them, and sets g->absorbed to
- * their energy and impulse in this step. dt_velocity: time over which forces change the velocities [s]. Nodes lighter
- * than light_mass or smallest_mass [kg] are left out. Dashpots are few; a serial loop keeps sums independent of the
- * number of threads. */
+/* Applies dashpots to the nodal velocities of the grid, after the forces have changed them, and sets g->absorbed to the
+ * energy and impulse that they absorb in this step. dt_velocity: time over which forces change the velocities [s].
+ * Nodes lighter than g->light_mass or smallest_mass [kg] are left out. Dashpots are few; a serial loop keeps sums
+ * independent of the number of threads. */
 static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
 {
     const real least = smallest_mass > g->light_mass ? smallest_mass : g->light_mass;
@@ -244,8 +247,8 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
 }
 
 /* Corrects g->absorbed, the energy absorbed by dashpots, for MUSL, where the velocities of the points are mapped to the
- * nodes a second time after their update. In FLIP the points receive the velocities of this second map (g->momentum),
- * not those on which the dashpots acted (g->velocity). */
+ * nodes a second time. In FLIP the points receive the velocities of this second map (g->momentum), not those on which
+ * the dashpots acted (g->velocity). */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)
@@ -255,9 +258,9 @@ static void grid_absorb_again(struct grid *g)
         }
 }
 
-/* Computes the new velocity of node I from its momentum and force; the change of velocity replaces the force, and the
- * momentum becomes 0. dt_velocity: time over which forces change the velocities [s]. Nodes lighter than smallest_mass
- * [kg] get velocity and change 0. */
+/* Computes the new velocity of node I from its momentum and force. The change of velocity replaces the force, and the
+ * momentum becomes 0. dt_velocity: time over which forces change the velocities [s]. A node lighter than smallest_mass
+ * [kg] gets velocity and change 0. */
 static ALWAYS_INLINE void node_advance(struct grid *g, int64_t I, real dt_velocity, real smallest_mass, const int dim)
 {
     const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;
@@ -286,7 +289,8 @@ void grid_constrain(struct grid *g, enum transfer transfer, real smallest_mass, 
     grid_mirror_nodes_spread(g, transfer, impulse);
 }
 
-/* Replaces the momentum of node I by its velocity; by 0 if the node is lighter than smallest_mass [kg]. */
+/* Divides the momentum of node I by its mass, so that g->momentum holds a velocity; 0 if the node is lighter than
+ * smallest_mass [kg]. */
 static ALWAYS_INLINE void node_remapped(struct grid *g, int64_t I, real smallest_mass, const int dim)
 {
     const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;

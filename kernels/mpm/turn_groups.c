@@ -7,19 +7,21 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Smallest radius of inertia of a group [spacings], for single points and, in 3D, lines; empirical. */
+/* Smallest radius of inertia of a rotating group of points [spacings]. Keeps the inertia of single points and, in 3D,
+ * of points on a line above 0; empirical. */
 #define LEAST_ARM 0.05
-/* Loop over the components c of spins: in 2D z alone. */
+/* Loops over the components c of an angular velocity: z alone in 2D (dim = 2), else x, y and z. */
 #define FOR_SPINS(c, dim) for (int c = (dim) == 2 ? 2 : 0; c < 3; c++)
-/* Loop over the runs of points of group g: sets of up to eight consecutive particles. */
+/* Loops over the runs of group g of t: a group consists of points that rotate together, a run of up to eight
+ * consecutive particles of it. */
 #define FOR_RUNS(t, g, run)                                                                                            \
     for (const struct turning_run *run = (t)->run + (g)->first; run < (t)->run + (g)->end; run++)
 
 /* ---- points of a group ------------------------------------------------------------------------------------------- */
 
-/* Returns a bit for each point of `run` (up to eight consecutive particles of one group of points that rotate
- * together), set if the point is on the grid: neither peridynamic nor a point of the mesh. all: true if all particles
- * are on the grid. */
+/* Returns a mask with bit l set if point l of `run` is on the grid: neither peridynamic nor a point of the mesh. run:
+ * up to eight consecutive particles of one group of points that rotate together; all: true if all particles are on the
+ * grid. */
 static ALWAYS_INLINE uint8_t run_on_grid(const struct particles *p, const struct turning_run *run, bool all)
 {
     uint8_t bits = (uint8_t)((1u << run->n) - 1);
@@ -34,16 +36,16 @@ static ALWAYS_INLINE real run_total(lanes a)
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
 
-/* Adds the angular momenta m r x v of eight points to `sum`. moment: m r [kg m]. */
+/* Adds the angular momenta m r x v of eight points to sum[component]. moment: m r [kg m]; v: velocities [m/s]. */
 static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *sum, const int dim)
 {
     FOR_SPINS(c, dim)
     sum[c] += moment[(c + 1) % 3] * v[(c + 2) % 3] - moment[(c + 2) % 3] * v[(c + 1) % 3];
 }
 
-/* Sums mass, first and second moments, momentum and angular momentum of the points of group g, and stores them in *g. A
- * group consists of neighbouring material points that rotate together. Moments are about g->about, the position of one
- * of its particles. */
+/* Stores in *g the sums over the points of group g: mass, first and second moments, momentum and angular momentum. A
+ * group consists of neighbouring material points that rotate together; t: all groups. Moments are about g->about, the
+ * position of one of the points of g. */
 static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -78,9 +80,9 @@ static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct tu
     FOR_SPINS(c, dim) g->sum[c] = run_total(spin[c]);
 }
 
-/* Sums over the points of group g (neighbouring points that rotate together) the angular momentum that they have lost
- * in the transfer to nodes and back, t->turn, into g->sum [kg m^2/s]. Sums their angular momentum about the centre of
- * mass of the root of g into g->angular. The root of a group is the group that it has joined, or the group itself. */
+/* Stores in g->sum the angular momentum that the points of group g (neighbouring points that rotate together) have lost
+ * in the transfer to nodes and back [kg m^2/s], the sum of t->turn. Stores in g->angular their angular momentum about
+ * the centre of mass of the root of g. The root of a group is the group that it has joined, or the group itself. */
 static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
@@ -103,8 +105,8 @@ static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turni
     FOR_SPINS(c, dim) g->sum[c] = run_total(lack[c]), g->angular[c] = run_total(spin[c]);
 }
 
-/* Stores in t->turn, for all points of group g (neighbouring points that rotate together), the spin with which they
- * rotate [1/s]: that of the group that g has joined, or its own if it has joined none. */
+/* Stores in t->turn, for all points of group g (neighbouring points that rotate together), the angular velocity with
+ * which the points rotate [1/s]: that of the group that g has joined, or of g itself if it has joined none. */
 static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -117,8 +119,9 @@ static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct tu
     }
 }
 
-/* Adds to the velocities of the points of group g the rotation by a gain of spin, and stores their spin in t->turn
- * [1/s]. Gain and spin are those of the root of g: of the group that it has joined, or of g itself. */
+/* Adds the rotation by a gain of angular velocity to the velocities of the points of group g (neighbouring points that
+ * rotate together), and stores the angular velocity in t->turn [1/s]. Both values are those of the root of g: of the
+ * group that g has joined, or of g itself. */
 static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {
@@ -140,16 +143,17 @@ static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct tur
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the root of group g of points: the last one in the chain of groups that it has joined; g itself if it has
- * joined none. */
+/* Returns the root of group g: the last group in the chain of groups that it has joined, or g itself if it has joined
+ * none. A group consists of points that rotate together. */
 static int32_t group_root(const struct rotation_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
     return g;
 }
 
-/* Returns the number of axes, 1 to 3, along which neighbour k of a group of points is offset from it. The list of
- * neighbours has first those across a face, then those across an edge, then those across a corner. */
+/* Returns the number of axes, 1 to 3, along which neighbour k (0 to TURNING_NEAR - 1) of a group of points is offset
+ * from the group. The list of neighbours has first those across a face, then those across an edge, then those across a
+ * corner. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
 /* Joins each group of fewer than TURNING_FEW points to the neighbouring group with the most points, so that both rotate
@@ -181,8 +185,8 @@ static real inertia_determinant(const real J[3][3])
     return J[0][0] * (J[1][1] * J[2][2] - f * f) + d * (e * f - d * J[2][2]) + e * (d * f - J[1][1] * e);
 }
 
-/* Solves J w = sum for w[3]. J: symmetric inertia tensor, of which only the lower half is read; sum: angular momentum;
- * in 2D (dim = 2) only the component z is solved for, the others become 0. */
+/* Solves J w = sum for the angular velocity w[3] [1/s]. J: symmetric inertia tensor, of which only the lower half is
+ * read; sum: angular momentum [kg m^2/s]. In 2D (dim = 2) only the component z is solved for; the others become 0. */
 static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
 {
     if (dim == 2) {
@@ -196,7 +200,8 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
     w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
 }
 
-/* Adds the angular momentum g->sum of each group of points to that of its root, the group that it has joined. */
+/* Adds the angular momentum g->sum of each group of points to that of its root, the group that it has joined (points of
+ * a group rotate together). */
 static void sums_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -205,15 +210,16 @@ static void sums_join(struct rotation_groups *t)
     }
 }
 
-/* Returns true if the points of group g rotate with a spin of this group: g has mass, has not joined another group, and
- * no support constrains its body. */
+/* Returns true if the points of group g rotate with an angular velocity of this group: g has mass, has not joined
+ * another group, and no support constrains its body. */
 static bool group_turns(const struct rotation_groups *t, int32_t g)
 {
     return t->group[g].root == g && t->group[g].joined > 0 && !t->group[g].held;
 }
 
-/* Computes the spin of each root (a group of points that has joined no other group) from the angular momentum g->sum of
- * all groups that have joined it. The spin is 0 for a root without mass and in bodies that a support constrains. */
+/* Computes the angular velocity of each root (a group of points that has joined no other group) from the angular
+ * momentum g->sum of all groups that have joined it. It is 0 for a root without mass and in bodies that a support
+ * constrains. */
 static void spins_find(struct rotation_groups *t, int dim)
 {
     sums_join(t);
@@ -224,10 +230,10 @@ static void spins_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes for each root (a group of points that has joined no other group) the gain of spin that restores the angular
- * momentum g->sum, which its points have lost: J gain = g->sum, with the inertia J = g->inertia. Then computes its spin
- * with this gain: J spin = g->angular + (J - g->added) gain. g->added is the part of J that was added to a thin group
- * to keep J regular. */
+/* Computes for each root (a group of points that has joined no other group) the gain of angular velocity ("spin") that
+ * restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
+ * computes the spin with this gain: J spin = g->angular + (J - g->added) gain. g->added is the part of J that was added
+ * to a thin group to keep J regular. */
 static void gains_find(struct rotation_groups *t, int dim)
 {
     spins_find(t, dim);
@@ -246,8 +252,8 @@ static void gains_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes mass and centre of mass of each root (a group of points that has joined no other group), from masses and
- * first moments of all groups that have joined it. The centre replaces its first moment in `moment`. */
+/* Computes mass (`joined`) and centre of mass (`moment`) of each root, a group of points that has joined no other
+ * group, from masses and first moments of all groups that have joined it. */
 static void centres_find(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -287,9 +293,9 @@ static void moments_shift(struct rotation_groups *t)
     }
 }
 
-/* Adds the inertia of each group of points (points that rotate together) to that of its root, the group that it has
- * joined. If the inertia of a root nearly vanishes about some axis, adds the inertia of its mass at a radius of
- * LEAST_ARM spacings. spacing: of the particles [m]. */
+/* Adds the inertia of each group of points that rotate together to that of its root, the group that it has joined. If
+ * the inertia of a root nearly vanishes about some axis, adds the inertia of its mass at a radius of LEAST_ARM
+ * spacings. spacing: distance of the particles [m]. */
 static void inertias_find(struct rotation_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {

@@ -33,16 +33,17 @@ struct candidate {
     int32_t i, j;
 };
 
-/* Returns the entry of b->soft.due of row block g (bonds of eight particles): whether one of its bonds is beyond its
- * onset of softening, and must be examined (enum softening_due). The load is atomic, since other threads may set
- * DUE_DENIED at the same time. */
+/* Returns the entry of b->soft.due of row block g (bonds of eight particles stored together): whether one of its bonds
+ * is beyond its onset of softening and must be examined (enum softening_due). The load is atomic, since other threads
+ * may set DUE_DENIED at the same time. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
-/* Returns true if the bond `bond`, in the row of particle i in row block g (bonds of eight particles), may begin to
- * soften, and describes it in *c. Conditions: its stretch is between its onset of softening and the end, beyond which
- * it breaks, and was beyond the onset in the last sweep, which marked both row blocks: those that were not would begin
- * only where another bond has marked the row blocks, so that the result would depend on their directions; it has not
- * begun to soften; and the row block of its other particle is marked in b->soft.due, too. */
+/* Returns true if a bond may begin to soften, and then describes it in *c. bond: entry in the row (bonds of one
+ * particle) of particle i in row block g (eight rows); limit: critical stretches and softening. Conditions: the bond
+ * has not begun to soften; its stretch is between onset and end of softening (beyond the end it breaks), and was beyond
+ * the onset in the last sweep; and the row block of its other particle is marked in b->soft.due, too. In the last sweep
+ * both row blocks were marked: a bond that was not beyond the onset then would begin only where another bond has marked
+ * the row blocks, so that the result would depend on their directions. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -58,9 +59,9 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
             bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, limit->dt) > c->range.onset);
 }
 
-/* Returns the row (bonds of one particle) from which the dilatation at particle j is computed: its own row, or for a
- * mirror image the row of the particle that it mirrors. Returns -1 if this row has bonds to only some of the
- * neighbours, as the row of a material point does. */
+/* Returns the row (bonds of one particle) from which the dilatation at particle j is computed: the row of j, or for a
+ * mirror image the row of the particle that it mirrors. Returns -1 if there is no row or if the row has bonds to only
+ * some of the neighbours, as the row of a material point does. */
 static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
 {
     const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
@@ -81,14 +82,14 @@ static void mark_needed(struct bonds *b, const struct particles *p, const struct
         }
 }
 
-/* Normal equations A eps = b for the strain eps that fits the stretches of a family (all bonds of one particle) best,
- * with n unknowns. all: sum of the weights of the bonds; sum: sum of their weighted stretches. */
+/* Normal equations A eps = b for the strain eps that fits the stretches of a family (all bonds of one particle) best.
+ * n: number of components of eps; all: sum of the weights of the bonds; sum: sum of their weighted stretches. */
 struct strain_fit {
     int n;
     real A[SYM_MAX][SYM_MAX], b[SYM_MAX], all, sum;
 };
 
-/* Adds a bond to the least-squares fit of a strain to the stretches of a family: to the normal equations in *fit.
+/* Adds one bond to the least-squares fit *fit of a strain to the stretches of a family (all bonds of one particle).
  * e[dim]: direction of the bond in the reference configuration; stretch: its stretch [1]; w: its weight [1]. */
 static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real stretch, real w)
 {
@@ -107,7 +108,7 @@ static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real 
 
 /* Solves the least-squares fit of a strain to the bonds of a family and returns the trace of this strain [1]. If the
  * bonds have too few directions (a pivot below PIVOT times the sum of weights), returns dim times their mean stretch
- * instead. The equations in *fit are overwritten. */
+ * instead; 0 without bonds. Overwrites the equations in *fit. */
 static real fit_trace(struct strain_fit *fit, int dim)
 {
     real trace = 0;
@@ -132,8 +133,9 @@ static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t
     return b->state.rotation[0] ? 2 * m.A / (D * m.B) : 1 + (D + 2) * m.A / (D * m.B);
 }
 
-/* Returns the dilatation of the family of one row times lambda/G [1]. The dilatation is the trace of the strain that
- * fits the stretches of the bonds best, with the remaining stiffness of each bond as its weight. */
+/* Returns lambda/G (Lame's constants) times the dilatation of the family of one row, i.e. of all bonds of one particle
+ * [1]. The dilatation is the trace of the strain that fits the stretches of the bonds best, with the remaining
+ * stiffness of each bond as its weight. */
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -150,10 +152,10 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
     return fit_trace(&fit, p->dim) * lame_ratio(b, p, i);
 }
 
-/* Updates the strain rate b->soft.rate of a row [1/s]: the mean rate at which the largest stretch of its bonds grows
- * from half its onset of softening to the onset. The rate is kept until the stretch is below half the onset again.
- * Between half the onset and the onset, the entry holds the negative of the stretch at the first step beyond half the
- * onset [1]. dt: time step [s]. */
+/* Updates the strain rate b->soft.rate[row] of the bonds of one particle [1/s]: the mean rate at which the largest
+ * stretch of these bonds grows from half its onset of softening to the onset. The rate is kept until the stretch is
+ * below half the onset again. Between half the onset and the onset, the entry holds the negative of the stretch at the
+ * first step beyond half the onset [1]. dt: time step [s]. */
 static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     const real from = b->trigger[row], onset = from / RATE_FROM;
@@ -173,8 +175,8 @@ static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t
     b->soft.rate[row] = real_max(DBL_MIN, time > 0.5 * dt ? grown / time : (most - from) / dt);
 }
 
-/* Updates the strain rates of all rows that were beyond half their onset of softening in the last step, and of those in
- * row blocks (the bonds of eight particles) that soften or have a bond beyond its onset. dt: time step [s]. */
+/* Updates the strain rates of all rows (bonds of one particle) that were beyond half their onset of softening in the
+ * last step, and of those in row blocks (eight rows) that soften or have a bond beyond its onset. dt: time step [s]. */
 static void measure_rates(struct bonds *b, const struct particles *p, real dt)
 {
     bool any = false;
@@ -187,10 +189,10 @@ static void measure_rates(struct bonds *b, const struct particles *p, real dt)
     b->soft.rates_kept = any;
 }
 
-/* Returns true if the stress across the bond of candidate c is tensile enough for the bond to soften. The stress
- * follows from the stretch of the bond and from the dilatation at the bond, the mean of the dilatations of its two
- * particles. If the row of one of them has only a part of its bonds, as that of a material point, the dilatation of the
- * other particle is used. Both rows of a bond thus give the same answer. */
+/* Returns true if the stress across the bond of candidate c (a bond that may begin to soften) is tensile enough for it
+ * to soften. The stress follows from the stretch of the bond and from the dilatation at the bond, the mean of the
+ * dilatations of its two particles. If the row of one particle has only a part of its bonds, as that of a material
+ * point, the dilatation of the other particle is used. Both rows of a bond thus give the same answer. */
 static bool is_pulled(const struct bonds *b, const struct particles *p, const struct candidate *c)
 {
     const int64_t one = row_of_dilatation(b, p, c->i), two = row_of_dilatation(b, p, c->j);
@@ -200,10 +202,10 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
     return 0.5 * sum + PULL * c->stretch > 0;
 }
 
-/* Recomputes the softening range of candidate c, a bond that may begin to soften, for the strain rate of the bond:
- * c->range, the stretches of onset and end. The strain rate is the mean of the rates of both rows, or the rate of one
- * row if the other does not have bonds to all neighbours. Returns true if the stretch of the bond is above the onset at
- * this rate. */
+/* Recomputes c->range, the stretches of onset and end of softening of candidate c (a bond that may begin to soften),
+ * for the strain rate of the bond: the mean of the rates of its two particles, or the rate of one if the other does not
+ * have bonds to all neighbours. limit: critical stretches and softening. Returns true if the stretch of the bond is
+ * above the onset at this rate. */
 static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               struct candidate *c)
 {
@@ -237,8 +239,8 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
 }
 
 /* Examines the bonds of row block g (bonds of eight particles) that are beyond their onset of softening and have not
- * begun to soften. Starts the softening of those across which the stress pulls enough. Sets DUE_DENIED in
- * b->soft.due[g] if the stress does not allow a bond to soften. */
+ * begun to soften. Starts the softening of those across which the stress is tensile enough. Sets DUE_DENIED in
+ * b->soft.due[g] if the stress does not allow a bond to soften. limit: critical stretches, softening and time step. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     bool denied = false;

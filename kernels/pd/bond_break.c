@@ -27,8 +27,8 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Returns half the elastic energy of bond q of row `row` at the stretch `stretch` [J]; the other half belongs to the
- * row of its other particle. Only for bond-based models. */
+/* Returns half the elastic energy of bond q of row `row` (bonds of one particle) at the given stretch [J]; the other
+ * half belongs to the row of its other particle. Only for bond-based models. */
 static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stretch)
 {
     return 0.5 * b->stiffness * b->w[q] * bond_entry_normalised_energy(b, row / LANES, q, stretch) /
@@ -49,7 +49,7 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 
 /* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Does
  * nothing unless the model is state-based and normalises by the present family, the bonds are brittle, and the row
- * holds the complete family. */
+ * holds all bonds of the particle. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])
@@ -69,9 +69,9 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
-/* Returns half the energy that bond q of row `row` has dissipated in all when it passes the end of its softening in
- * this step [J]. In the leap-frog step from the stretch s_0, with the stiffness 1 - d, to s_1 it loses s_0 s_1 (1 -
- * d)/2 over stiffness, weight and length. dt: time step [s]. */
+/* Returns half the energy [J] that bond q of row `row` has dissipated in all when it passes the end of its softening in
+ * this step. In the leap-frog step from the stretch s_0, with the stiffness 1 - d, to s_1 it loses s_0 s_1 (1 - d)/2,
+ * divided by stiffness, weight and length. dt: time step [s]. */
 static real half_energy_of_softening_to_end(const struct bonds *b, const struct particles *p, int64_t row, int64_t q,
                                             real dt)
 {
@@ -84,8 +84,9 @@ static real half_energy_of_softening_to_end(const struct bonds *b, const struct 
            (softening_normalised_dissipated_energy(b->soft.curve, onset, end, most) + 0.5 * kept * before * now);
 }
 
-/* Ends the softening of bond q of a row: adds `energy`, half of what it has dissipated [J], to the fracture energy of
- * the row, and marks the bond as broken. The bond must be at the end of its softening, where it has no force. */
+/* Ends the softening of bond q of row `row`: adds `energy`, half of what the bond has dissipated [J], to the fracture
+ * energy of the row, and marks the bond as broken. The bond must be at the end of its softening, where it has no
+ * force. */
 static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q, real energy)
 {
     b->soft.most[q] = b->soft.end[q];
@@ -108,9 +109,10 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
     return ended;
 }
 
-/* Returns the stretch of bond q, from particle i to j, whose energy is lost when it breaks in this step [1]: the one at
- * which it passed its limit. Where bonds soften it has no force after this step: a leap-frog step from the stretch s_0
- * to s_1 then takes s_0 s_1/2 of its energy over stiffness, weight and length. */
+/* Returns the stretch [1] with which the lost energy of bond q, from particle i to j, is computed when the bond breaks
+ * in this step: the stretch at which it passed its limit. Where bonds soften, the bond has no force after this step: a
+ * leap-frog step from the stretch s_0 to s_1 then takes s_0 s_1/2 of its energy, divided by stiffness, weight and
+ * length, and the root of s_0 s_1 is returned. limit: breaking limits and time step. */
 static real stretch_at_break(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                              int64_t q, int32_t i, int32_t j)
 {
@@ -122,9 +124,10 @@ static real stretch_at_break(const struct bonds *b, const struct particles *p, c
                                 bond_stretch_at_earlier_time(p, inverse, i, j, 0)));
 }
 
-/* Breaks bond q of row `row` and marks it as broken. Replaces its contribution to the force on the row's particle by
- * the share that acts until it breaks within the step (bond_last.h). Adds its elastic energy to the fracture energy of
- * the row, and its plastic work to the plastic work of the row. */
+/* Breaks bond q of row `row` (bonds of one particle) and marks it as broken. Replaces its contribution to the force on
+ * the row's particle by the share that acts until it breaks within the step (bond_last.h). Adds its elastic energy to
+ * the fracture energy of the row, and its plastic work to the plastic work of the row. limit: breaking limits and time
+ * step. */
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -142,10 +145,10 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
 
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
 
-/* Sets the weight of the bond with index q in row `row` to w [1]; w = 0 breaks the bond. Adds half of the elastic
- * energy that is lost to the fracture energy of the row, and half of the plastic work of the lost weight to the plastic
- * work of the row. The other half appears in the step to the next positions, because a leap-frog velocity update is
- * centred on the change of weights. */
+/* Sets the weight of the bond with index q in row `row` (bonds of one particle) to w [1]; w = 0 breaks the bond. Adds
+ * half of the elastic energy that is lost to the fracture energy of the row, and half of the plastic work of the lost
+ * weight to the plastic work of the row. The other halves appear in the step to the next positions, because a leap-frog
+ * velocity update is centred on the change of weights. */
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -188,7 +191,8 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
 
 /* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. If it is
  * beyond its onset of softening and has not begun to soften, marks its row block (bonds of eight particles) for
- * examination before the next computation of forces (bond_row_block_request_softening_check). */
+ * examination before the next computation of forces (bond_row_block_request_softening_check). limit: critical stretches
+ * and softening. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -200,8 +204,8 @@ static bool is_past(struct bonds *b, const struct particles *p, const struct bon
     return stretch > range.end;
 }
 
-/* Breaks the bonds of one row (all bonds of one particle) whose stretch exceeds their limit. Returns the number of
- * bonds broken. */
+/* Breaks the bonds of row `row` (all bonds of one particle) whose stretch exceeds their limit. Returns how many it
+ * broke. */
 static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -229,8 +233,9 @@ static real least_limit(const struct bond_limit *limit)
     return least * (1 - LIMIT_MARGIN);
 }
 
-/* Returns in each lane the larger of `largest` and the squared elongation |y|^2/|xi|^2 [1] of the bond of column s in
- * that lane. x: [dim] positions of the eight particles of the row block [m]. Broken bonds have negative values. */
+/* Returns in each lane the larger of `largest` and the squared elongation |y|^2/|xi|^2 [1] of the bond of that lane in
+ * column s (one bond of each of eight particles). x[dim]: positions of these eight particles [m]. Broken bonds have
+ * negative values. */
 static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct particles *p, const lanes *x,
                                                  const struct column s, const int dim)
 {
@@ -243,7 +248,8 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
     return column_max_of_intact_bonds(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
 }
 
-/* Returns for each of the eight rows of row block g the largest squared elongation |y|^2/|xi|^2 of its bonds [1]. */
+/* Returns for each of the eight rows of row block g (bonds of eight particles) the largest squared elongation
+ * |y|^2/|xi|^2 of its bonds [1]. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -274,8 +280,8 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
 }
 
 /* Returns the mask of those rows of row block g (bonds of eight particles) in which a bond may exceed its breaking
- * limit. The largest stretch of a row is compared with the limit stored for it where strength is random or bonds
- * soften, else with the smallest critical stretch of all materials. */
+ * limit. Compares the largest stretch of a row with the limit stored for the row where strength is random or bonds
+ * soften, else with the smallest critical stretch of all pairs of materials in `limit`. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const bool stored = p->strength || b->soft.curve;

@@ -19,16 +19,18 @@
 
 #define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
-/* Sums over the columns of a row block: positions x0, x1, x2 of its eight particles [m], forces on them over the
- * stiffness f0, f1, f2, and the largest (stretch) and smallest (press) stretch of their bonds [1]; where bonds soften,
- * the largest stretch less the end of the bond, of bonds beyond the least limit of their row (trigger). */
+/* Sums over the bonds of a row block (bonds of eight particles, stored column by column). x0, x1, x2: positions of the
+ * eight particles [m]; f0, f1, f2: forces on them, divided by the stiffness; stretch, press: largest and smallest
+ * stretch of their bonds [1]. Where bonds soften, `stretch` is the largest excess over the end of softening, of bonds
+ * beyond `trigger`, the least limit of each row. */
 struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger;
 };
 
-/* Adds the forces of eight bonds, column s of a row block (the s-th bonds of eight particles), to the sums of these
- * particles, and updates largest and smallest stretch. The force over the length is computed from the stretch. As a
- * difference of inverse lengths it would be cheaper, but a body in free fall would have three times the round-off. */
+/* Adds the forces of eight bonds, column s of a row block (one bond of each of eight particles), to the sums of these
+ * particles, updates largest and smallest stretch, and returns the new sums. The force divided by the length is
+ * computed from the stretch. As a difference of inverse lengths it would be cheaper, but a body in free fall would have
+ * three times the round-off. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
@@ -53,9 +55,9 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Computes the forces of the bonds on the eight particles of row block g, without their repulsive cores (bond_core.h),
- * into p->f. Returns true if a bond may exceed its breaking limit. *pressed: set to true if a bond is compressed into
- * its core. */
+/* Computes the forces of the bonds on the eight particles of row block g into p->f, without the repulsive cores of
+ * bonds (bond_core.h). Returns true if a bond may exceed its breaking limit. *pressed: receives true if a bond is
+ * compressed into its core, else false. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {
@@ -84,8 +86,9 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));
 }
 
-/* Computes the forces of the bonds on the eight particles of row block g, repulsive cores included, and breaks their
- * bonds beyond the limit. Returns the number of directed bonds broken. */
+/* Computes the forces of the bonds on the eight particles of row block g into p->f, repulsive cores included, and
+ * breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its two
+ * rows. */
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {

@@ -26,9 +26,9 @@ static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struc
     return inverse;
 }
 
-/* Returns the elastic energies of the eight bonds of column s, one for each particle of a row block, divided by the
- * stiffness. x[dim]: positions of these eight particles [m]; *press: lowered to the smallest stretch of the intact
- * bonds [1]. */
+/* Returns the elastic energies, divided by the stiffness, of the eight bonds of column s (one bond of each of eight
+ * particles). x[dim]: positions of these particles [m]; *press: lowered to the smallest stretch of the intact bonds
+ * [1]. */
 static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *press, const int dim, const enum pd_model model)
 {
@@ -41,9 +41,10 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     return lanes_choose(w > 0.0, w * bonds_normalised_energy(model, stretch, elastic) * length, lanes_broadcast(0));
 }
 
-/* Returns the elastic energy of the bonds of the eight particles in row block g, repulsive cores included, divided by
- * the stiffness. Times half the stiffness, it is the share of these particles in the energy, since each bond belongs to
- * two particles. row_energy: [b->rows] the share of each row in the energy is added to it [J]; NULL if not wanted. */
+/* Returns the elastic energy, divided by the stiffness, of the bonds of the eight particles in row block g, repulsive
+ * cores included. Multiplied by half the stiffness it is the share of these particles in the energy, since each bond
+ * belongs to two particles. row_energy[b->rows]: the share of each row (bonds of one particle) is added to it [J]; NULL
+ * if not wanted. */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 real *row_energy, const int dim, const enum pd_model model)
 {
@@ -64,9 +65,9 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     return total;
 }
 
-/* Adds F_ij (x) (x_j - x_i) of the eight bonds of column s, divided by the stiffness, to sum[]. F_ij: force of the bond
- * on the particle of the row; sum[]: symmetric components, one lane for each of the eight particles. x: positions of
- * the particles of the row block [m]. */
+/* Adds F_ij (x) (x_j - x_i) of eight bonds, divided by the stiffness, to sum[component], one lane for each particle
+ * (xx, yy, zz, xy, yz, zx in 3D). s: column of bonds, one of each of eight particles; F_ij: force of the bond on the
+ * particle of the row; x[dim]: positions of the eight particles [m]. */
 static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, const struct particles *p,
                                              const lanes *x, const int dim, const enum pd_model model)
 {
@@ -97,8 +98,8 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
-/* Raises the largest stretches so far of eight bonds that soften, column s of a row block, to their present stretches
- * where these are larger. x[dim]: positions of the eight particles of the row block [m]. */
+/* Raises the largest stretches so far of eight softening bonds, column s of a row block (one bond of each of eight
+ * particles), to their present stretches where these are larger. x[dim]: positions of the eight particles [m]. */
 static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
                                              const int dim)
 {
@@ -107,8 +108,8 @@ static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct
     bonds_update_softened_stretch(s.b, s.number * LANES, stretch);
 }
 
-/* Updates the largest stretches so far of the bonds of row block g (bonds of eight particles), of which at least one
- * has begun to soften. */
+/* Raises the largest stretches so far of the bonds of row block g (bonds of eight particles) to the present stretches.
+ * Call only if at least one of these bonds has begun to soften. */
 static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim)
 {

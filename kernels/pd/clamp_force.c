@@ -26,8 +26,8 @@ struct across {
     lanes y[DIM_MAX], w, inverse_length, inverse, stretch;
 };
 
-/* Returns vector, length, weight and stretch of the eight bonds k to k + 7 in the list c of bonds that cross clamped
- * planes. A clamped plane has mirror images beyond it, which are the neighbours in these bonds. */
+/* Returns vector, length, weight and stretch of the bonds k to k + 7 in the list c of bonds that cross clamped planes.
+ * The neighbours in these bonds are mirror images of particles beyond such a plane. dim: dimensions of space. */
 static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k,
                                              const int dim)
 {
@@ -42,9 +42,9 @@ static ALWAYS_INLINE struct across across_of(const struct clamped *c, const stru
     return a;
 }
 
-/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, the force on
- * the image, into the member `reaction` [N]. For bond-based models: the force kernel adds the force from both ends of a
- * bond to the particle of the row, and the reaction is minus half of it. */
+/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, which is the
+ * force on the image, into the member `reaction` [N]. For bond-based models. The force kernel adds the force that
+ * follows from both rows of a bond to the particle of the row, so that the reaction is minus half of it. */
 static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
 {
     const struct clamped *c = &b->clamped;
@@ -95,8 +95,8 @@ static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const str
         state_reactions(b, p, k, dim, false);
 }
 
-/* Adds to the force p->f on one particle the reactions of bonds across clamped planes that it receives. h: number of
- * the particle in c->particle. A reaction acts on a mirror image of the particle and is reflected back to it. */
+/* Adds to the force p->f on one particle the reactions of bonds across clamped planes. h: number of the particle in
+ * c->particle, from 0. A reaction acts on a mirror image of the particle and is reflected back to the particle. */
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {

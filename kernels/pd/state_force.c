@@ -24,8 +24,9 @@ struct family_sums {
     lanes_mask moved;
 };
 
-/* Adds the eight bonds of a column to the sums of a row block: w r e, with the extension e = |Y| - r, and in models
- * with rotations w Y (x) xi. x, X: [dim] present and reference positions of the eight particles [m]. */
+/* Adds the eight bonds of a column (one bond of each of eight particles) to the sums over their families: w r e, with
+ * the extension e = |Y| - r, and in models with rotations w Y (x) xi. x[dim], X[dim]: present and reference positions
+ * of the eight particles [m]. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
                                             const struct column column, const lanes *x, const lanes *X, const int dim,
                                             const enum pd_model model)
@@ -87,7 +88,7 @@ struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states *k of the families of the eight particles of row block g, pressure, spring stiffness and rotation,
+/* Stores the states *k (pressure, spring stiffness and rotation) of the families of the eight particles of row block g
  * in b->state. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
@@ -112,9 +113,9 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
     return end;
 }
 
-/* Computes the rotations of the cells of eight material points in the form in which rotations are stored (rotation.h),
- * from particles.end_rotation. row: numbers of the points; own: the first of them if they are consecutive, else -1;
- * spring: spring stiffness of their families [N/m]; back: true for the inverse rotations. */
+/* Computes the rotations of the cells of eight material points from p->end_rotation, in the form in which rotations are
+ * stored (rotation.h). row: indices of the points; own: the first of them if they are consecutive, else -1; spring:
+ * spring stiffness of their families [N/m]; back: true for the inverse rotations; rotation[ROTATION]: receives them. */
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {
@@ -179,9 +180,9 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes pressure, spring stiffness and rotation of the families of row block g (bonds of eight particles) and stores
- * them in b->state. Families of material points include the contribution of their cell. sum: sums over the bonds of
- * each family. */
+/* Computes pressure, spring stiffness and rotation of the families (all bonds of one particle) of row block g (eight
+ * particles), and stores them in b->state. Families of material points include the contribution of the cell of the
+ * point. sum: sums over the bonds of each family. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -201,9 +202,9 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
 }
 
 /* Computes the states (pressure, spring stiffness, rotation) of the eight particles of row block g from sums over their
- * bonds, the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit, and
- * b->state.pressed[g] if a bond is compressed into its repulsive core. If bonds break, the states for the remaining
- * bonds are means of those with and without the breaking bonds (state_last.h). */
+ * bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit, and
+ * b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the states for
+ * the remaining bonds are means of those with and without the breaking bonds (state_last.h). limit: breaking limits. */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {
@@ -227,9 +228,9 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     if (b->state.past[g] && !limit->softening) state_blend_breaking_rows(b, p, limit, g);
 }
 
-/* Sets the states of the families of mirror images to those of their sources, with rotations reflected at planes of
- * symmetry. Images in clamped planes have no state: clamp_force.c adds their reaction to the source. rotates: true in
- * models with rotations. */
+/* Sets the states (pressure, spring stiffness, rotation) of mirror images to those of their source particles, with
+ * rotations reflected at planes of symmetry. Images in clamped planes have no state: clamp_force.c adds their reaction
+ * to the source. rotates: true in models with rotations. */
 static void state_of_images(struct bonds *b, const struct particles *p, int dim, bool rotates)
 {
     for (int64_t g = p->n; g < p->n_all; g++) {
@@ -247,16 +248,18 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 
 /* ---- second sweep: forces ---------------------------------------------------------------------------------------- */
 
-/* Positions, states and sums of a row block in the second loop: forces f on its eight particles, and arm = sum w xi, to
- * which the rotations of the particles themselves are applied at the end. */
+/* Positions, states and sums of the eight particles of a row block in the second loop. x, X: present and reference
+ * positions [m]; f: forces; arm = sum w xi, to which the rotations of the particles themselves are applied at the end;
+ * pressure, spring: states of their families. */
 struct state_sums {
     lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
 };
 
-/* Adds the forces of the eight bonds of a column to the sums of a row block. In models without rotations the force of a
- * bond is w [P + (g - P) q] times Y, with q = (|Y| - r)/|Y|: two products fewer than with the stretch. In models with
- * rotations the effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is exactly 0 where nothing
- * has moved; the part of the rotations of the row block's own particles is added in force_row_block. */
+/* Adds the forces of the eight bonds of a column (one bond of each of eight particles) to the sums of these particles.
+ * In models without rotations the force of a bond is w [P + (g - P) q] times Y, with pressure P, spring stiffness g and
+ * q = (|Y| - r)/|Y|: two products fewer than with the stretch. In models with rotations the effective displacement Y -
+ * R xi is computed as (Y - xi) - (R - 1) xi, which is exactly 0 where nothing has moved; the part of the rotations of
+ * the row block's own particles is added in force_row_block. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {
@@ -314,8 +317,9 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     for (int d = 0; d < dim; d++) bond_row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
-/* Computes the forces of the bonds on the eight particles of row block g, repulsive cores included, and breaks their
- * bonds beyond the limit. Returns the number of directed bonds broken. */
+/* Computes the forces of the bonds on the eight particles of row block g into p->f, repulsive cores included, and
+ * breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its two
+ * rows. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

@@ -14,13 +14,14 @@
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
-/* Positions and states of the eight particles of a row block. */
+/* Positions x, X [m] (present, reference) and states of the eight particles of a row block: pressure, spring stiffness
+ * and rotation of their families (all bonds of one particle). */
 struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
 
-/* Returns positions and states of the eight particles of row block g. rotates: true in models with rotations of
- * particles. */
+/* Returns positions and states (pressure, spring stiffness, rotation) of the eight particles of row block g. rotates:
+ * true in models with rotations of particles; otherwise `rotation` is not set. */
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
                                                    const int dim, const bool rotates)
 {
@@ -34,9 +35,10 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
     return s;
 }
 
-/* Computes for the eight bonds of a column the force T[dim] due to the state of the row's particle alone [N], and the
- * bond vector y[dim] [m]; T is 0 for broken bonds. s: positions and states of the eight particles; rotates: true in
- * models with rotations. Returns the elastic energies that belong to the rows [J]. */
+/* Computes the forces of the eight bonds of a column, one bond of each of eight particles. T[dim]: receives the force
+ * due to the state of the row's particle alone [N], 0 for broken bonds; y[dim]: receives the bond vector [m]. s:
+ * positions and states of the eight particles; rotates: true in models with rotations. Returns the elastic energies
+ * that belong to the eight particles [J]. */
 static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct column column,
                                             const struct particles *p, lanes *T, lanes *y, const int dim,
                                             const bool rotates)
@@ -83,8 +85,9 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     return total;
 }
 
-/* Adds the symmetric part of T (x) y of the eight bonds of a column to sum[], symmetric components with one lane per
- * particle: T is the force due to the state of the row's particle s alone [N], y the bond vector [m]. */
+/* Adds the symmetric part of T (x) y of the eight bonds of a column (one bond of each of eight particles) to
+ * sum[component], one lane per particle: T is the force due to the state of the row's particle alone [N], y the bond
+ * vector [m]. s: positions and states of the particles. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
@@ -160,9 +163,9 @@ static void end_rotation(const struct particles *p, int32_t i, real *R)
     }
 }
 
-/* Returns sum w |Y - R xi|^2 over the bonds of a row, i.e. of one particle [m^2], at a time `lag` before the present
- * positions [s]. R: rotation that fits the bonds with their present weights best; for a material point that of its
- * cell. */
+/* Returns sum w |Y - R xi|^2 over the bonds of one particle [m^2], with bond vectors Y and reference vectors xi, at a
+ * time `lag` before the present positions [s]. row: the particle's row; R: rotation that fits the bonds with their
+ * present weights best; for a material point that of its cell. */
 static real row_effective(const struct bonds *b, const struct particles *p, int64_t row, real lag)
 {
     const int32_t i = b->particle[row];

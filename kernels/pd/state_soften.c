@@ -18,8 +18,8 @@
 #include "kernels/kernels.h"
 #include "state_driving.h"
 
-/* Sets the damage of the softening bond q of row `row` to that of its largest stretch so far, `most` [1]. Breaks the
- * bond if this is the end of its softening. Returns 1 if it is broken, else 0. */
+/* Sets the damage of softening bond q of row `row` (bonds of one particle) to that of `most`, its largest stretch so
+ * far [1]. Breaks the bond if this is the end of its softening. Returns 1 if it is broken, else 0. */
 static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, int64_t q, real most)
 {
     const struct softened *soft = &b->soft;
@@ -34,18 +34,19 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
     return 0;
 }
 
-/* Returns the energy of the family of a row for the product of its displacements before and after the last step in
- * place of their squares [J]. dt: time step [s]. */
+/* Returns a mean energy of the bonds of one row over the last step [J], in which the product of the displacements
+ * before and after the step replaces their squares: what changes in it when bonds are damaged is what leap-frog loses.
+ * dt: time step [s]. */
 static real row_energy_of_step(const struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     return 2 * state_row_energy(b, p, row, 0.5 * dt) -
            0.5 * (state_row_energy(b, p, row, dt) + state_row_energy(b, p, row, 0));
 }
 
-/* Increases the damage of the softening bonds of one row to that of their present stretches, where this sets energy
- * free and both ends are peridynamic: a material point whose bond begins to soften converts in this step. Sets *changed
- * to true if the damage of a bond has changed. Returns the number of bonds that have broken, at the end of their
- * softening. */
+/* Increases the damage of the softening bonds of one row (bonds of one particle) to that of their present stretches. A
+ * bond takes part if this sets energy free and both of its particles are peridynamic; a material point whose bond
+ * begins to soften converts in this step. limit: gives the time step. Sets *changed to true if the damage of a bond has
+ * changed. Returns the number of bonds that have broken, at the end of their softening. */
 static int64_t row_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
                           bool *changed)
 {

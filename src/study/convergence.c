@@ -25,9 +25,10 @@ double student_t_quantile_975(int degrees_of_freedom)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the mean, the standard deviation and the mean spacing of the runs of spacing level k, and stores them in *l.
- * Run i of all n runs has the spacing spacing[i] [m], the level level[i] (NULL: k) and the measured value value[i].
- * Runs whose value is not finite are left out. The deviation is NAN for a single run. */
+/* Summarises the runs of one spacing level in *l: mean, standard deviation, mean spacing and number. k: the level, 0
+ * the finest; n: number of all runs. Run i has the spacing spacing[i] [m] (NULL: not summarised), the level level[i]
+ * (NULL: all runs count) and the value value[i]. Runs whose value is not finite are left out. The deviation is NAN for
+ * a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
 {
@@ -45,8 +46,8 @@ static void level_find(struct level_figures *l, const double *spacing, const dou
     l->deviation = l->runs > 1 ? sqrt(sum / (l->runs - 1)) : NAN;
 }
 
-/* Returns half of the 95 % interval of the mean of `runs` runs with the standard deviation `deviation` (Student's t
- * distribution), which was estimated with `freedom` degrees of freedom; 0 if there are none. */
+/* Returns half of the 95 % interval of the mean of `runs` runs (Student's t distribution). deviation: standard
+ * deviation of one run, estimated with `freedom` degrees of freedom. Returns 0 if freedom is 0. */
 static double error_of_mean(double deviation, int freedom, int runs)
 {
     return freedom > 0 ? student_t_quantile_975(freedom) * deviation / sqrt(runs) : 0;
@@ -58,9 +59,10 @@ void convergence_summarise_runs(struct level_figures *l, const double *value, in
     l->error = error_of_mean(l->deviation, l->runs - 1, l->runs);
 }
 
-/* Computes the error of the mean of each spacing level, half of its 95 % interval, from the scatter of its runs
+/* Computes the error of the mean of each spacing level of c, half of its 95 % interval, from the scatter of its runs
  * (Student's t distribution). A level with a single run uses the pooled scatter of the other levels.
- * resolution[levels]: further error of each level, added in quadrature; NULL if there is none. */
+ * resolution[levels]: further error of each level, combined as the root of the sum of squares; NULL if there is
+ * none. */
 static void errors_find(struct convergence *c, const double *resolution)
 {
     double sum = 0;
@@ -113,9 +115,9 @@ struct orders {
     double low, seen, high;
 };
 
-/* Computes the observed order of convergence of a figure from its means at the three finest spacing levels l[3] (l[0]
- * the finest), and the range of orders that the errors of the means allow. Returns false if the means oscillate by more
- * than their errors. */
+/* Computes the observed order of convergence of a figure (a scalar result) from its means at the three finest spacing
+ * levels l[3] (l[0] the finest), and the range of orders that the errors of the means allow, into *o. Returns false if
+ * the means oscillate by more than their errors. */
 static bool orders_find(struct orders *o, const struct level_figures *l)
 {
     const double sign =
@@ -130,9 +132,9 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
     return true;
 }
 
-/* Determines verdict, observed order and grid convergence index (Roache 1998) of a figure (a number in summary.json of
- * the runs) from its three finest spacing levels, and stores them in *c. The order is NAN if the means oscillate or
- * differ by no more than their errors; the index is NAN if the order is NAN or below 1/2. */
+/* Determines verdict, observed order and grid convergence index (Roache 1998) of a figure (a scalar result of the runs)
+ * from its means at the three finest spacing levels in c, and stores them in *c. The order is NAN if the means
+ * oscillate or differ by no more than their errors; the index is NAN if the order is NAN or below 1/2. */
 static void convergence_judge(struct convergence *c)
 {
     const struct level_figures *l = c->level;

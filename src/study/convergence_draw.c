@@ -14,13 +14,13 @@
 #include "study_axis.h"
 #include "study_internal.h"
 
-/* Largest number of figures that are drawn, and of panels side by side; largest number of crack tips that are
- * followed, and of intervals of an axis of spacings. */
+/* Largest number of figures (scalar results) that are drawn, and of panels side by side; largest number of crack tips
+ * followed in one run; largest number of intervals of an axis of spacings. */
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16, TICS_MOST = 7 };
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 
-/* Returns the path FOLDER/pictures/KEY.png of a picture of the study in `folder`, with KEY = key, or with the ending of
- * another format that picture_size_set has set. */
+/* Returns the path FOLDER/pictures/KEY.png of a picture of the study in `folder`, with KEY = key (the name of the
+ * picture), or with the ending of another format that picture_size_set has set. */
 static struct path convergence_picture(const char *folder, const char *key)
 {
     char name[PICTURE_NAME_ROOM];
@@ -39,10 +39,10 @@ status scalar_results_check_replaceable(const char *folder)
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
 
-/* Sends three data blocks to gnuplot for the figure f, a number in summary.json. Their names are $r, $m and $e followed
- * by the number `panel`. $r: spacing and figure of every run. $m: spacing, mean and half-width of the 95 % interval of
- * every spacing level. $e: spacing 0, the extrapolated figure, and mean and half-width of the finest
- * level. */
+/* Sends three data blocks of the figure f, a number in summary.json of the runs of the study s, to gnuplot's stream
+ * `to`. Their names are $r, $m and $e followed by the number `panel`. $r: spacing and figure of every run. $m: spacing,
+ * mean and half-width of the 95 % interval of every spacing level. $e: spacing 0, the extrapolated figure, and mean and
+ * half-width of the finest level. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_index_of_result(&s->table, f->name);
@@ -59,15 +59,16 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
             f->c.level[0].mean / factor, f->c.uncertainty[0] / factor);
 }
 
-/* Returns true if the picture shows a curve from the means of the figure c to the extrapolated value at spacing 0: if
- * the figure converges, even slowly, and its order is known. */
+/* Returns true if the picture shows a curve from the means of a figure (a scalar result) to the extrapolated value at
+ * spacing 0: if the figure converges, even slowly, and its order is known. c: convergence of the figure. */
 static bool is_extrapolated(const struct convergence *c)
 {
     return (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
 }
 
 /* Plots the figure f (a scalar result) in panel number `panel` from the data blocks of send_figure: its runs, the means
- * with their intervals and, if it converges, the curve to spacing 0. metre: unit of the spacings [m]. */
+ * with their intervals and, if it converges, the curve to spacing 0. to: gnuplot's stream; metre: unit of the spacings
+ * [m]. */
 static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel, double metre)
 {
     const struct convergence *c = &f->c;
@@ -90,8 +91,9 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* Sends the distances between tics (labelled marks) of a panel of wide x high pixels that shows the figure f to
- * gnuplot, such that the numbers do not touch. coarsest: coarsest spacing, in the unit of the horizontal axis. */
+/* Sends the distances between tics (labelled marks) of a panel that shows the figure f (a scalar result) to gnuplot,
+ * such that the numbers do not touch. to: gnuplot's stream; wide, high: size of the panel [pixel]; coarsest: coarsest
+ * spacing, in the unit of the horizontal axis. */
 static void send_tics_of_panel(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f,
                                double coarsest, double wide, double high)
 {
@@ -112,19 +114,20 @@ static void send_tics_of_panel(FILE *to, const struct convergence_study *s, cons
     study_axis_send(to, "y", &axis, up);
 }
 
-/* Layout of the panels of figures [pixel]: size of the picture; columns of panels, and the width and height of one with
- * its texts; the margins of a panel for these. The key is on the right or, in narrow pictures, below the panels. */
+/* Layout of the panels of a picture of figures (scalar results) [pixel]. width, height: size of the picture; columns,
+ * rows: numbers of panels; cell_wide, cell_high: size of a panel with its texts; left, right, title, below: margins of
+ * a panel for these texts. The key (legend) is on the right or, in narrow pictures, below the panels. */
 struct figures_layout {
     int width, height, columns, rows;
     double cell_wide, cell_high, left, right, title, below;
 };
 
-/* Sizes of the key, and of a panel with its texts in the usual picture [pixel]. */
+/* Size of the key (legend), and usual size of a panel with its texts [pixel]. */
 enum { KEY_WIDE = 250, KEY_HIGH = 52, CELL_WIDE = 420, CELL_HIGH = 360 };
 
-/* Computes the layout of a picture with `shown` panels: its size, the size and margins of a panel, and the number of
+/* Returns the layout of a picture with `shown` panels: its size, the size and margins of a panel, and the number of
  * columns. In a picture of a given size the number of columns is chosen such that the panels are as large as possible.
- * g: size of the picture, or NULL for a size that follows from the number of panels. */
+ * g: gnuplot process with the size of the picture, or NULL for a size that follows from the number of panels. */
 static struct figures_layout figures_layout_make(int shown, const struct gnuplot *g)
 {
     const bool narrow = picture_is_too_narrow_for_key();
@@ -155,7 +158,7 @@ static struct figures_layout figures_layout_make(int shown, const struct gnuplot
     return best;
 }
 
-/* Writes the gnuplot commands for the margins of panel number k, from 0, in the layout l. */
+/* Sends the gnuplot commands for the margins of panel number k, from 0, in the layout l, to the stream `to`. */
 static void figure_place(FILE *to, const struct figures_layout *l, int k)
 {
     const double x = k % l->columns * l->cell_wide, y = l->height - k / l->columns * l->cell_high;
@@ -166,9 +169,9 @@ static void figure_place(FILE *to, const struct figures_layout *l, int k)
             (y - l->cell_high + l->below) / l->height);
 }
 
-/* Draws the common key (legend) of all panels, on their right or in a narrow picture below them. The key is drawn as a
- * panel of its own, as large as the picture, because gnuplot makes no key wider than its panel. extrapolated: true if a
- * panel has a curve to spacing 0. */
+/* Draws the common key (legend) of all panels, on their right or in a narrow picture below them, through gnuplot's
+ * stream `to`. The key is drawn as a panel of its own, as large as the picture, because gnuplot makes no key wider than
+ * its panel. extrapolated: true if a panel has a curve to spacing 0. */
 static void draw_figures_key(FILE *to, const struct figures_layout *l, bool extrapolated)
 {
     fputs("unset border\nunset tics\nunset title\nunset xlabel\nunset grid\nset offsets\nset lmargin at screen 0\n"
@@ -220,25 +223,25 @@ static status draw_figures(const struct convergence_study *s, const struct scala
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Positions x[n], y[n] [m] of the longest crack tip at each sample at which it has grown, and its growth grown[n] [m].
- * tip[k]: index of the tip at sample k among the `tips` tips that were the longest in turn; it is reconstructed because
- * the history does not identify tips. */
+/* Path of the longest crack tip of a run, one entry for each of n samples at which it has grown. x, y: positions [m];
+ * grown: growth [m]; tip[k]: index of the tip that was the longest at sample k, 0 to tips - 1. It is reconstructed
+ * because the history does not identify tips. */
 struct longest {
     int64_t n;
     double *x, *y, *grown;
     int *tip, tips;
 };
 
-/* Bounding box of the drawn paths [m]. */
+/* Bounding box of the drawn crack paths along x and y [m]. */
 struct extent {
     double low[2], high[2];
 };
 
-/* Finds the crack tip to which position number i of *l belongs, since the history contains only the position of the
- * longest crack, which is not always the same crack. Among the tips that can have moved to this position, it is the one
- * whose last position is nearest: since position number k, a tip can have moved by at most 2 (l->grown[i] -
- * l->grown[k]) + FLICKER * spacing. Returns the index of the tip, a new index if there is no such tip. spacing: lattice
- * spacing of the run [m]. */
+/* Returns the index of the crack tip to which position i of *l belongs, or a new index (l->tips) if it belongs to none
+ * of the tips so far. The history contains only the position of the longest crack, which is not always the same crack.
+ * Among the tips that can have moved to this position, it is the one whose last position is nearest: since position k,
+ * a tip can have moved by at most 2 (l->grown[i] - l->grown[k]) + FLICKER * spacing. At most TIPS_MOST tips are
+ * distinguished. spacing: lattice spacing of the run [m]. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};
@@ -281,8 +284,9 @@ static void longest_free(struct longest *l)
     memory_free(l->tip);
 }
 
-/* Sends the paths of the longest crack tips of run k to gnuplot as the data block $wK (K is the number k) [m], each
- * path as a separate line. Extends the bounding box *e [m] by them. Returns false if the run has no path. */
+/* Sends the paths of the longest crack tips of run k of the study s to gnuplot's stream `to`, as the data block $wK (K
+ * is the number k) [m], each path as a separate line. Extends the bounding box *e [m] by them. Returns false if the run
+ * has no path or no readable history. */
 static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
     struct history h;
@@ -308,7 +312,7 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
 }
 
 /* Extends the bounding box *e of the crack paths on all sides by a margin, which is positive even if all paths are
- * straight along an axis. */
+ * straight lines along an axis. */
 static void extent_widen(struct extent *e)
 {
     const double longer = fmax(e->high[0] - e->low[0], e->high[1] - e->low[1]);
@@ -331,8 +335,8 @@ struct paths_layout {
     int key_columns, key_lines;
 };
 
-/* Returns the layout of a picture of crack paths. levels: number of entries of the key (legend), one for each spacing.
- */
+/* Returns the layout of a picture of crack paths. levels: number of spacings, each with an entry of the key
+ * (legend). */
 static struct paths_layout paths_layout_make(int levels)
 {
     if (!picture_is_too_narrow_for_key())
@@ -344,8 +348,8 @@ static struct paths_layout paths_layout_make(int levels)
     return l;
 }
 
-/* Returns the height [pixel] of a picture of crack paths in which the bounding box e of the paths fills the panel.
- * width: width of the picture [pixel]. */
+/* Returns the height [pixel], at most PATHS_HIGH, of a picture of crack paths in which the bounding box e of the paths
+ * fills the panel. l: margins; width: width of the picture [pixel]. */
 static int paths_height(const struct extent *e, const struct paths_layout *l, int width)
 {
     const double aspect = (e->high[1] - e->low[1]) / (e->high[0] - e->low[0]);
@@ -353,7 +357,8 @@ static int paths_height(const struct extent *e, const struct paths_layout *l, in
     return isfinite(height) ? (int)fmin(height, PATHS_HIGH) : PATHS_HIGH / 2;
 }
 
-/* Arguments of gnuplot's command `plot` for the paths of all runs. used: length of the text; drawn: number of paths. */
+/* Arguments of gnuplot's command `plot` for the crack paths of all runs. used: length of the text [byte]; drawn: number
+ * of paths. */
 struct path_plots {
     char text[16384];
     size_t used;
@@ -361,7 +366,8 @@ struct path_plots {
 };
 
 /* Sends the crack paths of all runs of a study to the stream `to`, and appends the gnuplot arguments that plot them to
- * *p, in which `metre` is the unit of the axes. Extends the bounding box *e by the paths. */
+ * *p. In these, the gnuplot variable `metre` is the unit of the axes. Extends the bounding box *e [m] by the paths.
+ * Paths for which *p has no room are left out. */
 static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
 {
     bool named[LEVELS_MOST] = {false};
@@ -383,9 +389,9 @@ static void paths_send(FILE *to, const struct convergence_study *s, struct exten
     }
 }
 
-/* Writes the gnuplot commands for the panel of crack paths: margins, ranges of the axes (one scale for both, such that
- * the bounding box e is visible), labels, tics so far apart that numbers do not touch, and position of the key
- * (legend). */
+/* Sends the gnuplot commands for the panel of crack paths to g: margins of the layout l, ranges of the axes (one scale
+ * for both, such that the bounding box e is visible), labels, tics so far apart that numbers do not touch, and position
+ * of the key (legend). */
 static void paths_write_axes(const struct gnuplot *g, const struct extent *e, const struct paths_layout *l)
 {
     const bool narrow = picture_is_too_narrow_for_key();
@@ -411,7 +417,7 @@ static void paths_write_axes(const struct gnuplot *g, const struct extent *e, co
 }
 
 /* Draws the crack paths of all runs in one picture. Their data are composed before the picture is opened, since their
- * extent determines its height. Returns FAILED without memory or if gnuplot fails. */
+ * extent determines its height. Returns FAILED, with a message, without memory or if gnuplot fails. */
 static status draw_paths(const struct convergence_study *s)
 {
     const struct path picture = convergence_picture(s->study.folder, "path");

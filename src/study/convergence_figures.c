@@ -10,12 +10,13 @@
 #include "convergence_units.h"
 #include "study/uncertainty.h"
 
-/* Largest number of figures that are printed. */
+/* Largest number of figures (scalar results) that are printed. */
 enum { PRINTED_MOST = 24 };
 
-/* Factor from the change of a figure when the horizon m is increased by one spacing to the remaining error of the
- * figure. The error of sums over the neighbours on an irregular lattice does not decrease with the spacing, only with
- * the number of neighbours: as about m^(-3/2) (empirical). One step of the horizon thus removes only a third of it. */
+/* Factor from the change of a figure (a scalar result), when the horizon is made one spacing longer, to the error that
+ * remains in the figure. The error of sums over the neighbours on an irregular lattice does not decrease with the
+ * spacing, only with the number m of spacings in the horizon: as about m^(-3/2) (empirical). One step of the horizon
+ * thus removes only a third of it. */
 #define HORIZON_REST 2.9
 
 /* Largest standard deviation of an order of convergence that is printed. For comparison: an order about which the runs
@@ -24,10 +25,10 @@ enum { PRINTED_MOST = 24 };
 
 /* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
 
-/* Returns by how much a figure (a number in summary.json) changes if the time step is 10 % longer: b log(1.1), with the
- * slope b of the figure over log(time step). The slope is fitted by least squares to all runs, after the mean of its
- * spacing level is subtracted from each figure. c: means of the levels; value[k]: figure of run k. Returns NAN if all
- * runs have the same time step. */
+/* Returns by how much a figure (a number in summary.json) of the study s changes if the time step is 10 % longer: b
+ * log(1.1), with the slope b of the figure over log(time step). The slope is fitted by least squares to all runs, after
+ * the mean of the spacing level is subtracted from each figure. c: means of the levels; value[k]: figure of run k.
+ * Returns NAN if all runs have the same time step or the scene is not dynamic. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -41,9 +42,9 @@ static double step_moves(const struct convergence_study *s, const struct converg
     return xx > 0 ? xy / xx * log(1.1) : NAN;
 }
 
-/* Returns the change of a figure (a number in summary.json) if the horizon is one spacing longer. It is the figure of
- * the run with the longer horizon, which has level -1, minus that of the first run of level 1, which has the same
- * spacing. value[k]: figure of run k. Returns NAN if the study has no run with a longer horizon. */
+/* Returns the change of a figure (a number in summary.json) of the study s if the horizon is one spacing longer: the
+ * figure of the run with the longer horizon, which has level -1, minus that of the first run of level 1, which has the
+ * same spacing. value[k]: figure of run k. Returns NAN if the study has no run with a longer horizon. */
 static double horizon_moves(const struct convergence_study *s, const double *value)
 {
     double longer = NAN, own = NAN;
@@ -57,10 +58,10 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes resolution[levels], an error of the figure called `name` at each spacing level that results because cracks
- * grow from particle to particle. It is half a spacing [m] for positions and lengths of cracks. For angles it is the
- * rotation of the crack if its end moves by half a spacing [degree]. Returns false for figures that change
- * continuously. */
+/* Computes the error of the figure `name` (a number in summary.json) at each spacing level that results because cracks
+ * grow from particle to particle, into resolution[levels]. It is half a spacing [m] for positions and lengths of
+ * cracks; for angles it is the rotation of the crack if its end moves by half a spacing [degree]. Returns false, and
+ * stores nothing, for figures that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -79,8 +80,8 @@ static bool resolution_find(double *resolution, const struct convergence_study *
     return true;
 }
 
-/* Evaluates the convergence of the number of summary.json in column `at` of the table s->table, and its sensitivity to
- * time step, spacing and horizon. Stores both in *f. Returns false if a spacing level has no value. */
+/* Evaluates the convergence of one number of summary.json, in column `at` of the table s->table, and its sensitivity to
+ * time step, spacing and horizon, into *f. Returns false if one of the finest spacing levels has no value. */
 static bool figure_make(struct scalar_result_study *f, const struct convergence_study *s, int at)
 {
     double *spacing = NEW("study.spacing", s->study.n, double);
@@ -104,8 +105,8 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     return true;
 }
 
-/* Returns true if the means of the figure f (a number in summary.json) differ between the spacing levels or runs of a
- * study. Energies of mechanisms that the scene does not have are an example of constant ones. */
+/* Returns true if the figure f (a number in summary.json) differs between the spacing levels or the runs of a study.
+ * Energies of mechanisms that the scene does not have are an example of constant figures, which are not reported. */
 static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;
@@ -116,9 +117,9 @@ static bool figure_moves(const struct scalar_result_study *f)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the number of summary.json called `name` is reported by a study that requests no particular numbers.
- * Excluded are technical ones such as run times, those of single crack tips, since runs differ in the numbers of tips,
- * and angles in 1D. */
+/* Returns true if a study s that requests no particular numbers reports the number of summary.json called `name`.
+ * Excluded are technical numbers such as run times, numbers of single crack tips, since runs differ in how many tips
+ * they have, and angles in 1D. */
 static bool is_of_interest(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -196,7 +197,8 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
 
 /* ---- converge.csv ------------------------------------------------------------------------------------------------ */
 
-/* Writes a comma and a number as the next cell of a table; an empty cell if the number is not finite. */
+/* Writes a comma and a number as the next cell of a CSV table to the stream `to`; the cell is empty if the number is
+ * not finite. */
 static void print_cell(FILE *to, double value)
 {
     if (isfinite(value))
@@ -246,8 +248,8 @@ status scalar_results_write(const struct convergence_study *s, const struct scal
 
 /* ---- printed summary --------------------------------------------------------------------------------------------- */
 
-/* Writes `value` into text[capacity] with the digits that its uncertainty justifies, down to the second digit of the
- * uncertainty. Uses 1e-4 |value| if the uncertainty is 0. */
+/* Writes `value` into text[capacity] with the digits that `uncertainty` justifies, down to the second digit of the
+ * uncertainty. An uncertainty of 0 counts as 1e-4 |value|. */
 static void certain_digits(char *text, size_t capacity, double value, double uncertainty)
 {
     const double size = fabs(value);
@@ -261,8 +263,8 @@ static void certain_digits(char *text, size_t capacity, double value, double unc
         snprintf(text, capacity, "%.*f", uncertain > 0 ? 0 : uncertain < -9 ? 9 : -uncertain, value);
 }
 
-/* Returns the name of the parameter that changes a figure most: the time step (10 % longer), the spacing (by the factor
- * sqrt(2)) or the horizon (one spacing longer); "nothing" if none changes it. */
+/* Returns the name of the parameter that changes the figure f (a scalar result) most: the time step (10 % longer), the
+ * spacing (by the factor sqrt(2)) or the horizon (one spacing longer); "nothing" if none changes it. */
 static const char *mover(const struct scalar_result_study *f)
 {
     const double step = fabs(f->step_moves), spacing = fabs(f->spacing_moves), horizon = fabs(f->horizon_moves);
@@ -270,8 +272,8 @@ static const char *mover(const struct scalar_result_study *f)
     return most == 0 ? "nothing" : most == spacing ? "spacing" : most == step ? "time step" : "horizon";
 }
 
-/* Returns true if the extrapolated limit of a crack length or an energy is negative although the means of all levels
- * are positive. */
+/* Returns true if the extrapolated value of a figure f that cannot be negative, a crack length or an energy, is
+ * negative although the means of all levels are positive. */
 static bool limit_is_impossible(const struct scalar_result_study *f)
 {
     const char *dot = strrchr(f->name, '.');
@@ -281,8 +283,8 @@ static bool limit_is_impossible(const struct scalar_result_study *f)
     return positive && least > 0 && f->c.extrapolated < 0;
 }
 
-/* Prints the orders of convergence of a figure, and its limit at spacing 0, as part of a sentence. Prints nothing if
- * the means of its spacing levels oscillate or diverge. */
+/* Prints the orders of convergence of the figure f (a scalar result), and its limit at spacing 0, as part of a
+ * sentence. Prints nothing if the means of the spacing levels oscillate or diverge. */
 static void order_print(const struct scalar_result_study *f)
 {
     const struct convergence *c = &f->c;
@@ -314,7 +316,7 @@ static struct scalar_result_study figure_in_printed_unit(const struct scalar_res
 }
 
 /* Prints the means of a figure (scalar result) at all spacings, how it converges, and its value with its 95 % interval.
- * own: level with the spacing of the scene, -1 if there is none; metre: unit of the spacings. */
+ * own: index of the level with the spacing of the scene, -1 if there is none; metre: unit of the spacings. */
 static void figure_print(const struct scalar_result_study *figure, int own, const struct unit *metre)
 {
     const struct scalar_result_study shown = figure_in_printed_unit(figure), *f = &shown;

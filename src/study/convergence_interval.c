@@ -14,15 +14,16 @@
 
 #include "study/convergence.h"
 
-/* Numbers of orders and of misfits in the mixture. */
+/* Numbers of orders of convergence and of misfits t (see above) in the mixture of normal distributions. */
 enum { ORDERS = 7, MISFITS = 10 };
 #define ORDER_FIRST 0.5   /* range of the order p, sampled in equal steps */
 #define ORDER_LAST 2.0    /* end of the range */
 #define MISFIT_LEAST 1e-3 /* smallest t; sampled from here to 1 in equal steps of its logarithm */
 #define VAGUE 100.0       /* standard deviation of the prior of v, divided by S */
 
-/* Posterior of (v - m_0)/S as a mixture of normal distributions, one for each order and misfit: weight, mean, standard
- * deviation, and order p. v: value at spacing 0; m_0: mean of the finest level; S: range of the means. */
+/* Distribution of (v - m_0)/S as a mixture of normal distributions, one for each order and misfit: weight, mean
+ * (`centre`), standard deviation, and order p. v: value of a figure at spacing 0; m_0: its mean at the finest level; S:
+ * range of the means. */
 struct mixture {
     struct {
         double weight, centre, deviation, order;
@@ -31,8 +32,9 @@ struct mixture {
 
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale S of the means of a figure at all spacing levels: S = sqrt(range^2 + (error/2)^2), where range is
- * the largest minus the smallest mean and error the largest error of a mean. */
+/* Returns the scale S of the means of a figure (a scalar result) at all spacing levels: S = sqrt(range^2 +
+ * (error/2)^2), where range is the largest minus the smallest mean and error the largest error of a mean. c: means and
+ * errors. */
 static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;
@@ -43,11 +45,12 @@ static double range_scale(const struct convergence *c)
     return hypot(most - least, 0.5 * error);
 }
 
-/* Fits m_k = v + a (h_k/h_0)^p to the means m_k of a result at the spacing levels k with spacings h_k (level 0 is the
- * finest), by Bayesian linear regression with broad normal priors of v and a. c: means and their errors; scale: scale
- * of the means (range_scale); p: order of convergence; t: standard deviation of the means about this law in addition to
- * their own errors, divided by `scale`. Stores the mean of the posterior of (v - m_0)/scale in *centre and its standard
- * deviation in *deviation. Returns the logarithm of the likelihood of the means for this p and t, up to a constant. */
+/* Fits m_k = v + a (h_k/h_0)^p to the means m_k of a scalar result at the spacing levels k with spacings h_k (level 0
+ * is the finest), by Bayesian linear regression with broad normal priors of v and a. c: means and their errors; scale:
+ * scale of the means (range_scale); p: order of convergence; t: standard deviation of the means about this law in
+ * addition to their own errors, divided by `scale`. *centre, *deviation: receive mean and standard deviation of the
+ * posterior of (v - m_0)/scale. Returns the logarithm of the likelihood of the means for this p and t, up to a
+ * constant. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
@@ -67,9 +70,10 @@ static double part_fit(const struct convergence *c, double scale, double p, doub
     return -0.5 * (misfit - v * value - a * slope + spread + log(determinant));
 }
 
-/* Computes in m the distribution of the value of a figure at spacing 0. It is a mixture of normal distributions, one
- * for each pair of an order of convergence and a misfit of the means, with weights of sum 1. scale: scale of the means
- * of the figure. Returns false if it is 0, that is, if all means are equal and have no error. */
+/* Computes in *m the distribution of the value of a figure (a scalar result) at spacing 0. It is a mixture of normal
+ * distributions, one for each pair of an order of convergence and a misfit of the means, with weights of sum 1. c:
+ * means of the figure; scale: their scale (range_scale). Returns false if it is 0, that is, if all means are equal and
+ * have no error. */
 static bool mixture_make(struct mixture *m, const struct convergence *c, double scale)
 {
     double most = -INFINITY, sum = 0;
@@ -107,8 +111,8 @@ static double mixture_within(const struct mixture *m, double about, double half_
     return sum;
 }
 
-/* Returns the half-width w of an interval about - w .. about + w that contains a variable with the mixture distribution
- * m with the probability `share`. It is found by bisection. */
+/* Returns by bisection the half-width w of the interval about - w .. about + w that contains a variable with the
+ * mixture distribution m with the probability `share` (0 to 1). */
 static double mixture_half_width(const struct mixture *m, double about, double share)
 {
     double low = 0, high = 4 * VAGUE;
@@ -123,7 +127,7 @@ static double mixture_half_width(const struct mixture *m, double about, double s
 }
 
 /* Returns the half-width of the interval around 0 that contains a normal variable of mean 0 with the probability
- * `share`, divided by the half-width for 95 %. */
+ * `share` (0 to 1), divided by the half-width for 95 %. */
 static double normal_half_width(double share)
 {
     double low = 0, high = 10;

@@ -11,8 +11,9 @@
 #define FAR_WANTED 0.16  /* range if none there fits; levels remain apart [1] */
 #define NEAR_CHOSEN 0.07 /* range around the chosen spacing for further ones of the level [1] */
 
-/* Distances [m] of faces and cracks from the lower corner of their body that are whole numbers of spacings, or of
- * spacings plus one half (`half`), at the spacing of the scene. */
+/* List of n distances of faces and cracks from the lower corner of their body, those that fit the lattice at the
+ * spacing of the scene. at: distance [m]; half: true if it is a whole number of spacings plus one half, false if it is
+ * a whole number. */
 struct places {
     int n;
     struct {
@@ -37,9 +38,9 @@ static void place_add(struct places *p, double distance, double spacing)
     p->place[p->n++].half = off > 0.5 - MEETS;
 }
 
-/* Appends to *p the distances of all faces and cracks of each body from its lower corner, if they fit the lattice of
- * the scene: n or n + 1/2 spacings, with a whole number n. Other spacings of a study should fit these distances as
- * well. */
+/* Appends to *p the distances of all faces and cracks of each body of the scene s from the body's lower corner, if they
+ * fit the lattice of the scene: n or n + 1/2 spacings, with a whole number n. Other spacings of a study should fit
+ * these distances as well. */
 static void places_find(struct places *p, const struct scene *s)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -61,8 +62,8 @@ static void places_find(struct places *p, const struct scene *s)
     }
 }
 
-/* Returns by how much the faces and cracks p miss the lattice if the spacing is `spacing` [m]: the largest deviation of
- * their distances from a whole number of spacings [spacings]. Distances that are a whole number plus one half at the
+/* Returns by how much faces and cracks miss the lattice if the spacing is `spacing` [m]: the largest deviation of the
+ * distances in p from a whole number of spacings [spacings]. Distances that are a whole number plus one half at the
  * spacing of the scene are compared with such numbers. */
 static double misfit(const struct places *p, double spacing)
 {
@@ -76,9 +77,9 @@ static double misfit(const struct places *p, double spacing)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the spacing between wanted (1 - reach) and wanted (1 + reach) at which the distances p of faces and cracks
- * fit the lattice best; of equally good spacings the nearest to `wanted` [m]. reach: relative half-width of the search;
- * taken[n]: spacings that are excluded [m]. Returns 0 if there is none. */
+/* Returns the spacing [m] between wanted (1 - reach) and wanted (1 + reach) at which the distances p of faces and
+ * cracks fit the lattice best; of equally good spacings the nearest to `wanted` [m]. reach: relative half-width of the
+ * search; taken[n]: spacings that are excluded [m]. Returns 0 if there is none. */
 static double spacing_near(const struct places *p, double wanted, double reach, const double *taken, int n)
 {
     double longest = 0, best = 0, least = INFINITY;

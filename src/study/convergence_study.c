@@ -20,9 +20,9 @@ enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the factor on the time step of the scene for run number `run`, from 0, of the `runs` runs of a spacing level.
- * Run 0 has the factor 1. The others have alternately shorter and longer steps, beginning with the largest deviations;
- * steps that would be unstable are excluded. */
+/* Returns the factor on the scene's time step for run number `run` (from 0) of the `runs` runs of a spacing level. Run
+ * 0 has the factor 1, or less if the scene's own step is above the critical one. The others have alternately shorter
+ * and longer steps, beginning with the largest deviations; steps that would be unstable are excluded. */
 static double step_of(const struct convergence_study *s, int run, int runs)
 {
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
@@ -32,8 +32,8 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
-/* Returns the spacing [m] of run number `run` of a level. A level has several spacings that differ by a few per cent.
- * Run 0 has the first of them, and further runs use them in turn. */
+/* Returns the spacing [m] of run number `run` (from 0) of a spacing level (0: finest). A level has several spacings
+ * that differ by a few per cent; its runs use them in turn. */
 static double spacing_in_turn(const struct convergence_study *s, int level, int run)
 {
     return s->spacings.at[level][run % s->spacings.n[level]];
@@ -41,8 +41,8 @@ static double spacing_in_turn(const struct convergence_study *s, int level, int 
 
 static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* Returns the horizon of runs with the spacing `spacing` [m], as a number of spacings. It is the number of the scene.
- * If s->fixed_horizon is true, it instead keeps the length [m] that the horizon has at the coarsest level. */
+/* Returns the horizon of runs with the spacing `spacing` [m], as a number of spacings: the number of the scene or, if
+ * s->fixed_horizon is true, the number at which the horizon has the same length [m] as at the coarsest level. */
 static double horizon_at(const struct convergence_study *s, double spacing)
 {
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
@@ -50,7 +50,7 @@ static double horizon_at(const struct convergence_study *s, double spacing)
 }
 
 /* Appends the override KEY=NUMBER to the list o, which has *n entries, and increments *n. The text of the number is
- * stored in value[*n]. The override refers to this text and to `key`, which must outlive it. */
+ * stored in value[*n]. The override refers to this text and to `key`; both must outlive it. */
 static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM], const char *key, double number)
 {
     snprintf(value[*n], VALUE_ROOM, "%.15g", number);
@@ -58,8 +58,8 @@ static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM]
     ++*n;
 }
 
-/* Adds a run with the parameters p to the study s. The overrides of the run are those of the user, followed by spacing,
- * horizon, time step and seed of random numbers of this run. */
+/* Adds a run with the parameters p (spacing, horizon, time step, level, number) to the study s. Its overrides are those
+ * of the user, followed by spacing, horizon, time step and seed of random numbers of this run. */
 static void point_add(struct convergence_study *s, struct study_point p)
 {
     char value[OVERRIDES_OWN][VALUE_ROOM], name[CASE_NAME_ROOM];
@@ -97,9 +97,9 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the predicted duration of a run with the spacing `spacing` [m], in seconds. It is the duration of the first
- * run, scaled by the number of particles and of time steps. If the horizon is a fixed length, it is also scaled by the
- * number of bonds per particle. */
+/* Returns the predicted duration [s] of a run with the spacing `spacing` [m]: the duration of the first run, scaled by
+ * the number of particles and of time steps. If the horizon is a fixed length, it is also scaled by the number of bonds
+ * per particle. */
 static double cost_beside(const struct convergence_study *s, double spacing)
 {
     const double first = s->point[s->first].spacing, finer = first / spacing;
@@ -119,9 +119,9 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
-/* Sets the number of runs of the finest spacing level to `finest`, and of the other levels to `runs`. Runs of one level
- * differ in random positions of particles, time steps or slightly different spacings. If positions and time steps do
- * not vary, a level has at most as many runs as spacings, since further runs would be equal. */
+/* Sets the number of runs of the finest spacing level to `finest`, and of the other levels to `runs`, in s->runs. Runs
+ * of one level differ in random positions of particles, time steps or slightly different spacings. If positions and
+ * time steps do not vary, a level has at most as many runs as spacings, since further runs would be equal. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
     const bool steps = scene_is_dynamic(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
@@ -147,8 +147,8 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason why the convergence of scene s cannot be studied as the request w demands, as a text for a
- * message. Returns NULL if it can be studied. */
+/* Returns the reason why the convergence of the scene s cannot be studied as the request w demands, as a text for a
+ * message, or NULL if it can be studied. The text is static. */
 static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -185,8 +185,8 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
-/* Prints a warning for each requested figure that the first run lacks, because its name may be wrong. It is no error,
- * since cracks and tips may still appear at finer spacings. */
+/* Prints a warning for each requested figure (a number in summary.json) that the first run lacks, because its name may
+ * be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
     const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);
@@ -199,9 +199,9 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
                 w->wanted[k], printable_name(folder.text).text);
 }
 
-/* Makes the first run of a study at the coarsest spacing level. If the scene is invalid at that spacing, refines all
- * levels and tries again, at most FINER_MOST times. Stores the largest spacing that was invalid in s->refused. Returns
- * the status of the last try. */
+/* Makes the first run of a study at the coarsest spacing level (first_run). If the scene is invalid at that spacing,
+ * refines all levels and tries again, at most FINER_MOST times. Stores the largest spacing that was invalid in
+ * s->refused, INFINITY if none was. Returns the status of the last try. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;
@@ -218,8 +218,9 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans the spacing levels of a study as the request w demands. The finest level has the spacing of the scene times
- * 2^(shift/2). Omits levels at which the scene is invalid. Returns false if no valid plan results. */
+/* Plans the spacing levels of a study as the request w demands, in s->spacings. The finest level has the spacing of the
+ * scene times 2^(shift/2), so that the scene's own spacing is among the levels if shift is at most 0. Omits levels at
+ * which the scene is invalid. Returns false if no valid plan results. */
 static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
@@ -233,7 +234,8 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
 }
 
 /* Chooses spacing levels and numbers of runs with which the study fits into its budget. Levels are coarsened until the
- * finest one is not too expensive. w: request; jobs: number of runs at a time. Returns REFUSED if no plan fits. */
+ * finest one is not too expensive. w: request; jobs: number of runs at a time. Returns REFUSED, with a message, if no
+ * plan fits. */
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};

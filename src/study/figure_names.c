@@ -8,7 +8,7 @@
 #include "output/renamed_results.h"
 #include "study/study.h"
 
-/* Capacities of the last part of a figure's name, and of the whole name [byte]. */
+/* Capacities of the last part of the name of a figure (a number in summary.json), and of its whole name [byte]. */
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
 /* Returns true if summary.json of runs of the scene s contains numbers on contact. */
@@ -78,7 +78,8 @@ static const char *const probe_leaves[PROBES] = {
     [PROBE_RIGID] = "angle stress_max shear_max angular_momentum_error kinetic_energy_error",
 };
 
-/* Search for the name most similar to the name `to`: the most similar name found so far, and its edit distance. */
+/* Search for the known name most similar to the misspelt name `to`: the most similar one found so far and its edit
+ * distance. */
 struct nearest {
     const char *to;
     char name[NAME_ROOM];
@@ -86,7 +87,8 @@ struct nearest {
 };
 
 /* Compares the known name GROUP.LEAF, with GROUP = group and LEAF = leaf, with the misspelt name n->to. Stores the
- * known name in n->name if it is more similar (by the edit distance) than the name stored there so far. */
+ * known name in n->name, and its edit distance in n->distance, if it is more similar than the name stored there so
+ * far. */
 static void nearest_offer(struct nearest *n, const char *group, const char *leaf)
 {
     char name[NAME_ROOM];
@@ -95,9 +97,9 @@ static void nearest_offer(struct nearest *n, const char *group, const char *leaf
     if (distance < n->distance) n->distance = distance, snprintf(n->name, sizeof n->name, "%s", name);
 }
 
-/* Returns true if `leaf` is one of the blank-separated words of `leaves`, the names that numbers of a group in
- * summary.json have after the last point. Also compares the name group.WORD for each of the words with the misspelt
- * name in n, to find the most similar one. */
+/* Returns true if `leaf` is one of the blank-separated words of `leaves`, the names that the numbers of a group in
+ * summary.json have after the last point. Also compares the name GROUP.WORD for each of the words with the misspelt
+ * name in *n, to find the most similar one. */
 static bool leaf_is_known(const char *leaves, const char *group, const char *leaf, struct nearest *n)
 {
     bool known = false;
@@ -111,7 +113,7 @@ static bool leaf_is_known(const char *leaves, const char *group, const char *lea
 }
 
 /* Copies a name to to[capacity] with # in place of each whole number between points, for example rigid.#.x for
- * rigid.0.x. */
+ * rigid.0.x. A text too long is truncated. */
 static void numbers_hidden(char *to, size_t capacity, const char *name)
 {
     size_t n = 0;
@@ -124,8 +126,8 @@ static void numbers_hidden(char *to, size_t capacity, const char *name)
     to[n] = '\0';
 }
 
-/* Returns true if `group` is probes.NAME for a probe NAME of the scene that writes a number called `leaf` to
- * summary.json. Also compares the names of the numbers of all probes with the misspelt name in n, to find the most
+/* Returns true if `group` is probes.NAME for a probe NAME of the scene s that writes a number called `leaf` to
+ * summary.json. Also compares the names of the numbers of all probes with the misspelt name in *n, to find the most
  * similar one. */
 static bool probe_has(const struct scene *s, const char *group, const char *leaf, struct nearest *n)
 {
@@ -139,9 +141,9 @@ static bool probe_has(const struct scene *s, const char *group, const char *leaf
     return known;
 }
 
-/* Returns a phrase for a message, "a solid" or "a plane or a solid", if a number of summary.json refers to an axis that
- * the scene does not have; else NULL. leaf: last part of the name of the number, such as velocity_y or stress_zx_max,
- * whose letters x, y and z name the axes. */
+/* Returns what the scene s must be so that it has the axes to which a number of summary.json refers, as a phrase for a
+ * message ("a solid", "a plane or a solid"); NULL if it has them. leaf: last part of the name of the number, such as
+ * velocity_y or stress_zx_max, whose letters x, y and z name the axes. */
 static const char *axes_lack(const struct scene *s, const char *leaf)
 {
     char axes[LEAF_ROOM];
@@ -157,9 +159,9 @@ static const char *axes_lack(const struct scene *s, const char *leaf)
     return strchr(own, 'z') && s->dim < 3 && !across ? "a solid" : NULL;
 }
 
-/* Returns a phrase for a message that names the solver which a number of summary.json requires, if it is not the solver
- * of the scene; else NULL. leaf: last part of the name of the number. Names that end in _step require load steps; names
- * of times and speeds require a solver in time. */
+/* Returns a phrase for a message that names the solver which a number of summary.json requires, or NULL if the scene s
+ * has this solver. leaf: last part of the name of the number. Names that end in _step require load steps; names of
+ * times and speeds require a solver in time. */
 static const char *clock_lacks(const struct scene *s, const char *leaf)
 {
     const char *end = strrchr(leaf, '_');
@@ -168,9 +170,9 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
     return (time || speed) && scene_has_load_steps(s) ? "a solver in time: load steps have no speed" : NULL;
 }
 
-/* Returns a phrase for a message that says what the scene must have so that its runs write the number called `name` to
- * summary.json. Returns NULL if they do. The name must be known. group: its part before the last point, with # in place
- * of whole numbers; leaf: its part after the last point. */
+/* Returns a phrase for a message that says what the scene s must have so that its runs write the number called `name`
+ * to summary.json, or NULL if they write it. The name must be known. group: its part before the last point, with # in
+ * place of whole numbers; leaf: its part after the last point. */
 static const char *figure_lacks(const struct scene *s, const char *group, const char *name, const char *leaf)
 {
     const bool crack = strncmp(group, "crack", 5) == 0, probe = strncmp(group, "probes.", 7) == 0;

@@ -22,8 +22,8 @@ enum { REFUSED_MOST = 4 }; /* largest number of refinements after spacings at wh
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Appends a key that pilot runs have chosen, and its value, to the lists to->key and to->value, which have *n entries,
- * and increments *n. */
+/* Appends a key that pilot runs have chosen, and its value, to the lists to->key and to->value, which have *n entries
+ * (at most CHOSEN_MOST), and increments *n. Texts too long are truncated. */
 static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
     INVARIANT(*n < CHOSEN_MOST);
@@ -32,8 +32,8 @@ static void chosen_put(struct pilot *to, int *n, const char *key, const char *va
     ++*n;
 }
 
-/* Sets to->override to the overrides of the user followed by those that select the candidate method c: keys method,
- * model and solver, and the particle spacing `spacing` [m]. p: scene and overrides of the user. */
+/* Sets to->override to the overrides of the user followed by those that select the candidate method c: method, model,
+ * solver, and the particle spacing `spacing` [m]. p: scene and overrides of the user. Free with pilot_free. */
 static void candidate_write(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *c,
                             double spacing)
 {
@@ -83,7 +83,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Returns the time [s] of the budget of pilot runs that is left, at least 0. */
+/* Returns the time that is left of the budget of pilot runs [s], at least 0. */
 static double time_left(const struct pilot_search *p)
 {
     return fmax(p->wish.budget - (wall_clock_seconds() - p->begun), 0);
@@ -101,7 +101,8 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
 
 /* Makes one convergence study of every candidate method. The studies together take the share PILOT_FIRST_SHARE of the
  * time that is left, in equal parts. If the scene is invalid at the spacing of a study, the study is repeated at finer
- * spacings. Returns INTERRUPTED after a stop signal, or the error if the runs lack the requested figure. */
+ * spacings. Returns OK even if a method fails (its reason is stored), INTERRUPTED after a stop signal, or REFUSED if
+ * the runs lack the requested figure. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -145,7 +146,7 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
 
 /* Repeats the study of the method with the shortest predicted duration at finer spacings. Ends when this method has a
  * run that is accurate enough, or no refinement is possible. The method may change from one study to the next. Returns
- * INTERRUPTED after a stop signal. */
+ * INTERRUPTED after a stop signal, else OK. */
 static status search_finer(struct pilot_search *p)
 {
     status done = OK;
@@ -154,9 +155,9 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a candidate method whose value of the figure (scalar result) differs from that of the method c by more than
- * the uncertainties of both and the requested accuracy together, so that one of the two values must be wrong. Returns
- * NULL if there is none. */
+/* Returns a candidate method that contradicts the method c: its value of the figure (scalar result) differs by more
+ * than the uncertainties of both and the requested accuracy together, so that one of the two values must be wrong.
+ * Returns NULL if there is none. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {
@@ -192,9 +193,9 @@ static status search_failed(const struct pilot_search *p)
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
-/* Prints the chosen method *best and its spacing, and stores the overrides for them in *to. best: NULL if there is
- * none. Returns REFUSED if `best` is NULL or not accurate enough within the budget, or if two methods converge to
- * different values. */
+/* Prints the chosen method *best and its spacing, and stores the overrides for them in *to. best: NULL if no method has
+ * a prediction. Returns REFUSED, with a message, if `best` is NULL or not accurate enough within the budget, or if two
+ * methods converge to different values. */
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)
@@ -238,8 +239,8 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 }
 
 /* Chooses the overrides *to of a scene with `method: auto`. Reads a stored choice for the same scene if there is one,
- * else makes pilot runs in a folder beside `folder`, the folder of the run (NULL for the default). p: state of the
- * choice. Returns REFUSED if no method is suitable. */
+ * else makes pilot runs in a folder beside `folder`, the folder of the run (NULL for the default). p: scene, request
+ * and state of the choice. Returns REFUSED if no method is suitable, or the error of a pilot run. */
 static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];

@@ -9,9 +9,9 @@
 
 /* ---- the figure -------------------------------------------------------------------------------------------------- */
 
-/* Returns the result, a number in summary.json, by which pilot runs are judged if the scene names none: of the array
- * figure[figures] the first result of a probe that is larger than its uncertainty. If there is none, it is the time at
- * which cracks start, else the largest energy; NULL if these are missing, too. */
+/* Returns the result (a number in summary.json) by which pilot runs are judged if the scene names none. Of the array
+ * figure[figures] it is the first result of a probe that is larger than its uncertainty; else the time at which cracks
+ * start; else the largest energy; NULL if these are missing, too. */
 static const struct scalar_result_study *figure_usual(const struct scalar_result_study *figure, int figures)
 {
     const struct scalar_result_study *start = NULL, *energy = NULL;
@@ -29,8 +29,8 @@ static const struct scalar_result_study *figure_usual(const struct scalar_result
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the first run of a spacing level, which has the same time step and seed as a run outside a
- * study; -1 if the level has no run. */
+/* Returns the index of the first run of a spacing level (0: finest), which has the same time step and seed as a run
+ * outside a study; -1 if the level has no run. */
 static int level_run(const struct convergence_study *s, int level)
 {
     for (int k = 0; k < s->study.n; k++)
@@ -44,11 +44,11 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
-/* Finds the spacing that a method requires for the requested accuracy of the figure f. It is the spacing of the
- * coarsest level, at most the largest allowed spacing, whose run is accurate enough. If there is none, it is
- * extrapolated from the finest level, with the smallest order of convergence that the means allow. Stores spacing,
- * accuracy and duration of the run in *c. c->spacing remains 0 if neither is possible. s: convergence study of the
- * method. */
+/* Finds the spacing that a method requires for the requested accuracy of the figure f (a scalar result). It is the
+ * spacing of the coarsest level, at most the largest allowed spacing, whose run is accurate enough. If there is none,
+ * it is extrapolated from the finest level, with the smallest order of convergence that the means allow. Stores
+ * spacing, accuracy and duration of the run in *c; c->spacing remains 0 if neither is possible. p: requested accuracy
+ * and spacing; s: convergence study of the method. */
 static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
                          const struct scalar_result_study *f)
 {

@@ -33,7 +33,8 @@ void pilot_free(struct pilot *to)
 /* ---- the question ------------------------------------------------------------------------------------------------ */
 
 /* Returns the text by which a stored choice is recognised: the contents of the scene file, followed by the overrides of
- * the user as comments. Returns NULL if the scene file cannot be read. The caller releases the text with free. */
+ * the user as comments. Returns NULL if the scene file cannot be read or memory is short. The caller releases the text
+ * with free. */
 static char *question_text(const struct pilot_search *p)
 {
     char *scene, *text = NULL;
@@ -51,8 +52,8 @@ static char *question_text(const struct pilot_search *p)
 
 /* ---- the answer -------------------------------------------------------------------------------------------------- */
 
-/* Copies the file `from` in a folder to the file `name` in the same folder. Returns FAILED if it cannot be read or
- * written. */
+/* Copies the file `from` in `folder` to the file `name` in the same folder. Returns FAILED, with a message, if it
+ * cannot be read or written. */
 static status file_copy(const char *folder, const char *from, const char *name)
 {
     char *text;
@@ -63,8 +64,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
     return put;
 }
 
-/* Stores two files in the folder of the pilot runs: the scene with the chosen overrides *to, and the table converge.csv
- * with the error bars of the chosen method *best. Returns FAILED if a file cannot be read or written. */
+/* Stores two files in the folder of the pilot runs (p->folder): the scene with the chosen overrides *to, and the table
+ * converge.csv with the error bars of the chosen method *best. Returns FAILED if a file cannot be read or written. */
 static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;
@@ -97,8 +98,8 @@ status pilot_store_choice(const struct pilot *choice, const struct pilot_search 
     return put;
 }
 
-/* Reads the lines KEY=VALUE of a stored choice from `text`, and copies the keys to to->key and the values to to->value,
- * at most CHOSEN_MOST of each. Returns their number. Modifies `text`. */
+/* Reads the lines KEY=VALUE of a stored choice from `text`, which is modified, and copies the keys to to->key and the
+ * values to to->value, at most CHOSEN_MOST of each. Lines without = are skipped. Returns the number of keys. */
 static int answer_read(struct pilot *to, char *text)
 {
     int n = 0;

@@ -7,8 +7,8 @@
 
 /* ---- methods ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if bond-based peridynamics is applicable to the scene: Poisson's ratios of all materials are the one of
- * this model, or the scene is 1D. */
+/* Returns true if bond-based peridynamics is applicable to the scene s: the Poisson's ratios of all materials are that
+ * of this model, or the scene is 1D. */
 static bool bonds_fit(const struct scene *s)
 {
     bool fit = true;
@@ -31,9 +31,9 @@ static void candidate_add(struct pilot_search *p, const char *name, const char *
 /* Returns true if bonds of the scene may break or its cracks may grow. */
 static bool may_crack(const struct scene *s) { return scene_bonds_break(s) || s->growths > 0; }
 
-/* Lists in p->at the methods that are applicable to the scene. These are material points unless bonds are required,
- * peridynamics with bonds or with state-based families, and adaptive runs if bonds can break or the scene has a
- * peridynamic region. */
+/* Lists in p->at the methods that are applicable to the scene: material points unless bonds are required, peridynamics
+ * with bonds or with state-based families, and adaptive runs if bonds can break or the scene has a peridynamic
+ * region. */
 static void candidates_find(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;
@@ -70,9 +70,9 @@ static bool scene_acts(const struct scene *s)
 
 /* ---- the plan ---------------------------------------------------------------------------------------------------- */
 
-/* Lists the methods that are applicable to the scene in search->at. Returns REFUSED if there is none, or if pilot runs
- * are not possible: particles from a list, no length to choose a spacing from, nothing that moves or loads the bodies.
- */
+/* Lists the methods that are applicable to the scene in search->at. Returns REFUSED, with a message, if there is none,
+ * or if pilot runs are not possible: particles from a list, no length to choose a spacing from, an unknown result,
+ * nothing that moves or loads the bodies. */
 status pilot_list_applicable_methods(struct pilot_search *search)
 {
     const struct scene *s = &search->wish.provisional;

@@ -17,15 +17,15 @@
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
 /* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = study_kind,
- * into folder[capacity]. */
+ * into folder[capacity]. A path too long is truncated. */
 void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *study_kind)
 {
     snprintf(folder, capacity, "results/%s_%s", scene->name, study_kind);
 }
 
 /* Reads the scene file `path` and writes the path of the default folder of a study of this scene into to[capacity]:
- * results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED or FAILED if the scene cannot be
- * read. */
+ * results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED or FAILED, with a message, if the scene
+ * cannot be read. */
 static status place_read(char *to, size_t capacity, const char *path, const char *kind)
 {
     struct scene scene;
@@ -156,8 +156,8 @@ status study_write_scene_and_options(const char *folder, const char *text, const
     return put;
 }
 
-/* Returns true if the subfolder `name` of the folder of a study holds a run or another study. Runs may have been
- * started individually, with the commands of `--list`. */
+/* Returns true if the subfolder `name` of `folder`, the folder of a study, holds a run or another study. Runs may have
+ * been started individually, with the commands of `--list`. */
 static bool is_run_or_study(const char *folder, const char *name)
 {
     const struct path inner = path_join(folder, name);
@@ -291,8 +291,9 @@ struct scenes_seen {
     uint64_t *hash;
 };
 
-/* Sets *same to true if the run `other` of the study has the scene `text`. The texts of the scenes are compared, since
- * different scenes can have equal hashes. Returns REFUSED or FAILED if the scene of the run cannot be read. */
+/* Sets *same to true if the run `other` of the study s has the scene `text`, else to false. The texts of the scenes are
+ * compared, since different scenes can have equal hashes. Returns REFUSED or FAILED if the scene of the run cannot be
+ * read. */
 static status case_same(bool *same, const struct study *s, const struct study_case *other, const char *text)
 {
     struct scene scene;
@@ -324,9 +325,10 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
     return OK;
 }
 
-/* Reads the scene of run number `number`, and sets the state of the run if its scene equals that of an earlier run or
- * if its folder contains its results already. collect: true to mark runs that failed before as failed, false to run
- * them again; seen: scenes of the runs checked before. Returns REFUSED if the scene is invalid. */
+/* Determines the state of run number `number` of the study before any run starts: CASE_SAME if its scene equals that of
+ * an earlier run, CASE_DONE_BEFORE if its folder contains its results already. collect: true to mark runs that failed
+ * before as failed, false to run them again; seen: scenes of the runs checked before. Returns REFUSED if the scene is
+ * invalid. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];

@@ -4,14 +4,16 @@
 
 #include "study_picture.h"
 
-/* An axis is logarithmic if its values are positive and the largest is more than DECADES times the smallest. Digits of
- * the numbers at an axis at least and at most. */
+/* An axis is logarithmic if its values are positive and the largest is more than DECADES times the smallest.
+ * DIGITS_LEAST, DIGITS_MOST: limits of the number of significant digits at an axis. */
 enum { DECADES = 100, DIGITS_LEAST = 4, DIGITS_MOST = 12 };
 
-/* Largest number of intervals of a horizontal axis; least distance of the tics of a vertical axis [pixel]. */
+/* Largest number of intervals of a horizontal axis (STEPS_MOST); least distance of the tics, i.e. labelled marks, of a
+ * vertical axis [pixel]. */
 enum { STEPS_MOST = 4, TICS_UP = 31 };
 
-/* Largest deviation from even distances, relative to the distance, at which values count as evenly spaced. */
+/* Largest deviation of the distances between values, relative to the distance, at which the values count as evenly
+ * spaced [1]. */
 static const double EVEN = 1e-6;
 
 /* Margin of a logarithmic axis at either end, as a share of its length [1]. */
@@ -23,7 +25,8 @@ double study_value_across(const struct study_picture *p, int value_index)
     return p->numbers ? value_read_number_and_unit(p->key[p->across].shown.value[value_index], &unit) : value_index;
 }
 
-/* Returns true if value number v of the key along the horizontal axis has a point in panel number `panel`. */
+/* Returns true if panel number `panel` of the picture p has a point at value v (from 0) of the key along the horizontal
+ * axis. */
 static bool value_is_drawn(const struct study_picture *p, int panel, int v)
 {
     const int values = p->key[p->across].shown.values;
@@ -56,8 +59,8 @@ struct study_axis study_axis_of_figure(const struct study_picture *p, int panel)
     return axis;
 }
 
-/* Returns the distance between the tics (labelled marks) of an axis, for a logarithmic axis the factor between them; 0
- * if all values are equal or there are none. most: largest number of intervals between tics. */
+/* Returns the distance between the tics (labelled marks) of an axis, for a logarithmic axis the factor between them.
+ * Returns 0 if all values are equal or there are none. most: largest number of intervals between tics. */
 static double tic_step(const struct study_axis *axis, int most)
 {
     if (!(axis->high > axis->low)) return 0;
@@ -99,8 +102,9 @@ int study_intervals_across(const struct study_picture *p, const struct study_axi
     return most;
 }
 
-/* Sends the range of the axis called `name` (`x`, `y` or `cb`) to gnuplot: the range of the data, to which gnuplot adds
- * a margin, or for a logarithmic axis, to which gnuplot adds none, the range extended by a margin. */
+/* Sends the range of the axis called `name` (`x`, `y` or `cb`, the colour bar) to gnuplot. A linear axis gets the range
+ * of the data, to which gnuplot adds a margin; a logarithmic axis, to which gnuplot adds none, the range extended by a
+ * margin. */
 static void range_send(FILE *gnuplot, const char *name, const struct study_axis *axis)
 {
     const double margin = *name == 'c' ? 0 : MARGIN * log10(axis->high / axis->low);
