@@ -18,7 +18,7 @@ void csv_close(struct csv_file *c)
     c->file = NULL;
 }
 
-/* Replaces the D of Fortran exponents by e in the numbers of a line, as in 5.0D-01. */
+/* Replaces the D of Fortran exponents by e in the numbers of the line `text`, as in 5.0D-01. */
 static void exponents_rewrite(char *text)
 {
     static const char between[] = " \t\r\n,;\"", digits[] = "0123456789";

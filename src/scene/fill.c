@@ -17,8 +17,8 @@
 #include "base/team.h"
 #include "fill_draft.h"
 
-/* Least distance of two particles [spacings]. Two particles closer than this are refused as one particle given
- * twice. */
+/* Least distance of two particles [spacings]. If two particles are closer, the scene is refused, because one particle
+ * was probably given twice. */
 static const real too_close = 1e-3;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
@@ -64,7 +64,8 @@ status particle_draft_append_particle(struct particle_draft *d, const real *posi
 
 /* ---- lattices ---------------------------------------------------------------------------------------------------- */
 
-/* Lattice positions along one axis: centre + (k + 1/2 - m/2) spacing for k = first .. last, where half_count is m/2. */
+/* Positions of a lattice along one axis: centre + (k + 1/2 - m/2) spacing for k = first .. last, where half_count is
+ * m/2. */
 struct axis {
     real centre, half_count, spacing; /* [m], m/2, [m] */
     int64_t first, last;
@@ -75,9 +76,10 @@ static real axis_place(const struct axis *a, int64_t k)
     return a->centre + ((real)k + 0.5 - a->half_count) * a->spacing;
 }
 
-/* Rounds the centre and half the spacing of an axis to multiples of a power of two, such that every lattice position is
- * an exact double within half of LATTICE_NEAR spacings of its nominal value. Leaves the axis unchanged where no such
- * power of two exists, as for a body of 10,000 spacings; its positions are then rounded one by one. */
+/* Rounds the centre and half the spacing of an axis of a lattice to multiples of a power of two, such that every
+ * lattice position is an exact double within half of LATTICE_NEAR spacings of its nominal value. Leaves the axis
+ * unchanged where no such power of two exists, as for a body of 10,000 spacings; its positions are then rounded
+ * individually. */
 static void axis_round(struct axis *a)
 {
     const real ends =
@@ -89,8 +91,8 @@ static void axis_round(struct axis *a)
     a->spacing = 2 * half;
 }
 
-/* Computes low[dim], high[dim], the corners of the bounding box of the first added solid of a shape [m]; if the
- * shape begins with an intersection of solids, of the whole shape. Returns false if the box is unbounded. */
+/* Computes the corners low[dim], high[dim] of the bounding box of the first added solid of a shape [m]; if the shape
+ * begins with an intersection of solids, of the whole shape. Returns false if the box is unbounded. */
 static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
 {
     if (shape->n > 0 && shape->solid[0].intersect) return region_compute_bounding_box_if_finite(shape, dim, low, high);
@@ -102,7 +104,7 @@ static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MA
 }
 
 /* Returns a uniform random number in [-1/2, 1/2) that depends on its arguments alone: a hash of `seed` and the counter
- * id * DIM_MAX + component. id: index of the particle; component: axis of its position. */
+ * id * DIM_MAX + component. id: index of the particle; component: axis of its position, 0 to DIM_MAX - 1. */
 static real scatter(uint64_t seed, int64_t id, int component)
 {
     return (real)(hash_add_word(seed, (uint64_t)id * DIM_MAX + (uint64_t)component) >> 11) * 0x1p-53 - 0.5;
@@ -113,8 +115,8 @@ static real cell_volume(const struct scene *s)
     return lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
 }
 
-/* Sets axis[dim] to the axes of the lattice that covers the whole shape of a body of d->scene. body: index of the body.
- * Returns REFUSED if the shape is unbounded or too large for the spacing. */
+/* Computes the axes axis[dim] of the lattice that covers the whole shape of one body of d->scene. body: index of the
+ * body. Returns REFUSED, with a message, if the shape is unbounded or too large for the spacing. */
 static status lattice_axes(const struct particle_draft *d, int body, struct axis axis[DIM_MAX])
 {
     const struct scene *s = d->scene;
@@ -142,8 +144,8 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     return OK;
 }
 
-/* Counts in d->skipped a particle that is inside a body but not created, since coarse cells replace it, and extends the
- * bounding box d->low, d->high of these particles by the position place[dim] of the particle [m]. Returns OK. */
+/* Counts a particle that is inside a body but not created, because coarse cells replace it, in d->skipped. place[dim]:
+ * its position [m], by which the bounding box d->low, d->high of these particles is extended. Returns OK. */
 static status place_skip(struct particle_draft *d, const real *place)
 {
     for (int a = 0; a < d->scene->dim; a++) {
@@ -155,9 +157,9 @@ static status place_skip(struct particle_draft *d, const real *place)
 }
 
 /* Adds a particle to d, the list of particles to be created, if the lattice position place[dim] [m] is in the shape of
- * the body with the index `body`. The position is then shifted at random by up to half of `particles.irregularity`
- * spacings along each axis (Imachi et al. 2019, eq. 49). volume: volume of the particle [m^3]. Returns REFUSED if there
- * would be too many particles. */
+ * a body. The position is then shifted at random by up to half of `particles.irregularity` spacings along each axis
+ * (Imachi et al. 2019, eq. 49). body: index of the body; volume: volume of the particle [m^3]. Returns REFUSED, with a
+ * message, if there would be too many particles. */
 static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
@@ -170,8 +172,9 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
         d, X, volume, scene_material_at_position(s, &s->body[body], place, s->body[body].material), body);
 }
 
-/* Adds the particles of the lattice in the shape of the body with the index `body` to d, the list of particles to be
- * created, with x varying fastest. Returns REFUSED if the scene has no spacing or the shape does not fit it. */
+/* Adds the particles of the lattice in the shape of a body to d, the list of particles to be created, with x varying
+ * fastest. body: index of the body. Returns REFUSED, with a message, if the scene has no spacing or the shape does not
+ * fit it. */
 static status fill_lattice(struct particle_draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
@@ -202,8 +205,9 @@ status fill_compute_lattice_site_position(const struct scene *s, int body, real 
 
 /* ---- all ------------------------------------------------------------------------------------------------------- */
 
-/* Collects the particles of all bodies of d->scene in the draft d: from their lists, or from lattices in their shapes.
- * Returns REFUSED for a body without particles or with an invalid list or shape. */
+/* Collects the particles of all bodies of d->scene in d, the list of particles to be created: from particle lists, or
+ * from lattices in the shapes. Returns REFUSED, with a message, for a body without particles or with an invalid list or
+ * shape. */
 static status draft_make(struct particle_draft *d)
 {
     for (int body = 0; body < d->scene->bodies; body++) {
@@ -220,8 +224,8 @@ static status draft_make(struct particle_draft *d)
 /* Returns volume[i], the volume of particle i [m^3], as a term of reproducible_sum. volume: array of reals. */
 static real volume_term(const void *volume, int64_t i) { return ((const real *)volume)[i]; }
 
-/* Returns the spacing of the scene [m]. If the scene has none because all particles come from lists, returns the edge
- * of a square or cube of the mean particle volume. */
+/* Returns the spacing of the scene of d [m]. If the scene has none because all particles come from lists, returns the
+ * edge of a square or cube of the mean particle volume. */
 static real spacing_of(const struct particle_draft *d)
 {
     const struct scene *s = d->scene;
@@ -255,8 +259,8 @@ static void take_draft(struct particles *p, const struct particle_draft *d, int 
     }
 }
 
-/* If particles were left out (d->skipped), sets p->n_body to the number of particles including those left out, and
- * p->low, p->high to the bounding box of all of them [m]. */
+/* Sets p->n_body to the number of particles of d including those left out because coarse cells replace them
+ * (d->skipped). If there are any, sets p->low, p->high to the bounding box of all of them [m]. */
 static void take_skipped(struct particles *p, const struct particle_draft *d)
 {
     for (int a = 0; a < p->dim && d->skipped > 0; a++) {
@@ -266,9 +270,9 @@ static void take_skipped(struct particles *p, const struct particle_draft *d)
     p->n_body = p->n + d->skipped;
 }
 
-/* Returns REFUSED if a particle is farther than FILL_FARTHEST spacings from the origin or its mass is not a positive
- * finite number. d: list from which p was created, for the name of the body in the message; spacing: of the particles
- * [m]. */
+/* Returns REFUSED, with a message, if a particle of p is farther than FILL_FARTHEST spacings from the origin or its
+ * mass is not a positive finite number. d: list from which p was created, for the name of the body in the message;
+ * spacing: distance of particles [m]. */
 static status check_values(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -341,8 +345,8 @@ static status check_distances(const struct particles *p, const struct particle_d
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
 /* Returns the derivative of velocity component a of the initial state s along axis b at the position X[dim] [1/s], as a
- * central difference of the formula of the component over the length `spacing` [m]. Returns 0 if component a has no
- * formula, or if the formula has no finite value on both sides of X. */
+ * central difference of the component's formula over the length `spacing` [m]. Returns 0 if component a has no formula,
+ * or if the formula has no finite value on both sides of X. */
 static real start_slope(const struct scene_initial *s, int a, int b, const real *X, int dim, real spacing)
 {
     real before[DIM_MAX] = {0}, after[DIM_MAX] = {0};
@@ -355,9 +359,9 @@ static real start_slope(const struct scene_initial *s, int a, int b, const real 
     return isfinite(slope) ? slope : 0;
 }
 
-/* Sets the velocity of particle i to v = v0 f(X) + G arm and stores the velocity gradient G + grad f in particles that
- * have one (APIC). s: initial state with velocity v0, formulas f and gradient G [1/s]; X[dim]: position of the particle
- * [m]; arm[dim]: X minus the centre of s [m]; spacing: of the particles [m]. */
+/* Sets the velocity of particle i to v0 f(X) + G arm, and stores the velocity gradient G + grad f if particles have one
+ * (APIC). s: initial state with velocity v0, formulas f and gradient G [1/s]; X[dim]: position of the particle [m];
+ * arm[dim]: X minus the centre of s [m]; spacing: distance of particles [m]. */
 static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *X,
                            const real *arm, real spacing)
 {
@@ -397,8 +401,8 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
     p->volume[i] = p->volume0[i] * growth;
 }
 
-/* Adds the plane wave pulse w to the displacement, velocity, stress, stretch and volume of particle i (small strain).
- * m: material of the particle, for wave speed and stiffness; X[dim]: reference position of the particle [m]. */
+/* Adds the plane wave pulse w to velocity, position, stress, stretch and volume of particle i (small strain). m:
+ * material of the particle, for wave speed and stiffness; X[dim]: reference position of the particle [m]. */
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
@@ -422,8 +426,8 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
     p->volume[i] *= 1 + wave.strain * dot(along, moved, dim);
 }
 
-/* Returns REFUSED if the displacement gradient H of an initial state inverts the body: 1 + tr H <= 0, or a stretch 1 +
- * H_aa <= 0. */
+/* Returns REFUSED, with a message, if the displacement gradient H of an initial state of the scene s inverts the body:
+ * 1 + tr H <= 0, or a stretch 1 + H_aa <= 0. */
 static status check_initial(const struct scene *s, const struct scene_initial *initial)
 {
     real growth = 1;
@@ -439,8 +443,9 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
         status_set(REFUSED, "its displacement gradient turns the body inside out; use strains near 1e-3"));
 }
 
-/* Applies to particle i every initial state of the scene s whose body and region contain it, in the order of the scene.
- * spacing: of the particles [m]; a particle within ON_SURFACE spacings of the boundary of a region is inside. */
+/* Applies to particle i every initial state of the scene s whose body and region contain the particle, in the order of
+ * the scene. spacing: distance of particles [m]; a particle within ON_SURFACE spacings of the boundary of a region is
+ * inside. */
 static void start_particle(struct particles *p, int64_t i, const struct scene *s, real spacing)
 {
     const real tolerance = ON_SURFACE * spacing;

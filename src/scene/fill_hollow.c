@@ -4,8 +4,8 @@
 
 #define CLEARLY 1e-6 /* margin [cells]: positions closer to a surface are left to the fill */
 
-/* Returns true if all 2^dim particles that belong to cell I of the grid `box` are inside the shape, at least CLEARLY
- * cells from its boundary. */
+/* Returns true if all 2^dim particles that would belong to cell I of the grid `box` are inside the shape, at least
+ * CLEARLY cells from its boundary. */
 static bool cell_inside(const struct grid *box, const struct region *shape, int64_t I)
 {
     for (int c = 0; c < 1 << box->dim; c++) {

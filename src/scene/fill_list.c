@@ -50,14 +50,14 @@ static status refuse_material(const struct scene *s, const struct particle_list 
                       place, l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
 }
 
-/* Returns true if body k of the scene exists and takes its particles from the list in `file`. */
+/* Returns true if body number k of the scene s exists and takes its particles from the list in `file`. */
 static bool shares_file(const struct scene *s, int k, const char *file)
 {
     return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;
 }
 
-/* Finds the material of entry i of the particle list l, the one that the list gives or that of the body b if the list
- * has no materials, and stores its index in the scene s in *material. Returns REFUSED if the scene has no such
+/* Finds the material of entry i of the particle list l: that of the list, or that of the body b if the list has no
+ * materials. Stores its index in the scene s in *material. Returns REFUSED, with a message, if the scene has no such
  * material. */
 static status entry_material(const struct scene *s, const struct particle_list *l, const struct scene_body *b,
                              int64_t i, int *material)
@@ -113,9 +113,9 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     return OK;
 }
 
-/* Rounds the positions of the particles `first` .. d->n - 1 of the draft d to exact lattice sites, if they form a
- * lattice within the rounding of the decimals in their file, such that planes of symmetry of the scene are on sites or
- * midway between two sites. Changes nothing otherwise. */
+/* Rounds the positions of the particles `first` .. d->n - 1 in d (the list of particles to be created) to exact lattice
+ * sites, if they form a lattice within the rounding of the decimals in their file, such that planes of symmetry of the
+ * scene are on sites or midway between two sites. Changes nothing otherwise. */
 static void take_lattice(struct particle_draft *d, int64_t first)
 {
     const struct scene *s = d->scene;

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* Number of particles up to which the list of a body is not checked: such bodies are mass points, placed one by one,
+/* Number of particles up to which the list of a body is not checked: such bodies are mass points, placed individually,
  * without neighbours. */
 enum { FEW = 7 };
 /* Number of particles sampled per body. Each is compared with all particles of the body. Shares that are estimated
@@ -21,18 +21,19 @@ enum { LOOKED_AT = 128 };
  * of one particle are fewer than the particles of the fragments they broke off, and particles placed at random at the
  * density of the spacing leave 2 % without a neighbour on a line, and one in 1e5 in 2D and 3D. */
 #define LONE_MOST 0.5
-/* Least median distance of nearest neighbours [spacings]; a list with a smaller one is refused. Units differ by factors
- * of 10 and more, the finest and the coarsest parts of a graded body rarely by more than 4. */
+/* Least median distance of nearest neighbours in a particle list [spacings]; a list with a smaller distance is refused.
+ * Units differ by factors of 10 and more, the finest and the coarsest parts of a graded body rarely by more than 4. */
 #define CLOSE_LEAST (1.0 / 6)
 /* Largest factor between the median particle volume and the volume of a cell whose edge is the distance of the nearest
- * neighbour [1]; a list with a larger factor is refused. In another unit the two differ by 1e3 and more; for particles
- * at random positions by 2 on a line, 4 in the plane and 6 in space. */
+ * neighbour [1]; a particle list with a larger factor is refused. In another unit the two volumes differ by 1e3 and
+ * more; for particles at random positions by 2 on a line, 4 in the plane and 6 in space. */
 #define VOLUME_MOST 100.0
 #define CROWDED 0.5     /* nearest neighbours closer than this: memory of bonds is estimated first [spacings] */
 #define ONE_PLACE 1e-9  /* least distance of two positions [longest edge of the body]; refused in fill.c */
 #define REACH_LEAST 1.5 /* least reach of a material point, for cells of at most one spacing [spacings] */
 
-/* The particles of one body, packed. */
+/* The n particles of one body, stored together, while their list is checked. p, s, body: all particles, the scene,
+ * index of the body. */
 struct crowd {
     const struct particles *p;
     const struct scene *s;
@@ -43,7 +44,7 @@ struct crowd {
     real one_place;            /* distance below which positions count as one [m] */
 };
 
-/* Statistics of a sample of the particles of a body, which show whether its list has the right unit. */
+/* Statistics of a sample of the particles of a body, which show whether the body's list has the right unit. */
 struct verdict {
     real lone;   /* share without a neighbour                          [1]     */
     real apart;  /* median distance of the nearest other position    [m] */
@@ -51,8 +52,8 @@ struct verdict {
     real filled; /* median volume over space up to the nearest [1]             */
 };
 
-/* Copies the positions and volumes of the particles of body c->body to new arrays c->X and c->volume. Sets their number
- * c->n, and c->one_place, the distance below which positions count as equal [m]. */
+/* Copies positions and volumes of the particles of body c->body to new arrays c->X and c->volume, which the caller
+ * frees. Sets their number c->n, and c->one_place, the distance below which positions count as equal [m]. */
 static void crowd_take(struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -76,9 +77,9 @@ static void crowd_take(struct crowd *c)
     c->one_place = ONE_PLACE * longest;
 }
 
-/* Returns the square of the distance from X[dim] [m] to the nearest of n other particles that is not at X itself [m^2];
- * INFINITY if there is none. others: coordinates of the particles [dim][n, m]. *within: receives the number of these
- * particles within c->reach of X, including one at X. */
+/* Returns the square of the distance from X[dim] [m] to the nearest of n particles that is not at X itself [m^2];
+ * INFINITY if there is none. c: distances that count as neighbour and as equal; others[dim][n]: coordinates of the
+ * particles [m]. *within: receives the number of these particles within c->reach of X, including one at X. */
 static real nearest_of(const struct crowd *c, real *const *others, int64_t n, const real *X, int64_t *within)
 {
     const real reach2 = square(c->reach), place2 = square(c->one_place);
@@ -98,9 +99,9 @@ static real nearest_of(const struct crowd *c, real *const *others, int64_t n, co
 }
 
 /* Returns statistics of the body in c (distances of particles and numbers of neighbours) from a sample of at most
- * LOOKED_AT particles. The sample is spread over the list by a Weyl sequence of the golden ratio, so that a pattern in
- * the order of the list does not matter. Particles of other bodies count as neighbours unless the whole scene is
- * peridynamic, because bonds do not join bodies. */
+ * LOOKED_AT particles, by which its particle list is judged. The sample is spread over the list by a Weyl sequence of
+ * the golden ratio, so that a pattern in the order of the list does not matter. Particles of other bodies count as
+ * neighbours unless the whole scene is peridynamic, because bonds do not join bodies. */
 static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -127,8 +128,8 @@ static struct verdict crowd_look(const struct crowd *c)
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
 /* Returns a guess of the unit of length of a particle list as text for a message, such as " (is it in mm?)"; "" if
- * there is none. ratio: a length in the list divided by its expected value, such as 1e3 for mm; by_volume: this ratio
- * as computed from the volumes in the list, NAN without volumes. If `ratio` suits both cm and mm, by_volume decides;
+ * there is none. ratio: a length in the list divided by its expected value, such as 1e3 for mm; by_volume: the same
+ * ratio computed from the volumes in the list, NAN without volumes. If `ratio` suits both cm and mm, by_volume decides;
  * without it the text names both. */
 static const char *unit_guess(real ratio, real by_volume)
 {

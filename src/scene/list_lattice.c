@@ -14,7 +14,8 @@
 #define FARTHEST 1e6         /* largest distance of a site from the first [spacings] */
 enum { BODIES = 256 };
 
-/* A lattice site and its body. Sites are sorted by body, then by the position along the last axis, and along x last. */
+/* A lattice site: integer position at[], in spacings from the first particle of the body, and index of its body. Sites
+ * are sorted by body, then by the position along the last axis, and along x last. */
 struct site {
     int32_t body, at[DIM_MAX];
 };
@@ -31,7 +32,7 @@ static int site_order(const void *a, const void *b)
 static int list_body(const struct particle_list *l, int64_t i) { return l->body ? (int)l->body[i] : 0; }
 
 /* Sorts site[n], the lattice sites of the particles of a list, by body and position. Returns true if at least the share
- * NEIGHBOURS_LEAST of the particles has a neighbour one spacing away along x, so that the sites form a lattice. */
+ * NEIGHBOURS_LEAST of the particles has a neighbour one spacing away along x, so that the sites count as a lattice. */
 static bool sites_dense(struct site *site, int64_t n)
 {
     int64_t beside = 0;

@@ -20,7 +20,7 @@
 
 /* ---- HDF5 -------------------------------------------------------------------------------------------------------- */
 
-/* A dataset of HDF5 as columns of numbers. */
+/* A dataset of an HDF5 file as a table of numbers. */
 struct table {
     int64_t rows, columns;
     real *value; /* row major */
@@ -48,8 +48,8 @@ static bool table_shape(hid_t set, struct table *t)
  * memory that a small file can claim. */
 enum { ROWS_PER_BYTE_MOST = 1024 };
 
-/* Returns REFUSED if the dataset `name` of the file `path` claims more rows, t->rows, than a file of its size can
- * contain or than the memory allows. */
+/* Checks that the dataset `name` of the file `path` claims no more rows, t->rows, than a file of its size can contain
+ * and than the memory allows. Returns REFUSED, with a message, if it does. */
 static status table_check(const struct table *t, const char *path, const char *name)
 {
     struct stat about;
@@ -89,8 +89,8 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     return status_set(REFUSED, "%s: %s: cannot be read as one list of numbers", path, name);
 }
 
-/* Copies column k of the table t, converted to SI units, to a new array for the column `column` (COLUMN_*) of the list
- * l. path: name of the file, for messages. Returns REFUSED for an invalid value. */
+/* Copies column k of the table t, converted to SI units, to a new array of the list l. column: quantity in the list
+ * (COLUMN_*); path: name of the file, for messages. Returns REFUSED, with a message, for an invalid value. */
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {
     real *array = NEW("list.column", l->n, real);
@@ -171,7 +171,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
 
 /* ---- choice of the format ---------------------------------------------------------------------------------------- */
 
-/* Returns true if `path` ends with the text `ending` and has further characters before it. Capitals are equal to small
+/* Returns true if `path` ends with the text `ending` and has further characters before it. Capitals count as small
  * letters. */
 static bool ends_with(const char *path, const char *ending)
 {

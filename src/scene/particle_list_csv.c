@@ -21,8 +21,8 @@ struct csv {
     int64_t room;
 };
 
-/* Returns k if `name` is `vector:k` or `vector_k`, the two forms in which ParaView writes component k of a vector; -1
- * for other names. Capitals are equal to small letters. */
+/* Returns k (0 to DIM_MAX - 1) if `name` is `vector:k` or `vector_k`, the two forms in which ParaView writes component
+ * k of a vector; -1 for other names. Capitals count as small letters. */
 static int component_named(const char *name, const char *vector)
 {
     const size_t length = strlen(vector);
@@ -53,8 +53,8 @@ static int column_named(const char *name, int dim)
 }
 
 /* Decides by its unit whether a column called `weight` is a mass or a volume. Sets *column to COLUMN_MASS or
- * COLUMN_VOLUME. name, unit: the two parts of the column name in the current line of c. Returns REFUSED for another
- * unit. */
+ * COLUMN_VOLUME. name, unit: the two parts of the column name in the current line of c. Returns REFUSED, with a
+ * message, for another unit or none. */
 static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
 {
     char what[160];
@@ -65,8 +65,8 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
 }
 
 /* Appends a column to c->column. name: its name with unit, such as `x [mm]`, which is modified; has[COLUMNS]: true for
- * the list columns that were named before. A column with an unknown name is noted in l->head and ignored. Returns
- * REFUSED if a column is named twice or its unit is of another quantity. */
+ * the list columns that were named before, updated. A column with an unknown name is noted in l->head and ignored.
+ * Returns REFUSED, with a message, if a column is named twice or its unit is of another quantity. */
 static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
 {
     char what[160];
@@ -143,7 +143,7 @@ static void header_bare(char *text)
     for (text += sizeof word - 1; *text == '\t' || *text == ' '; text++) *text = ' ';
 }
 
-/* Returns true if a line has neither commas nor semicolons, so that tabs and blanks separate its fields. */
+/* Returns true if a line has neither commas nor semicolons, so that tabs or blanks separate its fields. */
 static bool line_of_blanks(const char *text) { return !strpbrk(text, ",;"); }
 
 static void tabs_to_blanks(char *text)
@@ -152,8 +152,8 @@ static void tabs_to_blanks(char *text)
         if (*text == '\t') *text = ' ';
 }
 
-/* Returns the number of names in the header line `names`. *all: receives true if all `dim` coordinates are among
- * them. */
+/* Returns the number of names in the header line `names`. dim: coordinates per position; *all: receives true if all
+ * `dim` coordinates are among the names. */
 static int header_count(const char *names, int dim, bool *all)
 {
     struct csv trial = {0};
@@ -171,7 +171,8 @@ static int header_count(const char *names, int dim, bool *all)
     return n;
 }
 
-/* Returns true if a comment line is a header: it names all `dim` coordinates, separated by tabs or by blanks. */
+/* Returns true if a comment line of a CSV file is a header: it names all `dim` coordinates, separated by tabs or by
+ * blanks. */
 static bool comment_names(const char *comment, int dim)
 {
     char blank[CSV_LINE_LENGTH];
@@ -200,7 +201,7 @@ static void header_unify(char *names, const char *entry, int dim)
     if (header_count(blank, dim, &all) == n && all) strcpy(names, blank);
 }
 
-/* Returns true if the first field of a line is a number. */
+/* Returns true if the first field of the line `text` is a number. */
 static bool line_of_numbers(const char *text)
 {
     char *end;
@@ -208,7 +209,8 @@ static bool line_of_numbers(const char *text)
     return end != text && strchr(" \t,;\r\n", *end);
 }
 
-/* Returns true if a line is five numbers separated by blanks, an entry of a Peridigm text mesh without names. */
+/* Returns true if the line `text` consists of five numbers separated by blanks, an entry of a Peridigm text mesh
+ * without column names. */
 static bool line_of_mesh(const char *text)
 {
     int n = 0;
@@ -234,8 +236,9 @@ static status header_elsewhere(struct csv *c, struct particle_list *l, const cha
     return OK;
 }
 
-/* Reads the column names from the current line, which contains tabs. Reads the next line, the first entry, too, since
- * its number of values shows whether blanks separate names as well. Returns REFUSED for invalid names. */
+/* Reads the column names of the list l from the current line of c, which contains tabs. Reads the next line, the first
+ * entry, too, since its number of values shows whether blanks separate names as well. Returns REFUSED, with a message,
+ * for invalid names. */
 static status header_of_tabs(struct csv *c, struct particle_list *l)
 {
     char names[CSV_LINE_LENGTH];
@@ -250,7 +253,8 @@ static status header_of_tabs(struct csv *c, struct particle_list *l)
 
 /* Reads the column names of a CSV file. They are in the first line that is not a comment or, if this line has numbers,
  * in the first comment before it that names all coordinates. Without names, a line of five numbers is read as a
- * Peridigm text mesh. Returns REFUSED for an empty file, and if there are neither names nor such a line. */
+ * Peridigm text mesh. Returns REFUSED, with a message, for an empty file, and if there are neither names nor such a
+ * line. */
 static status csv_header(struct csv *c, struct particle_list *l)
 {
     static const char mesh[] = "x y z block_id volume";
@@ -297,7 +301,7 @@ static status csv_header_given(struct csv *c, struct particle_list *l)
 }
 
 /* Provides memory in the arrays of the list l for one more entry, doubling their length c->room if it is used up.
- * Returns REFUSED if the memory does not allow it. */
+ * Returns REFUSED, with a message, if the memory does not allow it. */
 static status csv_grow(struct csv *c, struct particle_list *l)
 {
     if (l->n < c->room) return OK;
@@ -314,8 +318,9 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Stores the material name `field` in l->name unless it is there, and sets *value to -1 minus its index; negative
- * values thus distinguish names from material numbers. Returns REFUSED for too many or too long names. */
+/* Stores the material name `field` in l->name unless it is there, and sets *value to -1 minus its index, so that
+ * negative values distinguish names from material numbers. Returns REFUSED, with a message, for too many or too long
+ * names. */
 static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
 {
     int k = 0;

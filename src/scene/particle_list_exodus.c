@@ -6,7 +6,7 @@
 #include "geometry/exodus_file.h"
 #include "particle_list_parts.h"
 
-/* An Exodus file while its particles are read. */
+/* An Exodus file while its particles are read into the list l. */
 struct exodus_list {
     struct exodus_file file;
     struct particle_list *l;
@@ -14,8 +14,8 @@ struct exodus_list {
     bool volumes;        /* all blocks have volumes */
 };
 
-/* Returns the position of the attribute `volume` among the n attributes of block `number` (counted from 1); -1 if there
- * is none. Of two attributes without names, the first is the radius and the second the volume. */
+/* Returns the index of the attribute `volume` among the n attributes of block `number` (counted from 1) of the file f;
+ * -1 if there is none. Of two attributes without names, the first is the radius and the second the volume. */
 static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_t n)
 {
     char name[NAME_MAX_LENGTH];
@@ -40,8 +40,9 @@ static status value_take(struct exodus_list *x, int column, int64_t entry, real 
     return OK;
 }
 
-/* Appends the elements of block `number` (counted from 1) to the list, one particle at the node of each. Returns
- * REFUSED for elements with several nodes, invalid node numbers or values, and if only some blocks have volumes. */
+/* Appends the elements of block `number` (counted from 1) to the list x->l, one particle at the node of each. Returns
+ * REFUSED, with a message, for elements with several nodes, invalid node numbers or values, and if only some blocks
+ * have volumes. */
 static status block_read(struct exodus_list *x, int64_t number)
 {
     char type[NAME_MAX_LENGTH];

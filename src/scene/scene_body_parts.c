@@ -43,7 +43,7 @@ const struct material *scene_material_of_number(const struct scene *s, int numbe
     return NULL;
 }
 
-/* Returns true if a body of the scene can consist of material number `material`. */
+/* Returns true if a body of the scene s can consist of material number `material`. */
 static bool material_is_used(const struct scene *s, int material)
 {
     bool used = false;
@@ -51,7 +51,8 @@ static bool material_is_used(const struct scene *s, int material)
     return used;
 }
 
-/* Moves material number `unused` behind the last one that counts, and numbers those behind it anew in all bodies. */
+/* Moves material number `unused` behind the materials that count, which are s->materials fewer by one, and renumbers
+ * the materials between in all bodies of the scene s. */
 static void material_set_aside(struct scene *s, int unused)
 {
     const struct material own = s->material[unused];

@@ -15,8 +15,8 @@ static const struct yaml_node *scene_check_below(const struct yaml_node *root, c
     return yaml_node_find(yaml_node_find(root, group), leaf);
 }
 
-/* Returns REFUSED if `thickness` is missing in a plane space or given in another one, or if `section` is given
- * outside space line. In spaces without a thickness, sets it to 1. root: tree of the scene. */
+/* Returns REFUSED, with a message, if `thickness` is missing in a plane space or given in another one, or if `section`
+ * is given outside space line. In spaces without a thickness, sets it to 1. root: tree of the scene. */
 static status check_measure(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -40,9 +40,9 @@ static real longest_side(const real *from, const real *to, int dim)
  * position is inside takes 5 us. */
 #define PLACES_OF_FILES 1e8
 
-/* Returns REFUSED if the bodies of the scene would have more than 2e9 particles, the limit of 32-bit indices and of
- * memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions. Numbers of
- * particles are estimated from bounding boxes. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED, with a message, if the bodies of the scene would have more than 2e9 particles, the limit of 32-bit
+ * indices and of memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions.
+ * Numbers of particles are estimated from bounding boxes. root: tree of the scene, for the location in the message. */
 status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -119,7 +119,7 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
 }
 
 /* Returns REFUSED for loads that other keys of the scene exclude: pressures on particles at irregular (randomly
- * shifted) positions; with static solvers, pressures that follow the surface, rotations, and velocities by formula,
+ * shifted) positions; with static solvers, pressures that follow the surface, rotations, and velocities by a formula
  * whose displacement is unknown. root: tree of the scene, for the location in the message. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
 {
@@ -149,8 +149,8 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if the scene gives a time step with which the run would take more than 1e12 steps. root: tree of
- * the scene. */
+/* Returns REFUSED if the scene gives a time step with which the run would take more than 1e12 steps. root: tree of the
+ * scene, for the location in the message. */
 static status check_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -160,8 +160,8 @@ static status check_steps(struct reader *r, const struct yaml_node *root)
                  node_text(r, step), s->duration / s->time_step);
 }
 
-/* Returns REFUSED if mpm.origin is more than FILL_FARTHEST spacings from 0, where particles may not be either. root:
- * tree of the scene. */
+/* Returns REFUSED if mpm.origin, a node of the grid, is more than FILL_FARTHEST spacings from 0; particles must not be
+ * there either. root: tree of the scene, for the location in the message. */
 static status check_origin(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -174,7 +174,8 @@ static status check_origin(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if mpm.transfer is given as apic and the shape functions are linear. root: tree of the scene. */
+/* Returns REFUSED if mpm.transfer is given as apic and the shape functions are linear, which is unstable. root: tree of
+ * the scene, for the location in the message. */
 static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
@@ -185,10 +186,10 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
 }
 
 /* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
- * Crack lengths and most crack angles are equal at both. In a scene in which two crack paths are nearly equivalent, the
- * path can change above 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and taylor_bar loses 0.09 %
- * of its energy instead of 0.04 %. Only bars shorter than two diameters are more accurate at 0.5, for which
- * say_flow_error prints a remark. root: tree of the scene, to see whether the key is given. */
+ * Crack lengths and most crack angles are equal at both values. In a scene in which two crack paths are nearly
+ * equivalent, the path can change above 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and
+ * taylor_bar loses 0.09 % of its energy instead of 0.04 %. Only bars shorter than two diameters are more accurate at
+ * 0.5, for which say_flow_error prints a remark. root: tree of the scene, to see whether the key is given. */
 void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -221,11 +222,12 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
     return OK;
 }
 
-/* Returns the default of pd.surface, the rule by which bonds near surfaces are corrected. The correction is needed only
- * with `method: pd`, since only then bonds fill whole bodies up to their surfaces; state-based families with a given
- * normalisation are corrected already. Scenes in load steps with growing cracks use the rule that ignores pre-cracks,
- * because surfaces of a growing crack get no weights and the loads of pre-crack and grown crack are compared (`cleave
- * bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5 %). root: tree of the scene. */
+/* Returns the default of pd.surface, the rule by which bonds near surfaces are corrected, for the scene s. The
+ * correction is needed only with `method: pd`, since only then bonds fill whole bodies up to their surfaces;
+ * state-based families with a given normalisation are corrected already. Scenes in load steps with growing cracks use
+ * the rule that ignores pre-cracks, because surfaces of a growing crack get no weights and the loads of pre-crack and
+ * grown crack are compared (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5 %).
+ * root: tree of the scene. */
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
@@ -238,7 +240,8 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
 }
 
 /* Sets the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (whether bonds are
- * normalised by a full family or by each particle's own). root: tree of the scene, to see which keys are given. */
+ * normalised by a full family or by the family of each particle). root: tree of the scene, to see which keys are
+ * given. */
 static void resolve_surface(struct scene *s, const struct yaml_node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
@@ -246,7 +249,7 @@ static void resolve_surface(struct scene *s, const struct yaml_node *root)
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 
-/* Returns true if two lists of particles are read alike: with the same unit and the same column names. */
+/* Returns true if the forms a and b of two particle lists agree: the same unit and the same column names. */
 static bool list_forms_agree(const struct particle_list_form *a, const struct particle_list_form *b)
 {
     if (!reals_are_bitwise_equal(a->scale, b->scale) || !a->columns != !b->columns) return false;
@@ -305,8 +308,8 @@ static bool body_yields(const struct scene *s, int body)
     return false;
 }
 
-/* Returns the reason why a body cannot use the reference frame, as part of a message; NULL if it can. body: index in
- * the scene. */
+/* Returns the reason why a body cannot use the reference frame (a mesh of the undeformed body), as part of a message;
+ * NULL if it can. body: index in the scene. */
 const char *scene_why_reference_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
@@ -363,10 +366,10 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s)
     return any && scene_is_dynamic(s) && s->method == METHOD_MPM;
 }
 
-/* Sets the frame of bodies with `frame: auto` to `current` if keys of the scene require the current frame. If no body
- * then has the frame `auto`, marks the keys mpm.shape, mpm.transfer and interface_damping as given, so that
- * scene_echo.c writes them. While a body has the frame `auto` they must not be written: these keys have a meaning in
- * the current frame only, and a scene that gives them requires it. */
+/* Chooses the frame of bodies with `frame: auto` that cannot use the reference frame or whose scene gives keys of the
+ * current frame: they get `current`, with the reason. If no body then has the frame `auto`, marks the keys mpm.shape,
+ * mpm.transfer and interface_damping as given, so that scene_echo.c writes them. While a body has the frame `auto` they
+ * must not be written: these keys have a meaning in the current frame only, and a scene that gives them requires it. */
 void resolve_automatic_frames_of_bodies(struct scene *s)
 {
     bool open = false;
@@ -387,8 +390,8 @@ void resolve_automatic_frames_of_bodies(struct scene *s)
 }
 
 /* Sets s->frames, the number of output frames, from output.every or output.times; times beyond the duration are
- * omitted. root: tree of the scene. Returns REFUSED if two of output.every, output.times and output.frames are given,
- * or if there are more than FRAMES_MOST frames. */
+ * omitted. root: tree of the scene. Returns REFUSED, with a message, if two of output.every, output.times and
+ * output.frames are given, or if there are more than FRAMES_MOST frames. */
 static status check_times(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;

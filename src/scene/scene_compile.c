@@ -10,7 +10,7 @@ enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
-/* Returns the number, from 1, of the UTF-8 character at `character`, a position inside c->text. */
+/* Returns the number, from 1, of the UTF-8 character at `character`, a pointer into c->text, for messages. */
 int compile_character_number(const struct compile *c, const char *character)
 {
     int characters = 1;
@@ -43,8 +43,8 @@ bool quantity_is_dimensionless(const struct quantity *q) { return same_unit(q, &
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
-/* Appends a step to the compiled expression: the operation `op`, with the number `value` if it pushes a number. Returns
- * false, with a message in c->what, if the expression has too many steps. */
+/* Appends a step to the compiled expression c: the operation `op`, with the number `value` if it pushes a number.
+ * Returns false, with a message in c->what, if the expression has too many steps. */
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
@@ -88,12 +88,12 @@ bool compile_append_operation(struct compile *c, enum expression_op operation, c
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
-/* Returns true if an operand is a constant 0 written without a unit, which is compatible with every unit. */
+/* Returns true if the operand o is a constant 0 written without a unit, which is compatible with every unit. */
 static bool is_nothing(const struct operand *o) { return o->constant && o->q.bare && o->q.value == 0; }
 
-/* Checks that the two topmost operands have the same unit. A 0 without a unit gets the unit of the other operand. If
- * the units differ, returns false with a message in c that names the operation `operation_name` at position
- * `operator_in_text` of c->text. */
+/* Checks that the two topmost operands have the same unit; a 0 without a unit gets the unit of the other operand.
+ * Returns true if they do. If the units differ, returns false with a message in c that names the operation
+ * `operation_name` at position `operator_in_text` of c->text. */
 bool compile_match_units_of_top_operands(struct compile *c, const char *operation_name, const char *operator_in_text)
 {
     struct quantity *a = &compile_operand_from_top(c, 1)->q, *b = &compile_operand_from_top(c, 0)->q;
@@ -139,9 +139,9 @@ bool compile_append_product_or_quotient(struct compile *c, char sign, const char
            compile_append_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
-/* Raises *unit to the power `power`: multiplies the exponents of m, kg and s by it. place: number of the operator's
- * character in the text, for the message. Returns false, with a message in c, if an exponent becomes neither whole nor
- * half, or too large. */
+/* Raises *unit to the power `power`: multiplies the exponents of m, kg and s by the power. place: number of the
+ * operator's character in the text, for the message. Returns false, with a message in c, if an exponent becomes neither
+ * whole nor half, or too large. */
 static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {

@@ -41,8 +41,8 @@ static void write_matrix(struct writer *w, const real *value)
     fputc(']', w->out);
 }
 
-/* Decodes the UTF-8 character at c and stores its code point in *code. An invalid byte counts as one character with the
- * value of the byte. Returns the number of bytes of the character. */
+/* Decodes the UTF-8 character at c and stores its code point in *code. Returns the number of bytes of the character. An
+ * invalid byte counts as one character with the value of the byte. */
 static int letter_of(const unsigned char *c, unsigned *code)
 {
     int more = *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
@@ -57,8 +57,8 @@ static int letter_of(const unsigned char *c, unsigned *code)
     return more + 1;
 }
 
-/* Writes a text in double quotes, as a YAML scalar. Quotes and backslashes are escaped; characters other than printable
- * ASCII become \U escapes. */
+/* Writes `text` in double quotes to w, as a YAML scalar. Quotes and backslashes are escaped; characters other than
+ * printable ASCII become \U escapes. */
 void yaml_write_quoted_text(struct writer *w, const char *text)
 {
     fputc('"', w->out);
@@ -89,7 +89,7 @@ static void write_choice(struct writer *w, const struct key *k, const void *plac
     write_word(w, k->words, word);
 }
 
-/* Writes the words of key k whose bits are set in `bits` as a YAML list; `none` if no bit is set. */
+/* Writes the words of key k whose bits are set in `bits` to w as a YAML list; `none` if no bit is set. */
 static void write_set(struct writer *w, const struct key *k, unsigned bits)
 {
     const char *between = "[";
@@ -159,7 +159,7 @@ void yaml_write_value(struct writer *w, const struct key *k, const void *value_a
     }
 }
 
-/* Returns true if the key k is written to scene.yaml: it has a type that the table of keys can write, and its value,
+/* Returns true if scene.yaml contains the key k: the key has a type that the table of keys can write, and its value,
  * given or by default, is not empty. base: the structure of the key's group; place: address of the value in it. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
@@ -192,8 +192,8 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-/* Writes the list output.regions: the regions for which the run writes additional output frames, at intervals of their
- * own. */
+/* Writes the list output.regions to w: the regions for which the run writes additional output frames, at intervals of
+ * their own. */
 static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -233,7 +233,7 @@ void yaml_write_keys_of_group(struct writer *w, const char *group_path, const vo
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-/* Begins an item of a YAML list: sets the indent, and makes writer_begin_key write a dash before the item's first
+/* Begins an item of a YAML list: sets the indent of w, and makes writer_begin_key write a dash before the item's first
  * key. */
 void writer_begin_list_item(struct writer *w)
 {
@@ -252,7 +252,7 @@ void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *
     w->indent -= 2;
 }
 
-/* Writes the key `table` with the pairs x[k], y[k], k = 0 .. points - 1. units: units of x and y, written as a
+/* Writes the key `table` with the pairs x[k], y[k], k = 0 .. points - 1, to w. units: units of x and y, written as a
  * comment. */
 static void write_pairs(struct writer *w, const real *x, const real *y, int points, const char *units)
 {
@@ -264,7 +264,7 @@ static void write_pairs(struct writer *w, const real *x, const real *y, int poin
     fprintf(w->out, "]  # %s\n", units);
 }
 
-/* Writes the flow law and the kinematic hardening of a material that yields. Linear hardening that the key
+/* Writes the flow law and the kinematic hardening of the material m to w, if m yields. Linear hardening that the key
  * yield_tangent gives is not written here. */
 static void write_material_law(struct writer *w, const struct material *m)
 {
@@ -288,7 +288,7 @@ static void write_material_law(struct writer *w, const struct material *m)
     if (law->kinematic.modulus > 0) yaml_write_group_as_mapping(w, "kinematic", "material.kinematic", law);
 }
 
-/* Writes the key `rate` of a material, the table by which its tensile strength grows with the strain rate. Writes
+/* Writes the key `rate` of a material to w, the table by which its tensile strength grows with the strain rate. Writes
  * nothing if the strength does not depend on the rate. */
 static void write_rate(struct writer *w, const struct strength_rate *rate)
 {
@@ -300,7 +300,7 @@ static void write_rate(struct writer *w, const struct strength_rate *rate)
     w->indent -= 2;
 }
 
-/* Writes `material` for a single material, else the list `materials`. */
+/* Writes the materials of the scene to w: the key `material` for a single one, else the list `materials`. */
 static void write_materials(struct writer *w)
 {
     const struct scene *s = w->scene;

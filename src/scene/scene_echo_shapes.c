@@ -6,8 +6,8 @@
 #include "scene/shape_file.h"
 #include "scene_echo.h"
 
-/* Returns the file of the scene s from which the surface or the voxels of a solid were read, or NULL if they are
- * from no file. *set: receives the name of the part of a mesh that forms the solid; NULL if the whole mesh does. */
+/* Returns the file of the scene s from which the surface or the voxels of a solid were read, or NULL if they are from
+ * no file. *set: receives the name of the part of a mesh that forms the solid, or NULL if the whole mesh does. */
 static const struct shape_file *shape_of(const struct scene *s, const struct solid *solid, const char **set)
 {
     *set = NULL;

@@ -11,14 +11,15 @@ static bool is_vector(const struct key *k)
     return k->type == KEY_POINT || (k->type == KEY_HAND && k->words && strncmp(k->words, "list of number", 14) == 0);
 }
 
-/* Returns true if the table of keys suffices to write an example of a value of key k that is no mapping or list. */
+/* Returns true if an example of a value of key k can be written from the table of keys alone and is a scalar or a
+ * vector, no mapping. */
 static bool has_plain_example(const struct key *k)
 {
     return k->type == KEY_REAL || k->type == KEY_INT || k->type == KEY_FLAG || k->type == KEY_CHOICE || is_vector(k);
 }
 
-/* Writes an example of a number of key k to text[capacity]: its default, the example of its unit, or the smallest
- * value. */
+/* Writes an example of a number of key k to text[capacity]: the default of the key, the example of its unit, or its
+ * smallest value. */
 static void write_example_number(const struct key *k, char *text, size_t capacity)
 {
     char least[32];
@@ -30,7 +31,8 @@ static void write_example_number(const struct key *k, char *text, size_t capacit
         snprintf(text, capacity, "%s", k->type == KEY_INT ? "20" : unit_rows[k->unit].example);
 }
 
-/* Writes a list of dim numbers of key k to text[capacity]. All but the first are 0 where the key allows it. */
+/* Writes a list of dim numbers, an example of a value of key k, to text[capacity]. All but the first are 0 where the
+ * key allows 0. */
 static void write_example_vector(const struct key *k, int dim, char *text, size_t capacity)
 {
     char number[48];
@@ -58,8 +60,8 @@ static const struct key *key_for_example(const char *group_path, const char *wan
     return plain ? plain : first;
 }
 
-/* Writes an example of a value of key k that has none of the types above to text[capacity]: solids, or the form that
- * the table of keys describes in words. */
+/* Writes an example of a value of key k, a key that is neither number, vector, word nor mapping, to text[capacity]:
+ * solids, or the form that the table of keys describes in words. */
 static void write_form(const struct key *k, char *text, size_t capacity)
 {
     const char *words = k->words ? k->words : "", *pair = strchr(words, '[');

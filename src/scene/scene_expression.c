@@ -10,8 +10,8 @@
 enum { DEPTH_MOST = 24, NAME_MOST = 40 };
 
 /* Rules by which the unit of a function's value follows from its operands. PLAIN: operands and value have no unit.
- * KEEPS: the unit of the operand. ROOT: its square root. FORGETS: no unit, from any unit. SAME: the unit that all
- * operands must have. ANGLE: no unit, from two equal units. */
+ * KEEPS: unit of the operand. ROOT: square root of the operand's unit. FORGETS: no unit, whatever the unit of the
+ * operand. SAME: the unit that all operands must have. ANGLE: no unit, from two operands of equal units. */
 enum rule { PLAIN, KEEPS, ROOT, FORGETS, SAME, ANGLE };
 struct function {
     const char *name;
@@ -45,14 +45,14 @@ static const struct function functions[] = {
 
 /* ---- text -------------------------------------------------------------------------------------------------------- */
 
-/* Advances c->at, the position of the next character to compile, over blanks. */
+/* Advances c->at, the position of the next character to compile, beyond blanks. */
 static void skip(struct compile *c)
 {
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\n') c->at++;
 }
 
-/* Appends `length` characters of `text` to c->kept, the text of the expression that scene.yaml contains. Returns
- * false, with a message in c, if c->kept becomes too long. */
+/* Appends the first `length` characters of `text` to c->kept, the text of the expression that scene.yaml contains.
+ * Returns false, with a message in c, if c->kept becomes too long. */
 static bool keep(struct compile *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT)
@@ -63,8 +63,8 @@ static bool keep(struct compile *c, const char *text, size_t length)
     return true;
 }
 
-/* Appends the source text from c->copied (the end of what is copied already) to `here` to c->kept. Returns false,
- * with a message in c, if c->kept becomes too long. */
+/* Appends the source text from c->copied, the end of what is copied already, up to `here` to c->kept, the text for
+ * scene.yaml. Returns false, with a message in c, if c->kept becomes too long. */
 static bool keep_to(struct compile *c, const char *here)
 {
     const char *from = c->copied;
@@ -72,8 +72,9 @@ static bool keep_to(struct compile *c, const char *here)
     return keep(c, from, (size_t)(here - from));
 }
 
-/* Appends the value q of a variable, in brackets, to c->kept in place of its name. word: beginning of the name in
- * the source text, which ends at c->at. Returns false, with a message in c, if c->kept becomes too long. */
+/* Appends the value q of a variable, in brackets, to c->kept (the text for scene.yaml) in place of its name. word:
+ * beginning of the name in the source text; the name ends at c->at. Returns false, with a message in c, if c->kept
+ * becomes too long. */
 static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];
@@ -84,7 +85,7 @@ static bool keep_value(struct compile *c, const char *word, const struct quantit
     return keep(c, text, strlen(text));
 }
 
-/* Returns the length of the name at the beginning of a text: letters, digits and _, no digit first; 0 if there is
+/* Returns the length of the name at the beginning of the text c: letters, digits and _, no digit first; 0 if there is
  * none. */
 static size_t name_length(const char *c)
 {
@@ -93,8 +94,8 @@ static size_t name_length(const char *c)
     return n;
 }
 
-/* Writes the message that `expected` was expected at c->at, where the text ends or continues otherwise. Returns
- * false. */
+/* Writes the message that `expected` was expected at c->at, where the text ends or continues otherwise, to c->what.
+ * Returns false. */
 static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
@@ -151,8 +152,8 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
 }
 
 /* Compiles a call of the function f with its operands in brackets; c->at must be at the opening bracket. min and max
- * have two operands or more. at: position of the function's name, for messages. Returns false, with a message in c,
- * if the call is invalid. */
+ * take two operands or more. at: position of the function's name, for messages. Returns false, with a message in c, if
+ * the call is invalid. */
 static bool compile_call(struct compile *c, const struct function *f, const char *at)
 {
     const bool two = f->rule == SAME || f->rule == ANGLE;
@@ -225,8 +226,8 @@ static bool compile_name(struct compile *c)
                                                          : compile_variable(c, name, at);
 }
 
-/* Compiles the number at c->at with its unit. power: true for an exponent, which has no unit. Returns false, with a
- * message in c, if there is no number or its unit is unknown. */
+/* Compiles the number at c->at with its unit. power: true for an exponent, where a number has no unit. Returns false,
+ * with a message in c, if there is no number or its unit is unknown. */
 static bool compile_number(struct compile *c, bool power)
 {
     struct quantity q;
@@ -307,7 +308,7 @@ static bool compile_sum(struct compile *c)
 }
 
 /* Compiles the whole text c->text into steps, and checks that nothing follows the expression. Afterwards c->operand[0]
- * has its unit. Returns false with a message in c if the expression is invalid. */
+ * has the unit of the result. Returns false, with a message in c, if the expression is invalid. */
 static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
@@ -329,7 +330,7 @@ bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity 
     return true;
 }
 
-/* Reads the value of a node n of the form `1/3 mm` as a constant expression e in the unit of key k: 1/3 of a mm, as in
+/* Reads the value of node n, of the form `1/3 mm`, as a constant expression e in the unit of key k: 1/3 of a mm, as in
  * keys without formulas. As a formula it would mean 1/(3 mm). Returns false if the text has another form. */
 static bool number_constant(const struct yaml_node *n, const struct key *k, struct expression *e)
 {

@@ -33,7 +33,7 @@ const char *origin_file_name(const struct reader *r, int origin_index)
 }
 
 /* Writes the name of node n for messages to name[capacity]: its key or, for an item of a list, the key of the list with
- * the index, such as `velocity[1]`. */
+ * the index of the item, such as `velocity[1]`; "" for the whole scene. */
 static void node_name(const struct yaml_node *n, char *name, size_t capacity)
 {
     if (n->key) {

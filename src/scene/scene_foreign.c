@@ -7,9 +7,9 @@
 
 #include "scene_internal.h"
 
-/* Table of words of other programs. words: alternatives a|b|c. paths: related keys, separated by spaces; the first
- * one is equivalent to the words. text: advice that follows the name of the first key; if it begins with =, the
- * whole message; NULL: none. */
+/* Table of words of other programs. words: alternatives a|b|c. paths: related keys, separated by spaces; the first key
+ * is equivalent to the words. text: advice that follows the name of the first key, or, if it begins with =, the whole
+ * message; NULL: no advice. */
 static const struct foreign {
     const char *words, *paths, *text;
 } foreign[] = {
@@ -292,7 +292,7 @@ static const struct {
     {"time", "*", "the simulated time is the key `duration`, and the time step is time: {step: 1 ns}"},
 };
 
-/* Returns true if `word` equals the first `length` characters of `text`. A - and a blank in word are equal to _; words
+/* Returns true if `word` equals the first `length` characters of `text`. A - or a blank in `word` counts as _; words
  * longer than two letters are compared without regard to case. */
 static bool word_is(const char *word, const char *text, size_t length)
 {

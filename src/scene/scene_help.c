@@ -7,7 +7,7 @@
 
 /* ---- facts of a key ---------------------------------------------------------------------------------------------- */
 
-/* Returns the type of the values of key k in words for the reference, such as `whole number`. */
+/* Returns the type of the values of key k in words for the reference, such as `whole number`. The text is static. */
 static const char *type_text(const struct key *k)
 {
     switch (k->type) {
@@ -48,8 +48,8 @@ static const char *type_text(const struct key *k)
     }
 }
 
-/* Writes the range of key k, such as `> 0, <= 1`, or its words, separated by commas, to text[capacity]; "" if it has
- * neither. */
+/* Writes the range of key k, such as `> 0, <= 1`, or the words that are its values, separated by commas, to
+ * text[capacity]; "" if it has neither. */
 static void range_text(const struct key *k, char *text, size_t capacity)
 {
     char least[32], most[32];
@@ -78,8 +78,8 @@ static void range_text(const struct key *k, char *text, size_t capacity)
     }
 }
 
-/* Writes the default of key k to text[capacity], "" if the key has none. A default that depends on other keys is in
- * brackets in the table, which are omitted. */
+/* Writes the default of key k to text[capacity]; "" if the key has none. A default that depends on other keys is in
+ * brackets in the table of keys; the brackets are omitted. */
 static void default_text(const struct key *k, char *text, size_t capacity)
 {
     bool explained = *k->fallback == '(';
@@ -135,15 +135,16 @@ bool key_is_at_or_below_path(const struct key *k, const char *path)
     return length == 0 || k->path[length] == '\0' || k->path[length] == '.';
 }
 
-/* Returns the smaller of the edit distances from `path` to the path of key k and to the last part of that path. */
+/* Returns the edit distance between `path` and key k: the smaller of the distances to the path of k and to the last
+ * part of its path. */
 static int key_distance(const struct key *k, const char *path)
 {
     const int whole = edit_distance(k->path, path), leaf = edit_distance(key_last_part(k), path);
     return whole < leaf ? whole : leaf;
 }
 
-/* Returns REFUSED with the message that `path` is no key. The message names the key nearest by edit distance if its
- * name is similar, else the pages of `cleave help`. */
+/* Returns REFUSED with the message that `path` is no key. The message names the key nearest by edit distance if the two
+ * are similar, else the pages of `cleave help`. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];
@@ -164,7 +165,7 @@ static bool has_leaf(const struct key *k, const char *leaf)
 }
 
 /* Returns true if `word`, with _ for blanks, is one of the words that key k has as values. Returns false for the key
- * `accept`, whose words name other things. */
+ * `accept`, whose words are names of warnings. */
 static bool is_value_of(const struct key *k, const char *word)
 {
     const size_t length = strlen(word);
@@ -196,8 +197,8 @@ static void print_key(FILE *out, const struct key *k)
     fprintf(out, "%-30s %s\n%-30s   %s\n", k->path, facts, "", k->help);
 }
 
-/* Prints the advice for `word`, a word of other programs, and the keys that are equivalent or related to it. The table
- * of such words must contain it. */
+/* Prints the advice for `word`, a word of other programs, and the keys that are equivalent or related to it, to `out`.
+ * The table of such words must contain it. */
 static void help_foreign(FILE *out, const char *word)
 {
     char text[400], path[64];
@@ -214,8 +215,9 @@ static void help_foreign(FILE *out, const char *word)
     }
 }
 
-/* Prints the keys whose path ends with `word`, the keys that have it as a value, and the keys that are equivalent to
- * it if it is a word of other programs. Returns the number of keys printed, where the equivalent ones count as one. */
+/* Prints the keys whose path ends with `word`, the keys that have the word as a value, and the keys that are equivalent
+ * to it if it is a word of other programs, to `out`. Returns the number of keys printed, where the equivalent ones
+ * count as one. */
 static int help_word_of_keys(FILE *out, const char *word)
 {
     int printed = 0;
@@ -254,7 +256,7 @@ status scene_print_help_on_keys(FILE *out, const char *key)
 
 /* ---- cleave.1 ---------------------------------------------------------------------------------------------------- */
 
-/* Writes a text with escapes for the characters \ - ^, which have a meaning in troff. */
+/* Writes `text` to `out` with escapes for the characters \ - ^, which have a meaning in troff. */
 static void troff(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -294,8 +296,8 @@ static bool is_item_list(const char *path, size_t length)
     return false;
 }
 
-/* Writes the path of a key as an override on the command line has it, with index 0 for each list: `boundary.time` as
- * `boundary.0.time`. */
+/* Writes the path of a key to `out` in the form of an override on the command line, with index 0 for each list:
+ * `boundary.time` as `boundary.0.time`. */
 static void override_path(FILE *out, const char *path)
 {
     for (const char *c = path; *c; c++) {

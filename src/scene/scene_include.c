@@ -10,8 +10,8 @@
 
 enum { CHAIN_MOST = 8, KEYS_MOST = 1100 };
 
-/* Chain of the files that are being read, known by device and inode number. Each file is included by the one in
- * `up`; the last one is the scene itself. */
+/* Chain of the files that are being read, identified by device and inode number. Each file is included by the file
+ * `up`; the last one is the scene itself, with up = NULL. */
 struct chain {
     const struct chain *up;
     dev_t device;
@@ -20,8 +20,8 @@ struct chain {
 
 /* ---- one mapping over another ------------------------------------------------------------------------------------ */
 
-/* Returns true if the value of the key at `path` is a mapping that is merged entry by entry with an included one;
- * path "": the whole scene. Any other value replaces the included value as a whole. */
+/* Returns true if the value of the key at `path` ("": the whole scene) is a mapping that is merged entry by entry with
+ * an included one. Any other value replaces the included value as a whole. */
 bool key_is_merged_with_included_scene(const char *path)
 {
     if (*path == '\0') return true;
@@ -35,7 +35,8 @@ bool key_is_merged_with_included_scene(const char *path)
 
 static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
 
-/* Returns REFUSED for a mapping with two equal keys, one of which would be lost, or with more than KEYS_MOST keys. */
+/* Returns REFUSED, with a message, for a mapping with two equal keys, one of which would be lost, or with more than
+ * KEYS_MOST keys. */
 static status check_twins(const struct reader *r, const struct yaml_node *map)
 {
     if (map->n > KEYS_MOST) return fault(r, map, "has %d keys, more than any mapping of a scene can have", map->n);
@@ -48,7 +49,7 @@ static status check_twins(const struct reader *r, const struct yaml_node *map)
 
 /* Merges the mapping `over` into the mapping `under`. Values of `over` take precedence. Mappings for which
  * key_is_merged_with_included_scene is true are merged entry by entry. An empty value removes the entry. group: path of
- * both mappings in the scene. Returns REFUSED for a key that occurs twice in a mapping. */
+ * both mappings in the scene. Returns REFUSED, with a message, for a key that occurs twice in a mapping. */
 static status merge(struct reader *r, struct yaml_node *under, struct yaml_node *over, const char *group)
 {
     char path[64];
@@ -87,8 +88,8 @@ static int length_of(const struct chain *chain)
     return n;
 }
 
-/* Returns the path of the file that node n includes, in memory of the reader that arena_free releases. A relative name
- * starts from the folder of the including file. */
+/* Returns the path of the file that node n includes, in memory of the reader r that arena_free releases. A relative
+ * name starts from the folder of the including file. */
 static char *path_from(struct reader *r, const struct yaml_node *n)
 {
     const char *from = origin_file_name(r, n->origin);

@@ -8,8 +8,9 @@
  * numbers of a scene are rounded decimals. */
 #define SLOPE_ROUNDING 1e-9
 
-/* Returns REFUSED unless the hardening curve c allows the return mapping to solve its equation segment by segment:
- * plastic strains ascend from 0, stresses do not fall, slopes do not grow. n: list of the points, for messages. */
+/* Returns REFUSED, with a message, unless the hardening curve c allows the return mapping to solve its equation segment
+ * by segment: plastic strains ascend from 0, stresses do not fall, slopes do not grow. n: list of the points, for
+ * messages. */
 static status check_curve(struct reader *r, const struct yaml_node *n, const struct flow_curve *c)
 {
     const struct yaml_node *point = n->first;
@@ -94,7 +95,8 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
 }
 
 /* Reads the flow law of Johnson and Cook into `law`. material: node of the material; n: node of `johnson_cook`. Returns
- * REFUSED if another hardening is given too, or if the melting temperature is not above room temperature. */
+ * REFUSED, with a message, if another hardening is given too, or if the melting temperature is not above room
+ * temperature. */
 static status read_johnson_cook(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
                                 struct law *law)
 {
@@ -140,8 +142,8 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
     return OK;
 }
 
-/* Returns REFUSED unless the method of the scene is mpm, which alone has these flow laws. law_node: node of the law,
- * for messages. */
+/* Returns REFUSED, with a message, unless the method of the scene is mpm: other methods do not have these flow laws.
+ * law_node: node of the law, for the message. */
 static status check_law_place(struct reader *r, const struct yaml_node *law_node)
 {
     return r->scene->method == METHOD_MPM ? OK : refuse_flow_law_without_mpm(r, law_node);

@@ -9,8 +9,9 @@
 
 /* ---- profiles in space ------------------------------------------------------------------------------------------- */
 
-/* Reads the profile in space of a body force into f, a sine wave. n: node of `profile`; NULL or `uniform`: the factor 1
- * everywhere. Returns REFUSED for another form or a direction without length. */
+/* Reads the profile in space of a body force into f: a sine wave, or the factor 1 everywhere. n: node of `profile`,
+ * NULL or `uniform` for the factor 1. Returns REFUSED, with a message, for another form or a direction without
+ * length. */
 static status read_profile(struct reader *r, const struct yaml_node *n, struct profile *f)
 {
     f->direction[0] = 1;
@@ -44,8 +45,8 @@ static status read_axis(struct reader *r, const struct yaml_node *n, const char 
     return OK;
 }
 
-/* Reads the constrained components of `fixed`, either `all` or a list of axes, into b->components, one bit per axis.
- * Returns REFUSED for another form, or an axis given twice. */
+/* Reads the constrained components of the entry `fixed`, node n, into b->components, one bit per axis: `all` or a list
+ * of axes. Returns REFUSED, with a message, for another form, or an axis given twice. */
 static status read_fixed(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     int axis;
@@ -64,8 +65,8 @@ static status read_fixed(struct reader *r, const struct yaml_node *n, struct bou
 }
 
 /* Reads one component of a vector from node n: a number into *value, or a formula into *f with *value = 1. k: key of
- * the vector, for unit and range; of: variables allowed in the formula (EXPRESS_*). Returns REFUSED if it is
- * neither. */
+ * the vector, for unit and range; of: variables allowed in the formula (EXPRESS_*). Returns REFUSED, with a message, if
+ * it is neither. */
 static status read_formula(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                            struct expression *f)
 {
@@ -89,16 +90,17 @@ status read_vector_of_formulas(struct reader *r, const struct key *k, const stru
     return OK;
 }
 
-/* Reads component d of the vector that the boundary condition b prescribes, a number or a formula, from node n into
- * b->value and b->formula. k: key of the vector, for unit and range. Returns REFUSED if it is neither. */
+/* Reads component d (from 0) of the vector that the boundary condition b prescribes, a number or a formula, from node n
+ * into b->value and b->formula. k: key of the vector, for unit and range. Returns REFUSED, with a message, if it is
+ * neither. */
 static status read_load_value(struct reader *r, const struct key *k, const struct yaml_node *n, struct boundary *b,
                               int d)
 {
     return read_formula(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, &b->value[d], &b->formula[d]);
 }
 
-/* Reads the pressure of boundary b from node n, a number or a formula, and sets all components of its value to it.
- * Returns REFUSED if it is neither. */
+/* Reads the pressure of the boundary condition b from node n, a number or a formula, and sets all components of its
+ * value to it. Returns REFUSED, with a message, if it is neither. */
 static status read_pressure(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_load_value(r, key_find("boundary", "pressure"), n, b, 0));
@@ -107,8 +109,8 @@ static status read_pressure(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Reads component d of a prescribed velocity or displacement of boundary b from node n; `free` leaves the component
- * unconstrained. Returns REFUSED for an invalid value. */
+/* Reads component d (from 0) of the prescribed velocity or displacement of the boundary condition b from node n; `free`
+ * leaves the component unconstrained. Returns REFUSED, with a message, for an invalid value. */
 static status read_component(struct reader *r, const struct yaml_node *n, struct boundary *b, int d)
 {
     if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
@@ -116,9 +118,9 @@ static status read_component(struct reader *r, const struct yaml_node *n, struct
     return read_load_value(r, key_find("boundary", b->displaces ? "displacement" : "velocity"), n, b, d);
 }
 
-/* Reads the prescribed velocities [m/s] or displacements [m] of boundary b, one number, formula or `free` per
- * component, into b->value, b->formula and b->components. Returns REFUSED for a wrong number of components, or if all
- * are free. */
+/* Reads the prescribed velocities [m/s] or displacements [m] of the boundary condition b from node n, one number,
+ * formula or `free` per component, into b->value, b->formula and b->components. Returns REFUSED, with a message, for a
+ * wrong number of components, or if all are free. */
 static status read_velocity(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     const char *const examples[2][DIM_MAX] = {{"[22 m/s]", "[22 m/s, free]", "[22 m/s, free, free]"},
@@ -198,8 +200,8 @@ static status read_absorbing(struct reader *r, const struct yaml_node *map, cons
                  node_text(r, n));
 }
 
-/* Reads the face of boundary b, such as `x+`, into b->face (axis 0 to 2) and b->side (+1 or -1). map: node of the
- * boundary. Returns REFUSED if it is missing or not a face of this space. */
+/* Reads the face of the boundary condition b, such as `x+`, into b->face (axis 0 to 2) and b->side (+1 or -1). map:
+ * node of the boundary condition. Returns REFUSED, with a message, if it is missing or not a face of this space. */
 static status read_face(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     const struct yaml_node *n = yaml_node_find(map, "face");
@@ -218,8 +220,9 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
     return OK;
 }
 
-/* Reads face and depth of the layer of particles that boundary b drives, if a face is given. By default the depth is
- * one horizon, or one spacing with method mpm. map: node of the boundary. Returns REFUSED for a depth without face. */
+/* Reads face and depth of the layer of particles that the boundary condition b moves, if a face is given. By default
+ * the depth is one horizon, or one spacing with method mpm. map: node of the boundary condition. Returns REFUSED, with
+ * a message, for a depth without face. */
 static status read_layer(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     const struct yaml_node *depth = yaml_node_find(map, "depth");
@@ -250,7 +253,7 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
 }
 
 /* Returns true if the text of node n, a number or a formula, contains a unit and is not 0. value: the number that was
- * read from n. */
+ * read from n. Returns false if n is NULL. */
 static bool carries_unit(struct reader *r, const struct yaml_node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");
@@ -262,8 +265,8 @@ static bool carries_unit(struct reader *r, const struct yaml_node *n, real value
     return unit;
 }
 
-/* Returns REFUSED if the factor of time of boundary b is a file column with a unit, and the value of b has a unit
- * too: only one of them can give the magnitude of the load. kind: node of the value. */
+/* Returns REFUSED, with a message, if the factor of time of the boundary condition b is a file column with a unit, and
+ * the value of b has a unit too: only one of them can give the magnitude of the load. kind: node of the value. */
 static status check_time_unit(struct reader *r, const struct yaml_node *kind, const struct boundary *b)
 {
     real most = 0;
@@ -333,8 +336,8 @@ static status read_boundary(struct reader *r, const struct yaml_node *n, struct 
     return check_time_unit(r, kind, b);
 }
 
-/* Appends gravity to the boundaries of the scene as a body force on all bodies. n: node of `gravity`, for messages.
- * Returns REFUSED if there are BOUNDARIES_MAX boundaries already, or one called gravity. */
+/* Appends gravity to the boundary conditions of the scene as a body force on all bodies. n: node of `gravity`, for
+ * messages. Returns REFUSED, with a message, if there are BOUNDARIES_MAX conditions already, or one called gravity. */
 static status gravity_add(struct reader *r, const struct yaml_node *n)
 {
     struct scene *s = r->scene;

@@ -31,8 +31,8 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Returns REFUSED if the material m is given a Poisson's ratio that bonds cannot have: bond-based peridynamics has one
- * elastic constant, an isotropic solid two. n: node of the material. */
+/* Returns REFUSED, with a message, if the material m is given a Poisson's ratio that bonds cannot have: bond-based
+ * peridynamics has one elastic constant, an isotropic solid two. n: node of the material. */
 static status check_poisson(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
@@ -66,8 +66,8 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
 }
 
 /* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
- * REFUSED for a material whose bonds do not break, for material points that yield, and if the parameter of the
- * distribution is missing. */
+ * REFUSED, with a message, for a material whose bonds do not break, for material points that yield, and if the
+ * parameter of the distribution is missing. */
 static status read_scatter(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct strength_scatter *s = &m->scatter;
@@ -115,7 +115,7 @@ static status read_viscosity(struct reader *r, const struct yaml_node *n, struct
 }
 
 /* Reads the material of node n into m, with defaults that depend on the space, and derives its wave speeds and critical
- * stretch. Returns REFUSED for invalid or contradicting keys. */
+ * stretch. Returns REFUSED, with a message, for invalid or contradicting keys. */
 static status scene_parts_read_material(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;

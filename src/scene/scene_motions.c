@@ -27,7 +27,7 @@ static status read_turning_axis(struct reader *r, const struct yaml_node *n, str
 }
 
 /* Reads the centre of a rotation into m->about [m], by default the centre of the bounding box of the solid s. n: node
- * of the rotation. Returns REFUSED if the box is infinite. */
+ * of the rotation. Returns REFUSED, with a message, if the centre is not given and the box is infinite. */
 static status read_about(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
     for (int d = 0; d < r->dim && !m->has_about; d++) {

@@ -48,7 +48,7 @@ void arena_free(struct reader *r)
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
-/* Appends the node `child` to the entries of the list or mapping `parent`. */
+/* Appends the node `child` to the entries of `parent`, a list or a mapping. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child)
 {
     child->parent = parent;

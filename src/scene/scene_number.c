@@ -15,9 +15,9 @@ struct variable {
 
 /* ---- variables --------------------------------------------------------------------------------------------------- */
 
-/* Evaluates the variable v of the scene, after the variables on which it depends, and stores its value in *v. On
- * failure returns false and writes the fault to message[capacity], as the rest of a sentence that begins with the text
- * of the variable. */
+/* Evaluates the variable v of the scene, after the variables on which it depends, and stores its value in v->q. Returns
+ * false on failure, with the fault in message[capacity], as the rest of a sentence that begins with the text of the
+ * variable. */
 static bool evaluate(struct reader *r, struct variable *v, char *message, size_t capacity)
 {
     bool fine = true;
@@ -72,8 +72,8 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* Returns REFUSED if the key of node n cannot name a variable: it is no name, is too long, or has a meaning in
- * expressions. */
+/* Returns REFUSED, with a message, if the key of node n cannot name a variable: it is no name, is too long, or has a
+ * meaning in expressions. */
 static status check_variable_name(struct reader *r, const struct yaml_node *n)
 {
     size_t length = 0;
@@ -96,8 +96,8 @@ static bool has_word(const char *text, const char *name)
     return false;
 }
 
-/* Returns true if a value in the tree below n, other than that of the node `variable` itself, contains the variable's
- * name. */
+/* Returns true if a value in the tree below n, other than that of the node `variable` itself, contains the name of the
+ * variable. */
 static bool is_used(const struct yaml_node *n, const struct yaml_node *variable)
 {
     if (n->kind == NODE_SCALAR) return n != variable && has_word(n->text, variable->key);
@@ -106,8 +106,8 @@ static bool is_used(const struct yaml_node *n, const struct yaml_node *variable)
     return false;
 }
 
-/* Returns REFUSED if an override sets a variable that no value of the scene contains: a misspelt name would have no
- * effect. root: tree of the scene. */
+/* Returns REFUSED, with a message, if an override sets a variable that no value of the scene contains: a misspelt name
+ * would have no effect. root: tree of the scene. */
 static status check_overrides(struct reader *r, const struct yaml_node *root)
 {
     for (const struct variable *v = r->variable; v < r->variable + r->variables; v++) {

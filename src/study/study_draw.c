@@ -10,7 +10,7 @@
 #include "study/convergence.h"
 #include "study_picture.h"
 
-/* Largest number of lines; gap between a map and its colour bar [pixel]. */
+/* Largest number of lines of a panel; gap between a map and its colour bar [pixel]. */
 enum { LINES_MOST = CURVE_COLOURS, COLOUR_GAP = 8 };
 
 /* A colour bar of positive values begins at 0 if the smallest one is below this share of the largest [1]. */
@@ -25,9 +25,9 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Sends the labels of the values of a varied key to gnuplot as tics (labelled marks) of an axis, at the positions 0, 1,
- * 2 and so on. If there are many values, some labels are omitted. axis: "x" or "y"; rotated: true for slanted labels.
- */
+/* Sends the labels of the values of a varied key to gnuplot's stream `to` as tics (labelled marks) of an axis, at the
+ * positions 0, 1, 2 and so on. If there are many values, some labels are omitted. axis: "x" or "y"; rotated: true for
+ * slanted labels. */
 static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
 {
     const int each = (key->values + STUDY_TICS_MOST - 1) / STUDY_TICS_MOST;
@@ -58,8 +58,9 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
     return OK;
 }
 
-/* Sends margins, title and axis labels of panel number `panel` to gnuplot. up: label of the vertical axis; NULL if this
- * axis shows the values of the figure. */
+/* Sends margins, title and axis labels of panel number `panel` (from 0) to gnuplot's stream `to`. up: label of the
+ * vertical axis of a map, which also gets a colour bar; NULL if the vertical axis shows the values of a figure (a
+ * scalar result). */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
     const int column = panel % p->columns, row = panel / p->columns;
@@ -89,8 +90,8 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 
 /* ---- lines with bars --------------------------------------------------------------------------------------------- */
 
-/* Sends the points of each line of panel number `panel` as a data block: position along the axis, mean and scatter. A
- * point without a value is NaN, which leaves a gap in the line. */
+/* Sends the points of each line of panel number `panel` to gnuplot's stream `to` as a data block: position along the
+ * axis, mean and scatter. A point without a value is NaN, which leaves a gap in the line. */
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across].shown;
@@ -107,7 +108,7 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
 }
 
 /* Appends the mean over all runs, and the mean plus and minus the standard deviation, to the plot command of panel
- * number `panel`. */
+ * number `panel`, as horizontal lines. to: gnuplot's stream. Appends nothing if fewer than two runs have a value. */
 static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int panel)
 {
     const double factor = p->unit_of_figure[panel].factor;
@@ -118,8 +119,8 @@ static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int pane
                 k == 0 ? 1 : 2);
 }
 
-/* Writes the gnuplot command that plots the points of panel number `panel`, joined by lines if the values along the
- * horizontal axis are numbers. */
+/* Sends the gnuplot command that plots the points of panel number `panel` to the stream `to`. The points are joined by
+ * lines if the values along the horizontal axis are numbers. */
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 {
     fputs("plot ", to);
@@ -137,9 +138,9 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
     putc('\n', to);
 }
 
-/* Draws the legend of the lines with its heading, the names of the varied keys that distinguish lines: on the right of
- * the panels or, in a narrow picture, below them. The legend is drawn as a panel of its own, as large as the picture,
- * because gnuplot makes no legend wider than its panel. */
+/* Draws the legend of the lines with its heading, the names of the varied keys that distinguish lines, through
+ * gnuplot's stream `to`: on the right of the panels or, in a narrow picture, below them. The legend is drawn as a panel
+ * of its own, as large as the picture, because gnuplot makes no legend wider than its panel. */
 static void draw_key(FILE *to, const struct study_picture *p)
 {
     char text[256];
@@ -163,8 +164,8 @@ static void draw_key(FILE *to, const struct study_picture *p)
     putc('\n', to);
 }
 
-/* Sends range and tics of the axis for the figure that panel number `panel` shows to gnuplot. name: `y`, or `cb` for
- * the colour bar of a map. */
+/* Sends range and tics of the axis for the figure (scalar result) of panel number `panel` to gnuplot's stream `to`.
+ * name: `y`, or `cb` for the colour bar of a map. */
 static void send_figure_axis(FILE *to, const struct study_picture *p, int panel, const char *name)
 {
     struct study_axis axis = study_axis_of_figure(p, panel);
@@ -202,8 +203,9 @@ static status draw_lines(struct study_picture *p)
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Draws each chosen figure of a study as a map over two varied keys. The key with the index p->across is along the
- * horizontal axis, the one with the index `up` along the vertical axis. Returns FAILED if gnuplot fails. */
+/* Draws each chosen figure (scalar result) of a study as a map over two varied keys. The key with the index p->across
+ * is along the horizontal axis, the key with the index `up` along the vertical axis. Returns FAILED, with a message, if
+ * gnuplot fails. */
 static status draw_study_map(struct study_picture *p, int up)
 {
     const struct varied_key *across = &p->key[p->across].shown, *key_up = &p->key[up].shown;
@@ -239,7 +241,7 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* Finds the two varied keys that form the axes of a map: those with a physical meaning if there are two, else all
  * varied keys. Stores the index of the key along the vertical axis in *up, and of that along the horizontal axis in
- * *across. Returns false if there are not exactly two. */
+ * *across. Returns false if there are not exactly two, so that no map is drawn. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {

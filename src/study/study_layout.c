@@ -7,9 +7,9 @@
 
 enum { COLUMNS_MOST = 3 };
 
-/* Sizes in the pictures of a study [pixel]: usual width and height of a panel; width below which panels have a row of
- * their own, and least width; width of the numbers at an axis; height of tics and label below the axis; width of an
- * entry of the key without its text. */
+/* Sizes in the pictures of a study [pixel]. WIDE, HIGH: usual size of a panel; NARROW_PANEL: width below which panels
+ * have a row of their own; LEAST: least width; NUMBERS: width of the numbers at an axis; BELOW: height of tics and
+ * label below the axis; SAMPLE: width of an entry of the key (legend) without its text. */
 enum { WIDE = 320, HIGH = 220, NARROW_PANEL = 150, LEAST = 60, NUMBERS = 100, BELOW = 68, SAMPLE = 50 };
 
 static const double PROPORTION = 0.7; /* height of a panel over its width in pictures of a given width */
@@ -52,9 +52,9 @@ void study_keys_text(char *text, size_t capacity, const struct study_picture *p,
     }
 }
 
-/* Composes the notes below the panels. The first lists the keys for which the picture shows only the first value, the
- * second those over which it shows means, such as random seeds, the third explains points without a value. map: true
- * for maps, false for lines with error bars. */
+/* Composes the notes below the panels of p, at most one for each of these: keys for which the picture shows only the
+ * first value; keys over which it shows means, such as random seeds; the lines of the mean over seeds; points without a
+ * value. map: true for maps, false for lines with error bars. */
 static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
@@ -88,7 +88,7 @@ static bool words_touch(const struct study_picture *p, const struct varied_key *
 static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
 
 /* Returns the number of characters of the longest number at the axes of all panels: at the horizontal axes if `across`
- * is true, else at the axes of the figures, which have at most `most` intervals between tics. */
+ * is true, else at the axes of the figures (scalar results), which have at most `most` intervals between tics. */
 static int numbers_length(const struct study_picture *p, bool across, int most)
 {
     int longest = 0;
@@ -101,7 +101,7 @@ static int numbers_length(const struct study_picture *p, bool across, int most)
 }
 
 /* Computes the size of the picture p from the size of a panel, the margins and the notes. If the user has chosen the
- * size of the picture, computes the size of a panel from that size instead. */
+ * size of the picture, computes the size of a panel from the size of the picture instead. */
 static void size_settle(struct study_picture *p)
 {
     const struct picture_size given = picture_size_get();

@@ -29,8 +29,8 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
     return sum;
 }
 
-/* Returns the slot of the hash table of run names that contains `name`, or the empty slot in which it has to be
- * entered. */
+/* Returns the slot of s->slot, the hash table of run names, that contains `name`, or the empty slot in which it has to
+ * be entered. */
 static int name_slot(const struct study *s, const char *name)
 {
     int at = (int)(study_hash_add_text(STUDY_HASH_START, name) % (uint64_t)s->slots);
@@ -57,7 +57,7 @@ void study_grow_name_table(struct study *s)
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
 /* Appends `text` to name[CASE_NAME_ROOM] as part of the name of a folder. Leaves out blanks, brackets and quotes, and
- * replaces characters that file systems or shells treat specially by _. A longer text is cut. */
+ * replaces characters that file systems or shells treat specially by _. A text too long is truncated. */
 static void name_append(char *name, const char *text)
 {
     size_t n = strlen(name);
@@ -82,7 +82,8 @@ void study_choose_case_name(const struct study *s, char *name, const char *wante
 
 /* ---- names of combinations --------------------------------------------------------------------------------------- */
 
-/* Returns the last part of the key `key`, after its last dot, such as young of material.young. */
+/* Returns the part of the scene key `key` after its last dot, such as young of material.young; the whole key if it has
+ * no dot. */
 static const char *key_last(const char *key)
 {
     const char *dot = strrchr(key, '.');

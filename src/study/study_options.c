@@ -8,7 +8,7 @@
 #include "output/output_files.h"
 #include "study_internal.h"
 
-/* Returns true if a word is in the list, which ends with NULL. */
+/* Returns true if `word` is one of list[], which ends with NULL. */
 static bool word_listed(const char *word, const char *const *list)
 {
     for (; *list; list++)
@@ -16,7 +16,7 @@ static bool word_listed(const char *word, const char *const *list)
     return false;
 }
 
-/* Returns a copy of `text` in one line: a line break is written as \n and a backslash as \\. The caller releases it
+/* Returns a copy of `text` in one line: line breaks are written as \n, and backslashes as \\. The caller releases it
  * with memory_free. */
 static char *line_from_text(const char *text)
 {

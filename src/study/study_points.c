@@ -5,8 +5,8 @@
 #include "base/memory.h"
 #include "study_picture.h"
 
-/* Returns the index of the line to which a run belongs, computed from its values of the keys that distinguish lines.
- * Returns -1 if the run is not in the picture. */
+/* Returns the index of the line of the picture p to which run number `run` belongs, computed from its values of the
+ * keys that distinguish lines. Returns -1 if the run is not in the picture. */
 static int line_of(const struct study_picture *p, int run)
 {
     int line = 0;
@@ -18,9 +18,9 @@ static int line_of(const struct study_picture *p, int run)
     return line;
 }
 
-/* Computes the points of a panel: mean and scatter over the runs of each point. Returns an array [lines][values of the
- * key along the horizontal axis], which the caller releases with memory_free. value[runs]: figure of the panel in each
- * run, in SI units; factor: unit of the panel in SI units. */
+/* Computes the points of a panel of p: mean and scatter over the runs of each point. value[runs]: figure (scalar
+ * result) of the panel in each run, in SI units; factor: unit of the panel in SI units. Returns an array [lines][values
+ * of the key along the horizontal axis], which the caller releases with memory_free. */
 static struct study_point *means_find(const struct study_picture *p, const double *value, double factor)
 {
     const int across = p->key[p->across].shown.values;
@@ -43,7 +43,7 @@ static struct study_point *means_find(const struct study_picture *p, const doubl
     return point;
 }
 
-/* Returns the unit in which the picture p shows a figure. figure: index of the figure in p->table. */
+/* Returns the unit in which the picture p shows the figure (scalar result) with the index `figure` in p->table. */
 static struct unit figure_unit(const struct study_picture *p, int figure)
 {
     const double *value = p->table->value[figure];

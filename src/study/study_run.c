@@ -18,7 +18,7 @@
 #include "output/output_files.h"
 #include "study/study.h"
 
-/* Room for the words of a command without its overrides. */
+/* Room for the words of a command without its overrides (-s KEY=VALUE). */
 enum { WORDS_FIXED = 12 };
 
 #define PATIENCE 0.5 /* time after the budget at which runs that have not stopped are killed [s] */
@@ -56,8 +56,9 @@ static char **command_words(const char *scene, const struct study_case *c, char 
     return word;
 }
 
-/* Prints the character c, which is within a word in single quotes of a shell command. harmful: true if a terminal would
- * act on the character. It is then printed as a number, from which the shell makes the character with printf. */
+/* Prints the character c, which is within a word in single quotes of a shell command, to `out`. harmful: true if a
+ * terminal would act on the character; it is then printed as a number, from which the shell makes the character with
+ * printf. */
 static void print_quoted(FILE *out, char c, bool harmful)
 {
     if (harmful)
@@ -86,8 +87,8 @@ void study_print_shell_word(FILE *out, const char *word)
     memory_free(shown);
 }
 
-/* Returns `path` as an absolute path. Symbolic links in it are kept, since a scene is named after the link by which it
- * is given. */
+/* Returns the absolute path of `path`; `path` itself if the current folder is unknown. Symbolic links in it are kept,
+ * since a scene is named after the link by which it is given. */
 static struct path path_whole(const char *path)
 {
     char here[PATH_ROOM];
@@ -120,7 +121,7 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
 
 /* ---- processes --------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of the log of the run called `run`, logs/RUN.txt in the folder of the study. */
+/* Returns the path logs/RUN.txt in `folder`, the folder of the study: the log of the run called `run`. */
 static struct path log_path_in(const char *folder, const char *run)
 {
     char name[CASE_NAME_ROOM + 8];
@@ -169,9 +170,9 @@ static _Noreturn void become_run(char **word, int log)
     _exit(FAILED);
 }
 
-/* Starts the process of run c with its output in a log. slot: number of the share of the processor cores on which it
- * runs. A run with results in its folder is resumed, or replaced with --overwrite. Returns REFUSED or FAILED if it
- * cannot be started. */
+/* Starts the process of run c of the study in r, with its output in a log. slot: number of the share of the processor
+ * cores on which it runs. A run with results in its folder is resumed, or replaced with --overwrite. Returns REFUSED or
+ * FAILED, with a message, if it cannot be started. */
 static status case_start(struct runner *r, struct study_case *c, int slot)
 {
     char threads[16], *pairs;
@@ -218,8 +219,8 @@ void study_read_reason_of_failure(char *line, size_t capacity, const char *folde
     memory_free(text);
 }
 
-/* Records the end of run c: its state and duration. Prints a line about the run, which after a failure contains the
- * last line of its log. Removes an empty log. ended: status of the process from waitpid. */
+/* Records the end of run c in r: its state and duration. Prints a line about the run, which after a failure contains
+ * the last line of its log. Removes a log without text. ended: status of the process from waitpid. */
 static void case_end(struct runner *r, struct study_case *c, int ended)
 {
     const struct path log = log_path(r->study, c);
@@ -266,7 +267,8 @@ static int slot_free(const struct runner *r)
     }
 }
 
-/* Sends SIGTERM to all running processes of a study once. A second signal would end them without a checkpoint. */
+/* Sends SIGTERM to all running processes of a study, so that they write a checkpoint and stop. Does so only once, since
+ * a second signal would end them without a checkpoint. */
 static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
@@ -284,9 +286,9 @@ static void cases_kill(struct runner *r)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGKILL);
 }
 
-/* Runs all waiting runs of a study, as many at a time as requested. After an error, a stop signal or the end of the
- * budget it starts no more runs and stops the running ones. Returns FAILED or REFUSED if a process cannot be started,
- * INTERRUPTED after a stop signal. */
+/* Runs all waiting runs of a study, as many at a time as requested, and waits for their ends. After an error, a stop
+ * signal or the end of the budget it starts no more runs and stops the running ones. Returns FAILED or REFUSED if a
+ * process cannot be started, INTERRUPTED after a stop signal, OK otherwise, even if runs have failed. */
 static status cases_run(struct runner *r)
 {
     const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};

@@ -7,8 +7,9 @@
 #include "study/convergence.h"
 #include "study_picture.h"
 
-/* Prints mean, standard deviation and half of the 95 % interval of the mean of the figure `name` with the values
- * value[cases] in the runs of a study. header: header line of history.csv, for its unit. */
+/* Prints mean, standard deviation and half of the 95 % interval of the mean of a figure (scalar result) in the runs of
+ * a study to `to`. name: name of the figure; value[cases]: its value in each run; header: header line of history.csv,
+ * for its unit. Prints nothing for fewer than two values. */
 static void mean_print(FILE *to, const char *header, const char *name, const double *value, int cases)
 {
     char text[UNIT_ROOM];

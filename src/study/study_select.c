@@ -6,7 +6,8 @@
 #include "scene/words.h"
 #include "study_picture.h"
 
-/* Returns true if figure f (a number in summary.json) of the table differs between the runs of a study. */
+/* Returns true if figure f (a number in summary.json) of the table t differs between the runs of a study by more than
+ * round-off. */
 static bool figure_varies(const struct study_table *t, int f)
 {
     double least = INFINITY, most = -INFINITY;

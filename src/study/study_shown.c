@@ -13,8 +13,8 @@
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* Copies the text [from, to) without blanks at both ends and with the sign of micro for a `u` that follows a digit or a
- * blank and precedes a unit. The caller releases the copy with memory_free. */
+/* Returns a copy of the characters from `from` to before `to`, without blanks at both ends. The sign of micro replaces
+ * a `u` that follows a digit or a blank and precedes a unit. The caller releases the copy with memory_free. */
 static char *value_shown(const char *from, const char *to)
 {
     while (from < to && isspace((unsigned char)*from)) from++;
@@ -29,8 +29,9 @@ static char *value_shown(const char *from, const char *to)
     return text;
 }
 
-/* Finds component number d of a vector, such as [0, 10 MPa], and stores its first and last but one character in
- * part[2]. dim: number of components. Returns false if the text is no such vector. */
+/* Finds component number d (from 0) of a vector in the text `value`, such as [0, 10 MPa]. dim: number of components.
+ * Stores in part[0] and part[1] pointers to its beginning and to the character after its end. Returns false if the text
+ * is no such vector. */
 static bool vector_component(const char *part[2], const char *value, int dim, int d)
 {
     const char *c = value + strspn(value, " ");
@@ -44,8 +45,8 @@ static bool vector_component(const char *part[2], const char *value, int dim, in
     return !c[strspn(c, " ")];
 }
 
-/* Returns the only component in which the values of a key differ, which all are vectors of dim components; -1 if there
- * is none. */
+/* Returns the index of the only component in which the values of a key differ. Returns -1 if more than one or none
+ * differs, or if a value is no vector of dim components. */
 static int component_that_varies(const struct varied_key *key, int dim)
 {
     int varies = -1;
@@ -104,8 +105,8 @@ static void values_sort(struct shown_key *k)
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the index of the entry of a list of the scene s to which a key refers; -1 if there is none. part: the part of
- * the key that identifies the entry, an index or a name; n: number of entries; name_of(s, k): returns the name of entry
- * k. */
+ * the key that identifies the entry, an index or a name; n: number of entries; name_of(s, k): function that returns the
+ * name of entry k. */
 static int list_entry_index(const struct scene *s, const char *part, int n,
                             const char *(*name_of)(const struct scene *, int))
 {
@@ -144,7 +145,7 @@ static bool owner_write(char *text, size_t capacity, const struct scene *s, cons
     return k >= 0;
 }
 
-/* Appends the words for `parts`, the rest of a key after its group or the entry of its list, to text[capacity]:
+/* Appends words for `parts`, the rest of a key after its group or after the entry of its list, to text[capacity]:
  * `energy_release_rate` becomes `energy release rate`. */
 static void parts_append(char *text, size_t capacity, const char *parts)
 {
@@ -202,7 +203,7 @@ static void shown_key_make(struct shown_key *k, const struct varied_key *key, co
     if (k->numbers) values_sort(k);
 }
 
-/* Replaces the words of those of the shown keys k[keys] that have the same words as another one by their full names, as
+/* Replaces the words of those of the shown keys k[keys] that have the same words as another key by their full names, as
  * in the option -s, so that all are distinct. */
 static void words_part(struct shown_key *k, int keys)
 {

@@ -13,8 +13,8 @@
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Position in the table of a study while it is filled. row: index of the current run; next: index of the figure that is
- * expected next, because most runs have their figures in the same order. */
+/* Position in the table of a study while the table is filled. row: index of the current run; next: index of the figure
+ * (scalar result) that is expected next, because most runs have their figures in the same order. */
 struct filled {
     struct study_table *table;
     int row, next;
@@ -33,9 +33,9 @@ static int figure_add(struct study_table *t, const char *name)
     return t->figures++;
 }
 
-/* Stores one number of a summary in the table, in the row of the current run. A figure that is not in the table yet
- * gets a new column. context: pointer to a struct filled; key: name of the figure; value: the number. It is called for
- * each number of a summary. */
+/* Stores one number of a summary in the table, in the row of the current run. A figure (scalar result) that is not in
+ * the table yet gets a new column. context: pointer to a struct filled; key: name of the figure; value: the number.
+ * Called by summary_visit_numbers for each number of a summary. */
 static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;
@@ -100,7 +100,7 @@ bool study_result_is_technical(const char *name)
 
 /* ---- sweep.csv --------------------------------------------------------------------------------------------------- */
 
-/* Prints a text as a cell of a CSV table, in quotes if it contains a comma, a quote or a line break. */
+/* Prints a text as a cell of a CSV table to `to`, in quotes if it contains a comma, a quote or a line break. */
 static void cell_print(FILE *to, const char *text)
 {
     if (!strpbrk(text, ",\"\n")) {
@@ -159,8 +159,8 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 /* ---- guard ------------------------------------------------------------------------------------------------------- */
 
 /* Checks that the table sweep.csv and the pictures of the study replace no file that Cleave did not write. key[keys]:
- * varied keys of the study. Returns REFUSED if one would; OK for folders of no study, which study_lock_folder refuses.
- */
+ * varied keys of the study. Returns REFUSED, with a message, if one would; OK for folders of no study, which
+ * study_lock_folder refuses. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys)
 {
     static const char *const begin[] = {"run,state"};

@@ -8,8 +8,8 @@
 #include "output/output_files.h"
 #include "convergence_units.h"
 
-/* Units of figures. begin, end: beginning and end of the last part of a figure's name (after its last point); unit:
- * unit of the figure. The first entry that matches a name applies. */
+/* Units of figures (numbers in summary.json). begin, end: beginning and end of the last part of a figure's name (after
+ * its last point); unit: unit of the figure. The first entry that matches a name applies. */
 static const struct {
     const char *begin, *end, *unit;
 } unit_of_name[] = {
@@ -33,8 +33,8 @@ static bool name_fits(const char *name, const char *begin, const char *end)
     return strncmp(name, begin, strlen(begin)) == 0 && n >= e && strcmp(name + n - e, end) == 0;
 }
 
-/* Reads the unit of the column called `column` from the header line of history.csv into unit[capacity]. The text is ""
- * for dimensionless columns. Returns false if there is no such column. */
+/* Reads the unit of the column called `column` from `header`, the header line of history.csv, into unit[capacity]. The
+ * text is "" for dimensionless columns. Returns false, and stores nothing, if there is no such column. */
 static bool unit_in_header(char *unit, size_t capacity, const char *header, const char *column)
 {
     const size_t length = strlen(column);

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "study/study.h"
 
-/* Largest number of values of a key; longest value [characters]. */
+/* Largest number of values of a key in a study; longest value [characters]. */
 enum { VALUES_MOST = 10000, VALUE_LONGEST = 1000 };
 
 double value_read_number_and_unit(const char *value, const char **unit)
@@ -26,8 +26,8 @@ double value_read_number_and_unit(const char *value, const char **unit)
 
 /* ---- pieces of a list -------------------------------------------------------------------------------------------- */
 
-/* Returns a pointer to the first character `mark` in the text `at` that is outside brackets and quotes, or to the end
- * of the text if there is none. */
+/* Returns a pointer to the first character `mark` in the text that begins at `at`, outside brackets and quotes, or to
+ * the end of the text if there is none. */
 static const char *value_end(const char *at, char mark)
 {
     int depth = 0;
@@ -78,7 +78,7 @@ static status value_add(struct varied_key *k, char *value)
 
 /* ---- ranges of numbers ------------------------------------------------------------------------------------------- */
 
-/* A range from:to:step, and the common unit of the numbers that have one. */
+/* A range from:to:step of numbers, and their common unit ("" if they have none). */
 struct row {
     double number[3];
     char unit[32];
@@ -132,8 +132,8 @@ static status values_add_row(struct varied_key *k, const struct row *r)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Reads a list of values and ranges, separated by commas, and appends the values to k->value. Returns REFUSED if a
- * value is missing or occurs twice, or a range is faulty. */
+/* Reads a list of values and ranges of the key k, separated by commas, from `text`, and appends the values to k->value.
+ * Returns REFUSED, with a message, if a value is missing or occurs twice, or a range is faulty. */
 static status values_read(struct varied_key *k, const char *text)
 {
     for (const char *at = text;;) {

@@ -8,11 +8,11 @@
 #include "output/summary_read.h"
 #include "study/study.h"
 
-/* Capacity of a warning [byte]; largest number of kinds that are counted. */
+/* Capacity of a warning [byte]; largest number of kinds of warnings that are counted. */
 enum { WARNING_ROOM = 1024, KINDS_MOST = 64 };
 
 /* A kind of warning: texts that differ only in their numbers, because runs with different spacings print different
- * numbers. */
+ * numbers. text: the first of these texts. */
 struct warning_kind {
     char text[WARNING_ROOM];
     int runs, last; /* number of runs that have it; index of the last one */
@@ -32,7 +32,7 @@ static bool is_alike(const char *a, const char *b)
 }
 
 /* Counts the warning `text` of run number `run` in the list kind[*kinds]. Warnings that differ only in numbers are of
- * one kind, which counts once per run. A new kind is appended, unless there are already KINDS_MOST. */
+ * one kind, which counts once per run. A new kind is appended; it is ignored if there are already KINDS_MOST. */
 static void warning_book(struct warning_kind *kind, int *kinds, const char *text, int run)
 {
     int k = 0;

@@ -12,7 +12,8 @@
 #include "study/study.h"
 #include "step/report.h"
 
-/* Largest relative difference between the spacings of a level's runs and that of the scene [1]. */
+/* Largest relative difference [1] between the spacing of the scene and the spacing of a level of the study whose error
+ * bars it may use. */
 #define SAME_LEVEL 0.05
 
 /* Returns the path of the folder NAME_converge with NAME = name, in the parent folder of `folder`, the folder of a run.
@@ -36,8 +37,8 @@ struct path pilot_folder_of_run(const char *folder)
     return to;
 }
 
-/* Returns the next cell of a line of a table, a text that is ended in place by a zero, and sets *line to the text after
- * it. Returns NULL at the end of the line. */
+/* Returns the next cell of a line of a CSV table, terminated in place by a zero, and sets *line to the text after the
+ * cell, or to NULL after the last cell. Returns NULL if *line is NULL. */
 static char *cell_next(char **line)
 {
     char *cell = *line;
@@ -48,13 +49,14 @@ static char *cell_next(char **line)
     return cell;
 }
 
-/* Indices of the columns `spacing_K [m]` and `uncertainty_K` of level K. */
+/* Indices of the columns `spacing_K [m]` and `uncertainty_K` in converge.csv, for each spacing level K = 0 .. levels -
+ * 1. */
 struct bar_columns {
     int spacing[16], half_width[16], levels;
 };
 
-/* Finds the columns of spacing and uncertainty of each spacing level in `header`, the first line of converge.csv.
- * Changes `header`. */
+/* Finds the columns of spacing and uncertainty of each spacing level in `header`, the first line of converge.csv, into
+ * *c. Modifies `header`. */
 static void columns_find(struct bar_columns *c, char *header)
 {
     int column = 0, level;
