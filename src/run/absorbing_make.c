@@ -5,15 +5,16 @@
 #include "run/make.h"
 #include "base/memory.h"
 
-/* Returns the impedances of material m, normal sqrt(rho c11) and tangential sqrt(rho shear) [kg/(m^2 s)]. c11, shear:
- * elastic constants [Pa]. */
+/* Returns the wave impedances of material m at an absorbing face [kg/(m^2 s)]: normal sqrt(rho c11) and tangential
+ * sqrt(rho shear). c11, shear: elastic constants [Pa]. */
 static struct impedance impedance_of(const struct material *m, real c11, real shear)
 {
     return (struct impedance){sqrt(m->density * c11), sqrt(m->density * shear)};
 }
 
-/* Returns the impedances of material m with the elastic constants of bonds on the lattice: those of the material for
- * state-based models, those of the sums over the family (neighbours of a particle) for bond-based ones. */
+/* Returns the wave impedances of material m with the elastic constants of bonds on the lattice: those of the material
+ * for state-based models, those of the sums over the family (all neighbours of a particle) for bond-based models.
+ * source: family; scene: dimension. */
 static struct impedance impedance_lattice(const struct bond_source *source, const struct scene *scene,
                                           const struct material *m)
 {

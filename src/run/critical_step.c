@@ -23,7 +23,7 @@ struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bo
 
 void bond_operator_free(struct bond_operator *body) { memory_free(body->root); }
 
-/* Returns the largest absolute component of the displacement u/sqrt(m) over all particles [m]. u: [dim][n]
+/* Returns the largest absolute component of the displacement u/sqrt(m) over all particles of `body` [m]. u: [dim][n]
  * displacements times the square root of the mass. */
 static real largest_motion(const struct bond_operator *body, const real *u)
 {
@@ -68,13 +68,14 @@ real bonds_critical_time_step_by_iteration(struct bonds *b, struct particles *p,
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 
-/* limit of the number of bonds of a block, for its cost: larger blocks get the size of the body */
+/* Limit of the number of bonds of the block of lattice whose frequency is computed, because of its cost. A larger block
+ * is reduced to the size of the body. */
 #define BLOCK_BONDS_MOST 1e7
 
 /* Computes the size of a block of the lattice whose largest frequency is used in place of that of the whole body:
- * edge[dim], its numbers of particles along the axes. The block is large enough for particles with full families and,
- * if that is cheap, for long waves. f: family of the bonds; longest[dim]: extent of the body along each axis [m].
- * Returns the number of particles of the block. */
+ * edge[dim], the numbers of particles along the axes. The block is large enough for particles with full families (all
+ * their neighbours) and, if that is cheap, for long waves. f: family of the bonds; longest[dim]: extent of the body
+ * along each axis [m]. Returns the number of particles of the block. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};

@@ -3,8 +3,9 @@
 
 #include "run/make.h"
 
-/* Returns REFUSED, with a message, if the motion of boundary b depends on the reference positions of particles but acts
- * on material points on the grid of the current frame, which do not store these. l: the load of b. */
+/* Returns REFUSED, with a message, if the motion that boundary condition b prescribes depends on the reference
+ * positions of particles but acts on material points on the grid of the current frame, which do not store these
+ * positions. l: the load of b. */
 static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
     for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)
@@ -36,8 +37,8 @@ static status starts_at_reference(const struct boundary *b, const struct particl
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the displacement that boundary b prescribes at t = 0 is not 0, because this would
- * be a jump within the first step. l: the load of b; spacing: lattice spacing [m]. */
+/* Returns REFUSED, with a message, if the displacement that boundary condition b prescribes at t = 0 is not 0, because
+ * this would be a jump within the first step. l: the load of b; spacing: lattice spacing [m]. */
 static status starts_at_rest(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
 {
     for (int64_t k = 0; k < l->n; k++) {

@@ -9,8 +9,8 @@
 
 /* ---- sums over particles ----------------------------------------------------------------------------------------- */
 
-/* Masses [kg] and velocities [m/s] of particles or nodes. flag: flags of the particles, of which those with FLAG_MESHED
- * are skipped; NULL: no entry is skipped. */
+/* Masses [kg] and velocities v[dim] [m/s] of particles or nodes. flag: flags of the particles, of which those with
+ * FLAG_MESHED (moved by the nodes of a mesh) are skipped; NULL: no entry is skipped. */
 struct movers {
     int dim;
     const real *mass;
@@ -18,11 +18,12 @@ struct movers {
     const uint8_t *flag;
 };
 
-/* Number of particles in a piece. Pieces whose particles are all moved by the nodes of a mesh are skipped as a whole in
- * the sums. */
+/* Number of particles in a piece of the sums. Pieces whose particles are all moved by the nodes of a mesh are skipped
+ * as a whole. */
 enum { MOTION_PIECE = 64 };
 
-/* Returns true if particles first .. end - 1 are all moved by the nodes of a mesh (FLAG_MESHED). flag: [particles]. */
+/* Returns true if particles first .. end - 1 are all moved by the nodes of a mesh (FLAG_MESHED). flag: flags of all
+ * particles. */
 static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
 {
     uint8_t all = FLAG_MESHED;
@@ -30,8 +31,8 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
     return all != 0;
 }
 
-/* Which sums are computed: the kinetic energy; the momentum as well; or also the sum of |m v|, which takes square
- * roots. */
+/* Selection of the sums that are computed: SUM_ENERGY: the kinetic energy; SUM_MOMENTUM: the momentum as well;
+ * SUM_SIZES: also the sum of |m v|, which takes square roots. */
 enum motion_sums { SUM_ENERGY, SUM_MOMENTUM, SUM_SIZES };
 
 /* Sums over particles or nodes: kinetic energy [J], momentum by component, and sum of |m v| [kg m/s]. */
@@ -83,8 +84,8 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
-/* Returns true if nodes first .. end - 1 all have no mass, as most nodes of the finest cells in the region of coarse
- * cells. */
+/* Returns true if all nodes first .. end - 1 have no mass, like most nodes of the finest cells in the region of coarse
+ * cells. mass: of all nodes. */
 static bool none_has_mass(const real *mass, int64_t first, int64_t end)
 {
     real most = 0;
@@ -93,8 +94,8 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
     return most == 0;
 }
 
-/* Returns sums over the particles or nodes first .. end - 1 of m: those of kinetic energy, momentum and |m v| that
- * `wanted` selects; the other members are 0. */
+/* Returns sums over the particles or nodes first .. end - 1 of m: kinetic energy, momentum and sum of |m v| as far as
+ * `wanted` selects them; the other members are 0. */
 static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end,
                                              const enum motion_sums wanted)
 {
@@ -107,8 +108,8 @@ static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t fir
     return sum;
 }
 
-/* Adds the kinetic energy of the particles or nodes first .. end - 1 to sum[0] [J]. context: their masses and
- * velocities, a struct movers. reproducible_sums calls it for each block. */
+/* Adds the kinetic energy of the particles or nodes first .. end - 1 [J] to sum[0]. context: their masses and
+ * velocities (struct movers). Called by reproducible_sums for each block. */
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     sum[0] += motion_of(context, first, end, SUM_ENERGY).kinetic;
@@ -131,9 +132,9 @@ struct kick {
 };
 
 /* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 [J], where dv is the change of velocity in the
- * step. This is the difference between the mean of the kinetic energies before and after the step and m v_before .
- * v_after/2, the kinetic part of the energy that leap-frog conserves. Particles with prescribed motion do not
- * contribute, since their work is computed with their motion. */
+ * step. This is the difference between two energies: the mean of the kinetic energies before and after the step, and m
+ * v_before . v_after/2, the kinetic part of the energy that leap-frog conserves. Particles with prescribed motion do
+ * not contribute, since their work is computed with their motion. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;
@@ -148,8 +149,9 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
     return sum;
 }
 
-/* Adds the sum of m dv^2/4 over particles first .. end - 1 to sum[0] [J], with the change of velocity dv in the step; a
- * block function of reproducible_sums. Points of a mesh do not contribute. context: a struct kick. */
+/* Adds the sum of m dv^2/4 over particles first .. end - 1 to sum[0] [J], with the change of velocity dv in the step.
+ * Points of a mesh do not contribute. context: particles and velocities before the step (struct kick). Called by
+ * reproducible_sums for each block. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;
@@ -168,7 +170,7 @@ real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_v
 }
 
 /* Adds the momentum of the particles or nodes first .. end - 1 to sum[0 .. dim - 1] [kg m/s]. context: their masses and
- * velocities, a struct movers. reproducible_sums calls it for each block. */
+ * velocities (struct movers). Called by reproducible_sums for each block. */
 static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;
@@ -176,8 +178,8 @@ static void momentum_block(const void *context, int64_t first, int64_t end, real
     for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
 }
 
-/* Adds the momentum of the particles or nodes first .. end - 1 by component to sum[0 .. dim - 1], and the sum of |m v|
- * to sum[dim] [kg m/s]. context: their masses and velocities, a struct movers. reproducible_sums calls it for each
+/* Adds the momentum of the particles or nodes first .. end - 1 to sum[0 .. dim - 1], one per axis, and the sum of |m v|
+ * to sum[dim] [kg m/s]. context: their masses and velocities (struct movers). Called by reproducible_sums for each
  * block. */
 static void momentum_and_size_block(const void *context, int64_t first, int64_t end, real *sum)
 {
@@ -189,7 +191,8 @@ static void momentum_and_size_block(const void *context, int64_t first, int64_t 
 
 /* ---- strain energy and plastic work of material points ----------------------------------------------------------- */
 
-/* Parameters of sums over the material points in `list`. */
+/* Parameters of sums over the material points in `list`: particles, materials, and the shares of stress that bonds
+ * carry (partial). */
 struct strain_sum {
     const struct particles *p;
     const struct material *m;
@@ -209,7 +212,7 @@ real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *par
 }
 
 /* Returns the additional strain energy of point i in plane strain after plastic flow [J]: for sigma_zz = nu (sigma_xx +
- * sigma_yy) + delta the energy density has the additional term delta^2/(2 E). 0 if nothing has flowed. */
+ * sigma_yy) + delta the energy density has the additional term delta^2/(2 E). Returns 0 if nothing has flowed. */
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
@@ -217,9 +220,9 @@ static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
-/* Returns twice the strain energy density of point i [J/m^3]: the stress that it transmits to the grid times the
- * elastic strain C^-1 stress. The material is isotropic, so that normal stresses cause only normal strains. dim: number
- * of dimensions, known at compile time. */
+/* Returns twice the strain energy density of point i [J/m^3]: the product of the stress that it transmits to the grid
+ * and the elastic strain C^-1 stress. The material is isotropic, so that normal stresses cause only normal strains.
+ * dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -236,8 +239,8 @@ static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, 
     return sum;
 }
 
-/* Adds the strain energies of numbers first .. end - 1 of the listed particles to *sum, as far as they are material
- * points [J]. dim: a compile-time constant. */
+/* Adds the strain energies of the entries first .. end - 1 of s->list to *sum [J], as far as they are material points.
+ * dim: a compile-time constant. */
 static ALWAYS_INLINE void strain_block_in(const struct strain_sum *s, int64_t first, int64_t end, real *sum,
                                           const int dim)
 {
@@ -248,8 +251,8 @@ static ALWAYS_INLINE void strain_block_in(const struct strain_sum *s, int64_t fi
     }
 }
 
-/* Adds the strain energies of numbers first .. end - 1 of the listed particles to sum[0], as far as they are material
- * points [J]; a block function of reproducible_sums. context: a struct strain_sum. */
+/* Adds the strain energies of the entries first .. end - 1 of a list of particles to sum[0] [J], as far as they are
+ * material points. context: list and particles (struct strain_sum). Called by reproducible_sums for each block. */
 static void strain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct strain_sum *s = context;
@@ -278,7 +281,8 @@ real points_strain_energy(const struct particles *p, const struct material *m, c
     return points_strain_energy_of_list(p, m, partial, p->list_free, p->n_free);
 }
 
-/* Returns the stored plastic work of number k of the listed particles [J]. context: a struct strain_sum. */
+/* Returns the plastic work of entry k of a list of points that bonds do not carry [J]. context: list and particles
+ * (struct strain_sum). */
 static real plastic_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -313,9 +317,9 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
     if (momentum_scale) *momentum_scale = sum[p->dim];
 }
 
-/* Computes the stresses p->stress of peridynamic particles from their bonds. In state-based models the weighted volumes
+/* Computes the stresses p->stress of peridynamic particles from the bonds b. In state-based models the weighted volumes
  * and dilatations are recomputed first, at the current positions: a step moves particles after its forces, and the
- * stress in a rotating body would otherwise contain the rotation of a step. s: source of the bonds b. */
+ * stress in a rotating body would otherwise contain the rotation of a step. s: source of the bonds. */
 void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                                    const struct kernels *kernels)
 {

@@ -2,8 +2,9 @@
 #include "base/memory.h"
 #include "run/make.h"
 
-/* Returns true if a particle inside shape `one` has a neighbour within `cutoff` [m] inside shape `other`. tolerance:
- * distance outside a shape that counts as inside [m]. */
+/* Returns true if a particle inside the shape `one` has a neighbour within `cutoff` [m] inside the shape `other`, so
+ * that a bond joins both bodies. cells: search cells of p; tolerance: distance outside a shape that counts as inside
+ * [m]. */
 static bool are_near(const struct particles *p, const struct cells *cells, real cutoff, const struct region *one,
                      const struct region *other, real tolerance)
 {

@@ -4,8 +4,8 @@
 
 #include "run/make.h"
 
-/* Returns the number of a mirror boundary whose plane is between the positions X and Y along `axis`, or -1 if there is
- * none. */
+/* Returns the number of a boundary condition `mirror` (plane of symmetry) whose plane is between the positions X and Y
+ * [m] along `axis`, or -1 if there is none. */
 static int mirror_between(const struct loads *loads, const real *X, const real *Y, int axis)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -27,8 +27,8 @@ static int body_made_for(const struct scene *s, const real *X, int body)
     return body;
 }
 
-/* Sets the error that the body of particle i has a mirror m that is neither on a row of its lattice nor half a spacing
- * from one. Returns REFUSED. */
+/* Returns REFUSED, with the message that the mirror m of the body of particle i is neither on a row of the body's
+ * lattice nor half a spacing from one, so that the lattice does not continue beyond it. */
 static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
     real X[DIM_MAX];
@@ -42,8 +42,8 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
                       "xyz"[m->axis]);
 }
 
-/* Sets the error that the distance of particles i and j along an axis is not a whole number of spacings. i < p->n; j
- * may be a mirror image. Returns REFUSED. */
+/* Returns REFUSED, with the message that the distance of particles i and j along an axis is not a whole number of
+ * spacings. i must be below p->n; j may be a mirror image. */
 static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
                            int64_t j)
 {

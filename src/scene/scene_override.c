@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads the next part of the path *path, `key` or `[index]`, and advances *path behind it. *key, *length: receive
- * the key (within the path) and its length; *index: receives the index, or -1 for a key. Returns false if the path
+/* Reads the next part of the path *path, `key` or `[index]`, and advances *path beyond it. *key, *length: receive the
+ * key (a pointer into the path) and its length; *index: receives the index, or -1 for a key. Returns false if the path
  * is malformed. */
 static bool step_of_path(const char **path, const char **key, size_t *length, int *index)
 {
@@ -32,8 +32,8 @@ static bool step_of_path(const char **path, const char **key, size_t *length, in
     return true;
 }
 
-/* Appends an empty mapping with a key of `length` characters to `map` and returns it. origin: number of the override,
- * for messages. */
+/* Appends an empty mapping to the mapping `map` and returns it. key, length: its key; origin: number of the override,
+ * for messages. The memory belongs to the reader r. */
 static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, const char *key, size_t length, int origin)
 {
     struct yaml_node *n = arena_new(r, sizeof *n);
@@ -58,15 +58,15 @@ static const char *item_name(const struct yaml_node *list, const struct yaml_nod
 }
 
 /* Sets the origin of node n to override number `origin`, so that the message of the refusal that follows names this
- * override. Returns n. The tree must not be used afterwards. */
+ * override, and returns n. The tree must not be used afterwards, since the origin is wrong. */
 static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 {
     n->origin = origin;
     return n;
 }
 
-/* Sets *out to item `index` of a list, from 0. origin: number of the override, for messages. Returns REFUSED if the
- * node is no list or has fewer items. */
+/* Sets *out to item `index` (from 0) of a list. origin: number of the override, for messages. Returns REFUSED, with a
+ * message, if the node is no list or has fewer items. */
 static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
@@ -80,8 +80,8 @@ static status item_of(struct reader *r, struct yaml_node *list, int index, int o
     return OK;
 }
 
-/* Returns the names of the items of a list as part of a message, such as ` or by name (pull, hold)`, in the reader's
- * arena; "" if no item has a name. */
+/* Returns the names of the items of a list as part of a message, such as ` or by name (pull, hold)`; "" if no item has
+ * a name. The text is in the arena of the reader r. */
 static const char *names_text(struct reader *r, const struct yaml_node *list)
 {
     char text[192] = "";
@@ -124,9 +124,9 @@ static bool is_key(const struct yaml_node *n, const char *key, size_t length)
     return strlen(n->key) == length && (length == 0 || memcmp(n->key, key, length) == 0);
 }
 
-/* If the value of node n is a word, turns n into a mapping with the one entry `key`, whose value is `text` (NULL: an
- * empty mapping). For example, `exact: step bar` becomes `exact: {form: step bar}`. Leaves other nodes unchanged.
- * origin: number of the override. */
+/* Writes out the short form of a value: if the value of node n is a word, turns n into a mapping with the one entry
+ * `key`, whose value is `text` (NULL: an empty mapping). For example, `exact: step bar` becomes `exact: {form: step
+ * bar}`. Leaves other nodes unchanged. origin: number of the override. */
 static void write_out(struct reader *r, struct yaml_node *n, const char *key, const char *text, int origin)
 {
     if (n->kind != NODE_SCALAR || *n->text == '\0') return;
@@ -137,7 +137,7 @@ static void write_out(struct reader *r, struct yaml_node *n, const char *key, co
 
 /* Returns the mapping in which `key` (of `length` characters) of an item must be searched: the item itself, or for a
  * probe the mapping below its kind, so that a path can omit the kind (probes.0.at for probes.0.point.at). origin:
- * number of the override. */
+ * number of the override, for messages. */
 static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, const char *key, size_t length,
                                     int origin)
 {
@@ -172,9 +172,9 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
     return OK;
 }
 
-/* Returns true if the last part of a path addresses the position after the last item of a list, and `value` can be
- * such an item: a mapping or list, or for probes a word. key[length]: the part of the path; index: its value if the
- * part is [index], else -1. */
+/* Returns true if the last part of a path addresses the position after the last item of a list, and `value` can be such
+ * an item: a mapping or list, or for probes a word. key[length]: the last part of the path; index: its value if it has
+ * the form [index], else -1. */
 static bool is_new_item(const struct yaml_node *list, const char *key, size_t length, int index,
                         const struct yaml_node *value)
 {
@@ -198,9 +198,9 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
     for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
-/* Applies override number `origin` to the tree of the scene. Sets the value at its path; appends the value to a list
- * if the path ends in the index after the last item; removes the key if the value is empty. Returns REFUSED for a
- * malformed path, and if the key to be removed is missing. */
+/* Applies override number `origin` (from 0) to the tree of the scene. Sets the value at its path; appends the value to
+ * a list if the path ends in the index after the last item; removes the key if the value is empty. Returns REFUSED,
+ * with a message, for a malformed path, and if the key to be removed is missing. */
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];

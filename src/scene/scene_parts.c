@@ -13,7 +13,8 @@ enum { COLUMNS_TEXT = 1000 }; /* bytes of the names of all columns of a list */
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the list n of column names into b->columns, joined by commas. Returns REFUSED for invalid or too many ones. */
+/* Reads the list n of column names of a particle list into b->columns, joined by commas. Returns REFUSED, with a
+ * message, for invalid or too many names. */
 static status read_list_columns(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     size_t length = 1;
@@ -54,8 +55,8 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     return r->files ? particle_list_read_column_names(&b->list, b->file, &b->form, r->dim) : OK;
 }
 
-/* Returns REFUSED if body b is not rigid and has keys of rigid bodies, or is rigid and has keys of others. n: its
- * node. */
+/* Returns REFUSED, with a message, if body b is not rigid and has keys of rigid bodies, or is rigid and has keys of
+ * other bodies. n: node of the body. */
 static status check_rigid_body(struct reader *r, const struct yaml_node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
@@ -78,8 +79,9 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
     return OK;
 }
 
-/* Reads the body of node n into b. number: its index; the names of bodies before it must differ. Returns REFUSED for
- * invalid keys, and if it has neither shape nor particles, or both. */
+/* Reads the body of node n into b. number: index of the body; the names of bodies with smaller indices must differ from
+ * its name. Returns REFUSED, with a message, for invalid keys, and if the body has neither shape nor particles, or
+ * both. */
 static status scene_parts_read_body(struct reader *r, const struct yaml_node *n, struct scene_body *b, int number)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape"), *file = yaml_node_find(n, "particles");
@@ -104,8 +106,8 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     return OK;
 }
 
-/* Sorts the n bodies of the scene, deformable ones before rigid ones, and stores their numbers in s->bodies and
- * s->rigids. */
+/* Sorts the n bodies of the scene s, deformable ones before rigid ones, and stores their numbers in s->bodies and
+ * s->rigids, which must be 0 before. */
 static void sort_bodies(struct scene *s, int n)
 {
     struct scene_body *sorted = NEW("bodies", n, struct scene_body);
@@ -197,7 +199,7 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
 }
 
 /* Reads a rigid rotation w x (X - centre) of an initial state as its velocity gradient [1/s]. map: node of the initial
- * state. Returns REFUSED if velocity_gradient or centre is given too, and for invalid keys. */
+ * state. Returns REFUSED, with a message, if velocity_gradient or centre is given too, and for invalid keys. */
 static status read_initial_rotation(struct reader *r, const struct yaml_node *map, struct scene_initial *initial)
 {
     const struct yaml_node *n = yaml_node_find(map, "rotation"), *gradient = yaml_node_find(map, "velocity_gradient"),
@@ -219,7 +221,8 @@ static status read_initial_rotation(struct reader *r, const struct yaml_node *ma
     return OK;
 }
 
-/* Reads an initial velocity, numbers [m/s] or formulas, from node n (NULL: none). Returns REFUSED if it is invalid. */
+/* Reads the velocity of an initial state, numbers [m/s] or formulas, from node n (NULL: none) into *initial. Returns
+ * REFUSED, with a message, if it is invalid. */
 static status read_initial_velocity(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     if (!n) return OK;
@@ -291,7 +294,8 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
                        : OK;
 }
 
-/* Returns REFUSED if a probe names a growth rule that the scene lacks. root: tree of the scene. */
+/* Returns REFUSED, with a message, if a probe of the scene names a growth rule that the scene lacks. root: tree of the
+ * scene, for the location in the message. */
 static status check_growth_probes(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

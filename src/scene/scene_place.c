@@ -9,7 +9,7 @@
 /* ---- the list of places --------------------------------------------------------------------------------------------
  */
 
-/* Returns the number of nodes below `node`, down to `depth` levels. */
+/* Returns the number of nodes below `node`, at most `depth` levels below. */
 static int64_t nodes_count(const struct yaml_node *node, int depth)
 {
     int64_t n = 0;
@@ -17,8 +17,8 @@ static int64_t nodes_count(const struct yaml_node *node, int depth)
     return n;
 }
 
-/* Appends the locations of all nodes below `node`, down to `depth` levels, to s->key_place, where memory for them
- * must be allocated. path: path of `node`, "" for the root. */
+/* Appends the locations of all nodes at most `depth` levels below `node` to s->key_place, the list of locations of the
+ * scene, where memory for them must be allocated. path: path of `node`, "" for the root. */
 static void places_add(const struct reader *r, const struct yaml_node *node, const char *path, int depth)
 {
     struct scene *s = r->scene;
@@ -45,8 +45,8 @@ void scene_store_key_locations(const struct reader *r, const struct yaml_node *r
 /* ---- the place of a refusal ----------------------------------------------------------------------------------------
  */
 
-/* Returns true if `text`, a message, begins with the word `kind` and the name `name`, followed by a colon or a blank.
- */
+/* Returns true if `text`, a message, begins with the words `kind` (which ends in a blank) and `name`, followed by a
+ * colon or a blank. */
 static bool begins_with(const char *text, const char *kind, const char *name)
 {
     const size_t first = strlen(kind), second = strlen(name);
@@ -54,8 +54,8 @@ static bool begins_with(const char *text, const char *kind, const char *name)
     return text[first + second] == ':' || text[first + second] == ' ';
 }
 
-/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of the key with which the message `text` begins,
- * or else of the group that contains this key. Writes nothing if the scene has neither. */
+/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of the key with which the message `text` begins, or
+ * else of the group that contains this key. Writes nothing if the scene s has neither. */
 static void place_of_key(const struct scene *s, const char *text, char *place)
 {
     char key[100] = "";
@@ -74,8 +74,8 @@ static void place_of_key(const struct scene *s, const char *text, char *place)
     }
 }
 
-/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of item number `item` of the list `list` of the
- * scene, such as probes. Writes nothing if it is unknown. */
+/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of item number `item` (from 0) of the list `list` of
+ * the scene s, such as probes. Writes nothing if the location is unknown. */
 static void place_of_item(const struct scene *s, const char *list, int item, char *place)
 {
     char key[100];

@@ -33,8 +33,8 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
     return OK;
 }
 
-/* Returns REFUSED if p is a reaction probe and the scene does not have its boundary. n: node of the boundary's name,
- * for messages. */
+/* Returns REFUSED, with a message, if p is a reaction probe and the scene does not have the boundary condition that it
+ * names. n: node of this name, for the message. */
 static status check_probe_boundary(struct reader *r, const struct yaml_node *n, const struct probe_request *p)
 {
     const struct scene *s = r->scene;
@@ -104,8 +104,8 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
     return fault(r, yaml_node_find(map, "direction"), "has no length; give the direction ahead of the tip");
 }
 
-/* Reads the probe of node n, in any of its forms, into *p. A number that is not given and has no default becomes
- * NAN. Returns REFUSED for an invalid probe. */
+/* Reads the probe of node n, in any of its forms, into *p. A number that is not given and has no default becomes NAN.
+ * Returns REFUSED, with a message, for an invalid probe. */
 static status read_probe(struct reader *r, const struct yaml_node *n, struct probe_request *p)
 {
     const struct yaml_node *map;

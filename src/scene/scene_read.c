@@ -10,8 +10,8 @@
 #include "base/memory.h"
 #include "scene_parts.h"
 
-/* Derives the name of a scene from its path: the file name without folder and extension, with _ for characters that a
- * name cannot have, cut off to NAME_MAX_LENGTH - 1 characters. */
+/* Derives the name of a scene from its path, into `name`: the file name without folder and extension, with _ for
+ * characters that a name cannot have, truncated to NAME_MAX_LENGTH - 1 characters. */
 static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
 {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
@@ -31,9 +31,9 @@ static const struct yaml_node *auto_method(const struct yaml_node *root)
     return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
 }
 
-/* Parses a text of `length` bytes, fills the scene r->scene and writes the scene as run to s->text. With `method:
- * auto` fills only *wish, the request for pilot runs. Returns REFUSED for an invalid scene, and for `method: auto`
- * if wish is NULL. */
+/* Parses a scene in a text of `length` bytes, fills r->scene and writes the scene as run to s->text. With `method:
+ * auto` fills only *wish, the request for pilot runs. Returns REFUSED, with a message, for an invalid scene, and for
+ * `method: auto` if wish is NULL. */
 static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;

@@ -46,7 +46,7 @@ bool scene_has_material_with_key(const struct yaml_node *root, const char *key)
     return has;
 }
 
-/* Returns true if an item of the list `bodies` of the scene is rigid. */
+/* Returns true if an item of the list `bodies` of the scene is rigid. root: tree of the scene. */
 static bool has_rigid_bodies(const struct yaml_node *root)
 {
     const struct yaml_node *many = yaml_node_find(root, "bodies");
@@ -58,8 +58,9 @@ static bool has_rigid_bodies(const struct yaml_node *root)
     return rigid;
 }
 
-/* Returns the features of the scene (bits HAS_...) that are not supported by every method. Materials that have not been
- * read yet are assumed to have the Poisson's ratio of bond-based peridynamics. */
+/* Returns the features of the scene (bits HAS_...) that not every method supports. Materials that have not been read
+ * yet are assumed to have the Poisson's ratio of bond-based peridynamics. r: reader with the tree and the scene as far
+ * as it has been read. */
 static unsigned scene_has(const struct reader *r)
 {
     const struct scene *s = r->scene;
@@ -79,8 +80,8 @@ static unsigned scene_has(const struct reader *r)
     return has;
 }
 
-/* Returns the row of the table `combination` for a method that supports all features in `has` (bits HAS_...), with
- * the model of the scene if possible; -1 if there is none. */
+/* Returns the index of the row of the table `combination` for a method that supports all features in `has` (bits
+ * HAS_...), with the model of the scene s if possible; -1 if there is none. */
 static int row_of_method(const struct scene *s, enum method method, unsigned has)
 {
     int row = -1;
@@ -112,9 +113,9 @@ static void write_change(const struct scene *s, int row, unsigned has, char *tex
         snprintf(text, capacity, "%s%s%s", methods[method], other ? " with " : "", other ? model : "");
 }
 
-/* Returns the changes of method or model with which the scene could have all features in `has` (bits HAS_...), as
- * words of a message in the reader's arena. If another model suffices, only that is named. Returns NULL if there is
- * no such change. */
+/* Returns the changes of method or model with which the scene could have all features in `has` (bits HAS_...), as words
+ * of a message. If another model suffices, only this model is named. Returns NULL if there is no such change. The text
+ * is in the arena of the reader r. */
 static const char *changes_that_allow(struct reader *r, unsigned has)
 {
     static const enum method methods[] = {METHOD_PD, METHOD_ADAPTIVE, METHOD_MPM};
@@ -132,7 +133,7 @@ static const char *changes_that_allow(struct reader *r, unsigned has)
     return *text ? arena_copy_text(r, text, strlen(text)) : NULL;
 }
 
-/* Returns the names of the features in `has` (bits HAS_...), joined by "and", in the reader's arena. */
+/* Returns the names of the features in `has` (bits HAS_...), joined by "and", in the arena of the reader r. */
 static const char *names_of(struct reader *r, unsigned has)
 {
     char text[240] = "";
@@ -145,7 +146,8 @@ static const char *names_of(struct reader *r, unsigned has)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the Poisson's ratio of bonds in the space of the scene, as text. */
+/* Returns the Poisson's ratio of bond-based peridynamics in the space of the scene s (plane stress, or plane strain and
+ * 3D), as text. */
 static const char *ratio_of_bonds(const struct scene *s) { return s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4"; }
 
 status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node *poisson_node)

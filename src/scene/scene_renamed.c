@@ -24,8 +24,8 @@ static const struct {
     {"accuracy_chart", TABLE_REMOVED},
 };
 
-/* Appends the old and the new name of row k of the table `renamed` to s->renamed, which is printed later as a
- * warning. Does nothing if they are there already. */
+/* Appends the old and the new name of row k of the table `renamed` to s->renamed, a text that is printed later as a
+ * warning. Does nothing if s->renamed has them already. */
 static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);

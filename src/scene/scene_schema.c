@@ -9,7 +9,7 @@
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the first `length` characters of a text as a JSON string, with escapes for quotes and backslashes. */
+/* Writes the first `length` characters of `text` to `out` as a JSON string, with escapes for quotes and backslashes. */
 static void write_string(FILE *out, const char *text, size_t length)
 {
     fputc('"', out);
@@ -20,8 +20,8 @@ static void write_string(FILE *out, const char *text, size_t length)
     fputc('"', out);
 }
 
-/* Writes the words a|b|c as a JSON enumeration. Words of digits are written as numbers, too, and `true` as a boolean,
- * since YAML reads them as such. */
+/* Writes the words of `words`, a text a|b|c, to `out` as a JSON enumeration. Words of digits are written as numbers,
+ * too, and `true` as a boolean, since YAML reads them as such. */
 static void write_words(FILE *out, const char *words)
 {
     const char *between = "";
@@ -37,8 +37,8 @@ static void write_words(FILE *out, const char *words)
     fputs("]}", out);
 }
 
-/* Writes the JSON types of key k: a number of type `type` ("number" or "integer") within its range, or a text, since
- * formulas and numbers with units are texts. */
+/* Writes the JSON types of key k to `out`: a number of the JSON type `type` ("number" or "integer") within the range of
+ * k, or a text, since formulas and numbers with units are texts. */
 static void write_numbers(FILE *out, const struct key *k, const char *type)
 {
     char least[32], most[32];
@@ -58,8 +58,8 @@ static void write_list_of(FILE *out, const char *definition)
     fprintf(out, "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}", definition);
 }
 
-/* Writes the list of required keys of a group, if it has any. group: path of the group; begin: text before the first
- * key. */
+/* Writes the list of required keys of a group to `out`; nothing if there are none. group: path of the group; begin:
+ * text before the first key. */
 static void write_required(FILE *out, const char *group, const char *begin)
 {
     const char *between = begin;
@@ -75,7 +75,7 @@ static void write_object(FILE *out, const char *group);
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the table has keys directly below the path `group`. */
+/* Returns true if the table of keys has keys directly below the path `group`. */
 static bool has_children(const char *group)
 {
     bool any = false;
@@ -83,8 +83,8 @@ static bool has_children(const char *group)
     return any;
 }
 
-/* Writes the JSON type of key k, whose value is read by a function of its own, from the description of its form in the
- * table of keys. Writes {}, any value, if the description is not recognised. */
+/* Writes the JSON type of key k, whose value is read by a function of its own, to `out`, as derived from the
+ * description of its form in the table of keys. Writes {}, any value, if the description is not recognised. */
 static void write_by_hand(FILE *out, const struct key *k)
 {
     const char *form = k->words ? k->words : "";
@@ -120,7 +120,7 @@ static void write_by_hand(FILE *out, const struct key *k)
         fputs("{}", out);
 }
 
-/* Writes the JSON type of a probe: the word of its kind, or a mapping with the kind as its only key. */
+/* Writes the JSON type of a probe to `out`: the word of its kind, or a mapping with the kind as its only key. */
 static void write_probe(FILE *out)
 {
     const char *between = "";
@@ -180,7 +180,7 @@ static void write_alternatives(FILE *out, const struct key *k)
 }
 
 /* Returns true if key k is in a mapping that is merged with that of an included scene. Such a key may have an empty
- * value, which removes it. */
+ * value, which removes the value of the included scene. */
 static bool is_in_merged(const struct key *k)
 {
     char group[64];
@@ -204,8 +204,8 @@ static void write_property(FILE *out, const struct key *k)
     fputs("]}", out);
 }
 
-/* Writes the members of the JSON type of a mapping with the keys of a group. group: path of the group. If scenes
- * that include each other merge this mapping, the list of required keys is omitted. */
+/* Writes the members of the JSON type of a mapping with the keys of a group to `out`. group: path of the group. The
+ * list of required keys is omitted if scenes that include each other merge this mapping. */
 static void write_members(FILE *out, const char *group)
 {
     const char *between = "";

@@ -18,8 +18,8 @@ enum { SLICES_MOST = 65536 };
 
 /* ---- names of files ---------------------------------------------------------------------------------------------- */
 
-/* Combines f->contents, the hash of the files read so far, with `contents`, the hash of one more file (FNV-1a). If f
- * has one file, f->contents is the hash of that file. */
+/* Combines f->contents, the hash of the files read so far, with `contents`, the hash of one more file (FNV-1a). For the
+ * first file f->contents becomes the hash of this file. */
 static void contents_add(struct shape_file *f, uint64_t contents)
 {
     if (f->files == 0)
@@ -77,7 +77,7 @@ static status paths_read(struct reader *r, const struct yaml_node *n, struct sha
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Releases a file of solids with all that was read from it, and the structure f itself. */
+/* Releases the file f of solids with all that was read from it, and the structure f itself. */
 static void shape_file_free(struct shape_file *f)
 {
     for (int k = 0; k < f->files; k++) memory_free(f->path[k]);
@@ -111,9 +111,9 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* Reads the particle spacing that the scene gives into *spacing [m]; NAN if it gives none. It is read here since shapes
- * are read before it. n: any node of the tree of the scene. Returns REFUSED if the spacing is no length in its range.
- */
+/* Reads the particle spacing that the scene gives into *spacing [m]; NAN if it gives none. Needed because shapes are
+ * read before the spacing. n: any node of the tree of the scene. Returns REFUSED, with a message, if the spacing is no
+ * length in its range. */
 static status read_spacing(struct reader *r, const struct yaml_node *n, real *spacing)
 {
     *spacing = NAN;
@@ -148,8 +148,8 @@ static status shape_take(struct reader *r, const struct yaml_node *n, struct sha
     return OK;
 }
 
-/* Returns REFUSED if the scene gives the hash of a file and the file has another one. n: node of the solid; words:
- * its keys; contents: hash of the file. */
+/* Returns REFUSED, with a message, if the scene gives the hash of a file of a solid and the file has another hash. n:
+ * node of the solid; words: its keys; contents: hash of the file. */
 static status check_contents(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                              uint64_t contents)
 {

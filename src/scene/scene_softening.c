@@ -17,9 +17,9 @@ struct softening_model scene_softening_model_of_bonds(const struct scene *s, con
     return (struct softening_model){modulus.A / unit, modulus.B / unit, rotates};
 }
 
-/* Sets m->onset_stretch such that bonds of material m have its tensile strength. In state-based models, where bonds
- * dissipate energy together, also sets the critical stretch at which the separation of a lattice dissipates G_c.
- * Both follow from a fixed-point iteration. */
+/* Sets m->onset_stretch, at which bonds begin to soften, such that they have the tensile strength of material m. In
+ * state-based models, where bonds dissipate energy together, also sets the critical stretch at which the separation of
+ * a lattice dissipates G_c. Both follow from a fixed-point iteration. s: scene, for horizon and model. */
 static void set_stretches(const struct scene *s, struct material *m)
 {
     const struct softening_model model = scene_softening_model_of_bonds(s, m);
@@ -49,8 +49,8 @@ real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const stru
     return s->horizon * s->spacing * square(m->critical_stretch / onset) / squared_stretch_ratio;
 }
 
-/* Returns REFUSED if bonds of material m would break before its tensile strength is reached, or if the strength is
- * above a tenth of Young's modulus. m->onset_stretch must be set. n: node of the tensile strength. */
+/* Returns REFUSED, with a message, if bonds of material m would break before its tensile strength is reached, or would
+ * need a finer spacing. Call after m->onset_stretch is set. n: node of the tensile strength. */
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
@@ -72,8 +72,8 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
                  most / s->horizon, strength_unit_hint(s, most));
 }
 
-/* Reads the list n of pairs of strain rate and factor of strength into *rate. Returns REFUSED for points out of
- * order. */
+/* Reads the list n of pairs of strain rate [1/s] and factor of strength [1] into *rate. Returns REFUSED, with a
+ * message, for points out of order. */
 static status read_rate_table(struct reader *r, const struct yaml_node *n, struct strength_rate *rate)
 {
     const struct key rates = {
@@ -129,8 +129,8 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
                  s->horizon * s->spacing, strongest, most, most / s->horizon);
 }
 
-/* Returns REFUSED if a material without tensile strength has a key of a strength surface or of a strain rate. n:
- * node of the material. */
+/* Returns REFUSED, with a message, if a material without tensile strength has a key of a strength surface or of a
+ * strain rate. n: node of the material. */
 static status check_no_surface(struct reader *r, const struct yaml_node *n)
 {
     static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength",

@@ -41,8 +41,8 @@ static status check_box(struct reader *r, const struct yaml_node *n, const struc
     return OK;
 }
 
-/* Returns REFUSED if the solid s has an axis without length, or a hole or section that is not smaller than its radius.
- * n: node of the solid. */
+/* Returns REFUSED, with a message, if the solid s has an axis without length, or a hole or section that is not smaller
+ * than its radius. n: node of the solid. */
 static status check_round(struct reader *r, const struct yaml_node *n, const struct solid *s)
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
@@ -68,8 +68,8 @@ static status check_solid(struct reader *r, const struct yaml_node *n, const str
     return check_round(r, n, s);
 }
 
-/* Reads the corners of a polygon and its rounding into s->polygon. n: node of the polygon. Returns REFUSED if edges
- * cross, the corners have no area or the rounding does not fit an edge. */
+/* Reads the corners of a polygon and its rounding into s->polygon. n: node of the polygon. Returns REFUSED, with a
+ * message, if edges cross, the corners have no area or the rounding does not fit an edge. */
 static status read_corners(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct key *k = key_find("solid.polygon", "corners");
@@ -195,8 +195,9 @@ static status read_named(struct reader *r, const struct yaml_node *n, struct sol
     return OK;
 }
 
-/* Reads the regions in a mapping of names to solids into named[map->n]. count: increased by the number of regions
- * that have been read, also on failure. Returns REFUSED for invalid names or solids. */
+/* Reads the regions in `map`, a mapping of names to solids, into named[map->n]. *count: increased by the number of
+ * regions that have been read, also on failure, so that the caller can release them. Returns REFUSED, with a message,
+ * for invalid names or solids. */
 static status read_names(struct reader *r, const struct yaml_node *map, struct named_region *named, int *count)
 {
     for (const struct yaml_node *n = map->first; n; n = n->next) {
@@ -221,8 +222,8 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; give a name and its solids");
 }
 
-/* Reads all named sections in r->sections and discards them; extrusions read those that they use again. In this way
- * faults in unused sections are found. Returns REFUSED for a fault, and outside 3D. */
+/* Reads all named sections in r->sections and discards them: faults in unused sections are found in this way, and
+ * extrusions read those that they use again. Returns REFUSED, with a message, for a fault, and outside 3D. */
 static status read_sections(struct reader *r)
 {
     const struct yaml_node *map = r->sections;
@@ -340,7 +341,7 @@ static void crack_make(struct crack *c, int n)
     c->n = n, c->width = 0;
 }
 
-/* Computes the vector product n = (b - a) x (c - a) for the points a, b and c in space, a normal of their plane. */
+/* Computes n = (b - a) x (c - a), a normal of the plane of the points a, b and c in space. */
 static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) {

@@ -4,8 +4,8 @@
 
 #include "scene_parts.h"
 
-/* Returns REFUSED for keys that require inertia or time, which the load steps of solver static do not have. root: tree
- * of the scene. */
+/* Returns REFUSED, with a message, for keys that require inertia or time, which the load steps of solver static do not
+ * have. root: tree of the scene, for the location in the message. */
 static status check_steps_motion(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -54,7 +54,8 @@ bool scene_has_load_steps_with_softening_bonds(const struct scene *s)
     return scene_has_load_steps(s) && scene_first_material(s, material_has_softening_bonds);
 }
 
-/* Returns REFUSED for settings that load steps do not support if bonds soften. root: tree of the scene. */
+/* Returns REFUSED, with a message, for settings that load steps do not support if bonds soften; OK if none soften.
+ * root: tree of the scene, for the location in the message. */
 static status check_steps_softening(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -76,8 +77,8 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
     return OK;
 }
 
-/* Returns REFUSED if no boundary, gravity or rigid body of the scene loads or displaces the body. root: tree of the
- * scene. */
+/* Returns REFUSED, with a message, if no boundary condition, gravity or rigid body of the scene loads or displaces the
+ * body. root: tree of the scene, for the location in the message. */
 static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -116,8 +117,9 @@ status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
                  "their distance");
 }
 
-/* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because
- * scene.yaml, the scene as run, has all keys. root: tree of the scene. */
+/* Returns REFUSED, with a message, if the scene has settings of load steps but another solver. Default values are
+ * accepted, because scene.yaml, the scene as run, has all keys. root: tree of the scene, for the location in the
+ * message. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root)
 {
     const struct scene_steps *s = &r->scene->steps;

@@ -6,8 +6,8 @@
 #include "scene_parts.h"
 #include "scene_remedies.h"
 
-/* Ratio kappa = (critical stretch/onset stretch)^2 of bonds that soften by themselves before a strength surface is
- * reached [1]. With a smaller ratio, lattices stop cracks. */
+/* Ratio kappa = (critical stretch/onset stretch)^2 [1] of bonds that begin to soften alone, although the strength
+ * surface of the material is not yet reached. With a smaller ratio, lattices stop cracks. */
 #define OWN_RATIO 2
 /* Default radius within which strains are averaged for the strength surface, divided by E G_c/sigma_t^2. With this
  * radius, the stress at a crack tip loaded to the toughness K_c is 0.8 of the strength; measured. */
@@ -35,8 +35,8 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
                  low * m->tensile_strength, high * m->tensile_strength);
 }
 
-/* Sets m->surface, the strength surface, from the strength that the key `key` gives. n: node of the key. Returns
- * REFUSED for a strength that does not suit the tensile strength. */
+/* Sets m->surface, the strength surface of material m, from the strength that the key `key` gives. n: node of the key.
+ * Returns REFUSED, with a message, for a strength that does not suit the tensile strength. */
 static status surface_from(struct reader *r, const struct yaml_node *n, const char *key, struct material *m)
 {
     const real tension = m->tensile_strength;
@@ -57,7 +57,8 @@ static status surface_from(struct reader *r, const struct yaml_node *n, const ch
     return OK;
 }
 
-/* Returns the length E G_c/strength^2 of material m [m]. If G_c is not given, it follows from the critical stretch. */
+/* Returns the characteristic length E G_c/strength^2 of material m [m]. If G_c is not given, it follows from the
+ * critical stretch of bonds in the scene s. */
 static real characteristic_length(const struct scene *s, const struct material *m)
 {
     struct material unit = *m;
@@ -76,8 +77,8 @@ real scene_strength_surface_largest_horizon(const struct scene *s, const struct 
     return s->horizon * s->spacing * square(m->onset_stretch / strain);
 }
 
-/* Returns REFUSED if bonds of material m begin to soften by themselves before its strength surface is reached in
- * tension. n: node of the tensile strength. */
+/* Returns REFUSED, with a message, if bonds of material m begin to soften alone, by their own stretch, before its
+ * strength surface is reached in tension. n: node of the tensile strength. */
 static status check_first(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;

@@ -38,7 +38,7 @@ static status read_table(struct reader *r, const struct yaml_node *n, struct tim
 
 enum { TIMES_MAX = 1000000, UNIT_LONGEST_NAME = 40 };
 
-/* Columns of time and values of a function in a file. */
+/* Columns of time and values of a function in a CSV file, while it is read. */
 struct time_columns {
     struct csv_file in;
     int time, value, all; /* indices from 0, -1: not found; number of all columns */
@@ -62,9 +62,9 @@ static enum unit unit_of_boundary(const struct boundary *b)
     }
 }
 
-/* Examines the name of column k in the header of the file. Stores k in c if the column is the time, or the column of
- * values called `wanted` (if that is "", the first column beside the time). Returns REFUSED if its unit does not
- * fit, or if the time is given twice. */
+/* Examines the name of column k in the header of a CSV file of a function of time. Stores k in c if the column is the
+ * time, or the column of values called `wanted` (if that is "", the first column beside the time). name: name with
+ * unit, modified. Returns REFUSED, with a message, if the unit does not fit, or if the time is given twice. */
 static status column_take(struct time_columns *c, int k, char *name, const char *wanted)
 {
     char what[160];
@@ -123,8 +123,8 @@ static status time_number(const struct time_columns *c, const char *field, const
 }
 
 /* Reads the text `line` of a CSV file into entry f->n of the times f->t and the values f->value, without changing f->n.
- * c: columns of the file. Returns REFUSED for a wrong number of values, for a text that is no number, and for a time
- * not later than the previous one. */
+ * c: columns of the file. Returns REFUSED, with a message, for a wrong number of values, for a text that is no number,
+ * and for a time not later than the previous one. */
 static status time_entry(const struct time_columns *c, char *line, struct time_function *f)
 {
     int k = 0, found = 0;

@@ -3,8 +3,8 @@
 
 #include "scene_internal.h"
 
-/* word: name of a unit that scenes do not have, also recognised with a plural s; meant: the unit to write instead, as
- * text of a message. */
+/* Table of names of units that scenes do not have. word: the name, also recognised with a plural s; meant: the unit to
+ * write instead, as text of a message. */
 static const struct {
     const char *word, *meant;
 } unit_words[] = {

@@ -80,8 +80,8 @@ static bool symbol_read(struct measure *m, const char *name, size_t length)
     return true;
 }
 
-/* Returns twice the exponent at *at, behind the symbol of a unit: `^2`, `2`, `^-1`, `^0.5` or a superscript digit.
- * Advances *at behind it. Returns 2 if there is no exponent, and 0 if it is malformed. */
+/* Reads the exponent at *at, which follows the symbol of a unit: `^2`, `2`, `^-1`, `^0.5` or a superscript digit.
+ * Advances *at beyond it. Returns twice the exponent; 2 if there is none, 0 if it is malformed. */
 static int power_read(const char **at)
 {
     const char *c = *at;
@@ -111,7 +111,7 @@ static size_t symbol_length(const char *c)
     return n;
 }
 
-/* Reads one factor of a unit at *at, such as `kg`, `m^3` or `sqrt(m)`, into *m and advances *at behind it. Returns
+/* Reads one factor of a unit at *at, such as `kg`, `m^3` or `sqrt(m)`, into *m and advances *at beyond it. Returns
  * false if it is malformed, or has a power of ten that is no multiple of 1/2. */
 static bool factor_read(struct measure *m, const char **at)
 {
@@ -129,7 +129,7 @@ static bool factor_read(struct measure *m, const char **at)
     return true;
 }
 
-/* Reads a product of factors separated by spaces, `*` or `/` into *sum. Returns false if the text is no unit. */
+/* Reads a product of factors separated by blanks, `*` or `/` from `text` into *sum. Returns false if it is no unit. */
 static bool unit_read(struct measure *sum, const char *text)
 {
     *sum = (struct measure){{0, 0, 0}, 0};
@@ -157,8 +157,8 @@ static const struct unit_row *unit_of(const int twice[3])
     return NULL;
 }
 
-/* Returns true if the word at c is a unit: a symbol, alone or with 2 or 3 as its exponent. A longer word is not, since
- * names of variables can begin with a symbol. */
+/* Returns true if the word at c is a unit: a symbol, alone or with 2 or 3 as its exponent. A longer word is no unit,
+ * since names of variables can begin with a symbol. */
 static bool is_unit_word(const char *c)
 {
     if (strncmp(c, "sqrt(", 5) == 0) c += 5;
@@ -236,7 +236,7 @@ static size_t number_length(const char *c)
     return (size_t)(c - start);
 }
 
-/* Returns the number in c[length] times 10^(twice_ten/2). The product is rounded once if twice_ten is even. */
+/* Returns the number in c[length] times 10^(twice_ten/2). If twice_ten is even, the product is rounded only once. */
 static real number_value(const char *c, size_t length, int twice_ten)
 {
     const int half = twice_ten % 2 != 0, ten = (twice_ten - half) / 2; /* an odd one is half a power more */
@@ -302,8 +302,8 @@ static bool unit_in_other_case(const char *text, char *out, size_t capacity)
     return strcmp(out, text) != 0 && unit_read(&m, out);
 }
 
-/* Finds the power of ten that converts the unit with the text unit_text to SI units, and stores twice its exponent in
- * *ten. unit: expected kind. Returns false, with a message in c, for an unknown unit or one of another kind. */
+/* Finds the power of ten that converts a unit to SI, and stores twice its exponent in *ten. unit_text: the unit; unit:
+ * expected kind. Returns false, with a message in c, for an unknown unit or a unit of another kind. */
 static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Writes to text[capacity] why node n, which is no key of the group `group`, is refused, and which key is probably
- * meant if there is a similar one. */
+/* Writes the reason why node n, which is no key of the group `group`, is refused to text[capacity], with the key that
+ * is probably meant if there is a similar one. */
 static void describe_unknown_key(const struct yaml_node *n, const char *group, char *text, size_t capacity)
 {
     char instead[400];
@@ -47,8 +47,8 @@ status check_keys_known(struct reader *r, const struct yaml_node *mapping, const
 
 enum { SHOWN_MOST = 10 }; /* lines of unknown keys in one message */
 
-/* Sets the message about the unknown key at node n, or adds it as a line to that about earlier ones. group: path of its
- * group; *found: number of unknown keys so far, which increases by one. */
+/* Sets the message about the unknown key at node n, or adds it as a line to the message about earlier unknown keys.
+ * group: path of the key's group; *found: number of unknown keys so far, which increases by one. */
 static void report_unknown_key(const struct reader *r, const struct yaml_node *n, const char *group, int *found)
 {
     char place[PLACE_LENGTH], text[500];
@@ -62,7 +62,7 @@ static void report_unknown_key(const struct reader *r, const struct yaml_node *n
 }
 
 /* Returns the path of the group of keys in the mapping that is the value of key k, or in each mapping of the list.
- * Returns NULL if its value is no such mapping, or one of names. */
+ * Returns NULL if the value is no such mapping, or a mapping of names. */
 static const char *group_of_values(const struct key *k)
 {
     const char *words = k->words ? k->words : "", *group = key_group_of_items(k);

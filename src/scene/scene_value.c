@@ -52,7 +52,8 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
     return check_range(r, k, n, *value);
 }
 
-/* Reads an expression from node n into *value. Returns REFUSED unless it is a whole number to a relative 1e-9. */
+/* Reads an expression from node n into *value. Returns REFUSED, with a message, unless its value is a whole number to a
+ * relative 1e-9. */
 static status read_whole(struct reader *r, const struct yaml_node *n, real *value)
 {
     char what[256];
@@ -121,7 +122,8 @@ static status read_choice(struct reader *r, const struct key *k, const struct ya
     return OK;
 }
 
-/* Returns the word of a|b|c most similar to `text`, in the reader's arena; NULL: none is similar. */
+/* Returns the word of `words`, a text a|b|c, most similar to `text`, in the arena of the reader r; NULL if none is
+ * similar. */
 static const char *word_near(struct reader *r, const char *words, const char *text)
 {
     const char *nearest = NULL;
@@ -168,7 +170,8 @@ static status read_any_text(struct reader *r, const struct yaml_node *n, char *n
     return OK;
 }
 
-/* Reads letters, digits, _ and - from node n into name[NAME_MAX_LENGTH]. Returns REFUSED for another text. */
+/* Reads a name of letters, digits, _ and - from node n into name[NAME_MAX_LENGTH]. Returns REFUSED, with a message, for
+ * another text. */
 static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
@@ -203,8 +206,8 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     return OK;
 }
 
-/* Reads dim x dim numbers, as a list of rows or as one list, from node n into matrix[dim * dim] in the unit of key k.
- * Returns REFUSED for another form. */
+/* Reads dim x dim numbers, as a list of rows or as one list, from node n into matrix[dim * dim], row by row, in the SI
+ * unit of key k. Returns REFUSED, with a message, for another form. */
 static status read_matrix(struct reader *r, const struct key *k, const struct yaml_node *n, real *matrix)
 {
     int dim = r->dim, entry = 0;
@@ -221,7 +224,8 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
 
 enum { SERIES_MOST = 100000 };
 
-/* Reads a list of ascending numbers from node n in the unit and range of key k. Returns REFUSED for another form. */
+/* Reads a list of ascending numbers from node n, in the SI unit and range of key k, into *series, which the scene
+ * frees. Returns REFUSED, with a message, for another form. */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
     TRY(expect_list(r, k, n));
@@ -317,7 +321,8 @@ status read_value_of_key(struct reader *r, const struct key *k, const struct yam
     }
 }
 
-/* Reads the default of key k into `base`, the structure of its group. Returns REFUSED at `where` if k is required. */
+/* Reads the default of key k into `base`, the structure of its group. Returns REFUSED if k is required and missing;
+ * where: node whose location the message names. */
 static status read_fallback(struct reader *r, const struct yaml_node *where, const struct key *k, void *base)
 {
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};

@@ -14,8 +14,8 @@
 
 /* ---- the key accuracy -------------------------------------------------------------------------------------------- */
 
-/* Reads the name of a quantity of summary.json, such as crack.start_time, from node `of` into figure[capacity].
- * Returns REFUSED for texts that cannot be such a name. */
+/* Reads the name of a number of summary.json, such as crack.start_time, from node `of` into figure[capacity]. Returns
+ * REFUSED, with a message, for texts that cannot be such a name. */
 static status figure_read(struct reader *r, const struct yaml_node *of, char *figure, size_t capacity)
 {
     if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= capacity || strpbrk(of->text, " ,/"))
@@ -43,8 +43,8 @@ static status accuracy_read(struct reader *r, const struct yaml_node *root, stru
 
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
-/* A method with which a scene with `method: auto` is read at first. soft_states: true if bonds that soften are those
- * of a state-based model. */
+/* A method with which a scene with `method: auto` is read at first. soft_states: true if bonds that soften have a
+ * state-based model. */
 struct provisional_method {
     const char *method;
     bool soft_states;
@@ -120,8 +120,9 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Reads into *requirements what a scene with `method: auto` requires of its pilot runs. root: tree of the scene;
- * text[length]: its text. Returns REFUSED for an invalid scene, and for one with load steps. */
+/* Reads into *requirements what a scene with `method: auto` requires of its pilot runs (runs that choose method and
+ * spacing). root: tree of the scene; text[length]: its text. Returns REFUSED, with a message, for an invalid scene, and
+ * for one with load steps. */
 status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                                struct pilot_wish *requirements)
 {

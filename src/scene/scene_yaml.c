@@ -56,7 +56,7 @@ static status next_event(struct parse *p, yaml_event_t *event)
     return fault_at(p, mark, "more than 1000000 YAML events; put long data into a particle list");
 }
 
-/* Returns a message if an event of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character, or
+/* Returns a message if the event e of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character, or
  * nesting of more than DEPTH_MOST levels. Returns NULL if it is allowed. depth: levels of nesting. */
 static const char *event_refusal(const yaml_event_t *e, int depth)
 {

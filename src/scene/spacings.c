@@ -28,8 +28,8 @@ static void length_add(struct lengths *l, real length)
     if (fabs(length) > 0 && l->n < LENGTHS_MOST) l->of[l->n++] = fabs(length);
 }
 
-/* If the coordinate X along an axis is inside a box, appends its distance from the lower face of the box to the list
- * l [m]. */
+/* Appends the distance of the coordinate X along an axis [m] from the lower face of a box to the list l, if X is inside
+ * the box. axis: 0 to 2. */
 static void length_add_inside(struct lengths *l, const struct solid *box, int axis, real X)
 {
     if (X > box->from[axis] && X < box->to[axis]) length_add(l, X - box->from[axis]);
@@ -65,19 +65,19 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
 /* Relative tolerance for the equality of lengths [1]: scenes give them with few digits. */
 #define DIGITS 1e-6
 
-/* Returns the smallest number of equal parts into which `length` [m] can be divided such that none is longer than h
- * [m]. */
+/* Returns the smallest number of equal parts into which `length` [m] can be divided such that no part is longer than h
+ * [m]; at least 1. */
 static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
-/* Returns true if `length` is a whole multiple of `unit`, to a relative tolerance of 1e-6. */
+/* Returns true if `length` is a whole multiple of `unit`, to a relative tolerance of 1e-6; both in one unit. */
 static bool length_divides(real unit, real length)
 {
     const real count = length / unit;
     return fabs(count - round(count)) < 1e-6 * count;
 }
 
-/* Returns true if the spacing h divides all lengths in l [m]. With `even`, 2 h must also divide the edges of the
- * first body, so that grid cells of two spacings end at its faces. */
+/* Returns true if the spacing h [m] divides all lengths in l. With `even`, 2 h must also divide the edges of the first
+ * body of the scene s, so that grid cells of two spacings end at its faces. */
 static bool spacing_fits(const struct lengths *l, const struct scene *s, real h, bool even)
 {
     for (int k = 0; k < l->n; k++)
@@ -115,8 +115,8 @@ real spacing_that_fits_box_edges(const struct scene *s, real h, bool even_edge_c
 static const double particles_usual[] = {0, 200, 3000,
                                          8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
 
-/* Returns the largest spacing [m] that resolves the extent of `shape` and the radii of its round solids; INFINITY if
- * the shape is infinite. */
+/* Returns the largest spacing [m] that resolves the extent of `shape`, the shape of a body of the scene s, and the
+ * radii of its round solids; INFINITY if the shape is infinite. */
 static double body_spacing(const struct scene *s, const struct region *shape)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -130,8 +130,8 @@ static double body_spacing(const struct scene *s, const struct region *shape)
     return least;
 }
 
-/* Returns the distance of X[dim] from the nearest face of the bounding box of the first body [m]. Faces on which X
- * is are not considered. */
+/* Returns the distance of X[dim] from the nearest face of the bounding box of the first body of s [m]. Faces on which X
+ * is are not considered. Returns INFINITY if the box is infinite. */
 static double distance_to_face(const struct scene *s, const real *X)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -187,7 +187,8 @@ static double probe_spacing(const struct probe_request *p)
     return least;
 }
 
-/* Returns the spacing [m] at which the bounding boxes of all bodies together contain `particles` particles. */
+/* Returns the spacing [m] at which the bounding boxes of all bodies of the scene s together contain `particles`
+ * particles. */
 static double spacing_for(const struct scene *s, double particles)
 {
     real from[DIM_MAX], to[DIM_MAX];

@@ -18,15 +18,16 @@ extern const struct kernel_set kernel_set_portable;
 #ifdef __x86_64__
 extern const struct kernel_set kernel_set_avx512, kernel_set_avx2;
 
-/* Returns true if the processor reports all features in `bits` in register ecx of the cpuid leaf `leaf`. */
+/* Returns true if the processor reports all features in `bits` in register ecx of the leaf `leaf` of the cpuid
+ * instruction. */
 static inline bool responses(unsigned leaf, unsigned bits)
 {
     unsigned a, b, c, d;
     return __get_cpuid(leaf, &a, &b, &c, &d) && (c & bits) == bits;
 }
 
-/* Returns true if the processor has all instructions of x86-64-v3. They are tested one by one, since some compilers do
- * not know the names of the x86-64 levels, or of some instructions. */
+/* Returns true if the processor has all instructions of x86-64-v3. They are tested individually, since some compilers
+ * do not know the names of the x86-64 levels, or of some instructions. */
 static inline bool runs_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
@@ -59,8 +60,8 @@ const struct simd_set simd_sets[] = {
 };
 const int simd_set_count = COUNT_OF(simd_sets);
 
-/* Pointers to the kernels in use, with the names of the kernels. They and simd_current_kernels store which set of
- * kernels is selected, the only choice that all runs of the program share. */
+/* Pointers to the kernels in use, with the names of the kernels. They and in_use store which set of kernels is
+ * selected, the only choice that all runs of the program share. */
 #define DEFINE(name) __typeof__(&*name) name;
 KERNELS(DEFINE)
 static const struct simd_set *in_use;
@@ -76,7 +77,7 @@ void simd_use_kernels(const struct simd_set *set)
 const struct simd_set *simd_current_kernels(void) { return in_use; }
 
 /* Writes the names of all sets of kernels to text[size], separated by commas as in "avx2, portable", and returns text.
- * running: true for only those sets that this processor supports. */
+ * running: true to list only sets that this processor supports. */
 static const char *names(bool running, char *text, size_t size)
 {
     size_t length = 0;

@@ -10,7 +10,7 @@
 
 enum { CORRECTIONS_MOST = 80 };  /* largest number of Newton corrections; linear bodies need two or three */
 enum { DIRECTIONS_MOST = 2000 }; /* largest number of directions in a correction */
-/* Number of search directions without progress after which the solution for a correction ends: the matrix is then
+/* Number of search directions without progress after which the iteration for a correction ends: the matrix is then
  * nearly singular, or the residual is round-off. */
 enum { DIRECTIONS_IDLE = 100 };
 enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line search */
@@ -39,13 +39,14 @@ enum { WORK_PARTS = 16 };
 #define FORCING_MOST 0.1
 #define FORCING_LEAST 1e-4
 
-/* Least scale of the residual over the largest loads so far [1]; it acts for a body that has broken and carries no
- * load. */
+/* Least scale of the residual, relative to the largest loads so far [1]; it applies to a body that has broken and
+ * carries no load. */
 #define SCALE_LEAST 1e-2
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
-/* Stores the addresses of all vectors (struct field) of the solver q in list[FIELDS]. */
+/* Stores the addresses of all vectors (struct field) of the solver q in list[FIELDS], so that they are allocated and
+ * freed in one loop. */
 static void all_fields(struct newton_solver *q, struct field **list)
 {
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
@@ -76,8 +77,8 @@ void newton_solver_free(struct newton_solver *q)
 
 static bool is_held(const struct newton_solver *q, int64_t i, int d) { return q->held[i] >> d & 1; }
 
-/* Computes the vector to = a x + b y for all components, those with prescribed displacement included. `to` may be x or
- * y. */
+/* Computes the vector to = a x + b y for all components of all nodes, including those with prescribed displacement.
+ * `to` may be x or y. */
 static void combine(const struct newton_solver *q, struct field *to, real a, const struct field *x, real b,
                     const struct field *y)
 {
@@ -89,15 +90,15 @@ static void combine(const struct newton_solver *q, struct field *to, real a, con
     }
 }
 
-/* Parameters of dot_block and plain_block: two vectors whose scalar product is summed. */
+/* Parameters of dot_block and plain_block: solver q and two vectors a, b whose scalar product is summed. */
 struct product {
     const struct newton_solver *q;
     const struct field *a, *b;
 };
 
 /* Adds the scalar product of two vectors over nodes first .. end - 1: the terms of free components to sum[0], those of
- * held components (with prescribed displacement) to sum[1]. context: the vectors (struct product). reproducible_sums
- * calls it for each block of nodes. */
+ * held components (with prescribed displacement) to sum[1]. context: the vectors (struct product). Called by
+ * reproducible_sums for each block of nodes. */
 static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -105,8 +106,8 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
         for (int64_t i = first; i < end; i++) sum[is_held(s->q, i, d)] += s->a->of[d][i] * s->b->of[d][i];
 }
 
-/* Computes the scalar product of the vectors a and b over free components, sum[0], and over held components (those with
- * prescribed displacement), sum[1]. */
+/* Computes the scalar product of the vectors a and b: over free components in sum[0], over held components (with
+ * prescribed displacement) in sum[1]. */
 static void dots(const struct newton_solver *q, const struct field *a, const struct field *b, real sum[2])
 {
     reproducible_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
@@ -129,7 +130,7 @@ static void forces_at(struct newton_solver *q, const struct field *u, struct fie
 }
 
 /* Adds the products a b of two vectors over all components, free and held, of nodes first .. end - 1 to *sum. context:
- * the vectors (struct product). reproducible_sums calls it for each block of nodes. */
+ * the vectors (struct product). Called by reproducible_sums for each block of nodes. */
 static void plain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -142,7 +143,7 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
     }
 }
 
-/* Returns the scalar product of vectors a and b over all components, free and held. */
+/* Returns the scalar product of vectors a and b over all components, free and held (with prescribed displacement). */
 static real dot_all(const struct newton_solver *q, const struct field *a, const struct field *b)
 {
     real sum;
@@ -158,17 +159,17 @@ static real turning_width(const struct newton_solver *q, const struct field *inc
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
-/* Returns the factor by which a displacement increment is multiplied when the product with the stiffness is computed
- * from a difference of forces [1]. With this factor, strains of bonds are at most DIFFERENCE_STRAIN and their rotations
- * about DIFFERENCE_TURN. most: largest component of the increment [m]. */
+/* Returns the factor [1] by which a displacement increment is multiplied when its product with the stiffness is
+ * computed from a difference of forces. With this factor, strains of bonds are at most DIFFERENCE_STRAIN and their
+ * rotations about DIFFERENCE_TURN. most: largest component of the increment [m]. */
 static real difference_step(const struct newton_solver *q, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
 }
 
-/* Computes out = K in, the product of the tangent stiffness K at the displacements u = q->u with the vector `in`, by a
- * one-sided difference of forces: (f(u) - f(u + step in))/step. q->f must contain the forces f(u). Overwrites the
- * vector q->at. */
+/* Computes out = K in, the product of the tangent stiffness K at the displacements u = q->u with the displacement
+ * vector `in`, by a one-sided difference of forces: (f(u) - f(u + step in))/step. q->f must contain the forces f(u).
+ * Overwrites the vector q->at. */
 static void stiffness(struct newton_solver *q, const struct field *in, struct field *out)
 {
     const real most = field_largest_component(in, q->dim, q->n);
@@ -182,16 +183,17 @@ static void stiffness(struct newton_solver *q, const struct field *in, struct fi
 }
 
 /* Stores in q->strain_ratio the ratio of the strain that the displacements d cause to their largest component [1/m],
- * which determines the size of the next difference of forces. curvature: d . K d with the tangent stiffness K [J]. */
+ * which determines the size of the next difference of forces. curvature: d . K d with the tangent stiffness K [J]; does
+ * nothing unless it is positive. */
 static void strain_note(struct newton_solver *q, const struct field *d, real curvature)
 {
     const real most = field_largest_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-/* Measures how far the forces q->f are from equilibrium. q->scale: the largest of the norms of applied forces,
- * reactions and round-off [N]; q->residual: the norm of the unbalanced forces over q->scale [1]; q->worst: the node
- * with the largest unbalanced force. */
+/* Measures how far the forces q->f are from equilibrium. Sets q->scale to the largest of the norms of applied forces,
+ * reactions and round-off [N], q->residual to the norm of the unbalanced forces, divided by q->scale [1], and q->worst
+ * to the node with the largest unbalanced force. */
 static void equilibrium_measure(struct newton_solver *q)
 {
     real sum[2], most = -1;
@@ -208,8 +210,8 @@ static void equilibrium_measure(struct newton_solver *q)
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* Computes the residual q->r = f - K x of the initial increment x = q->x, where f are the present forces q->f and K is
- * the tangent stiffness. x may contain the motion of supports. The residual is set to 0 for components with prescribed
+/* Computes the residual q->r = f - K x of the initial increment x = q->x, with the present forces f = q->f and the
+ * tangent stiffness K. x may contain the motion of supports. The residual is 0 for components with prescribed
  * displacement. */
 static void residual_of_guess(struct newton_solver *q)
 {
@@ -224,9 +226,9 @@ static void residual_of_guess(struct newton_solver *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
-/* Sets the free components of the initial increment q->x to 0 if the residual is smaller without them. They were
- * extrapolated in proportion to the loads, which is wrong, for example, for a fragment that has broken off and
- * rotated. */
+/* Sets the free components of the initial increment q->x to 0 if the residual is smaller without them. These components
+ * were extrapolated in proportion to the loads, which is wrong, for example, for a fragment that has broken off and
+ * rotated. Overwrites q->z; q->r is the residual of the version tried last. */
 static void guess_check(struct newton_solver *q)
 {
     residual_of_guess(q);
@@ -239,7 +241,7 @@ static void guess_check(struct newton_solver *q)
     if (with < dot_free(q, &q->r, &q->r)) combine(q, &q->x, 1, &q->z, 0, &q->z);
 }
 
-/* Parameters of advance_block. */
+/* Parameters of advance_block: the solver, and the factor of the step [1]. */
 struct step {
     struct newton_solver *q;
     real scale;
@@ -265,18 +267,19 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* Extends the correction q->x along q->d, a direction in which the stiffness is negative. The factor of q->d is such
- * that bonds rotate by about TURN_MOST [rad]. */
+/* Extends the correction q->x of the displacements along q->d, a direction in which the stiffness is negative. The
+ * factor of q->d is such that bonds rotate by about TURN_MOST [rad]. */
 static void follow_negative(struct newton_solver *q)
 {
     const real most = field_largest_component(&q->d, q->dim, q->n);
     if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
-/* Solves K x = f for the free components of x = q->x by preconditioned conjugate gradients, starting from the given x.
- * Components with prescribed displacement do not change. Stops when the residual is `wanted` [N] or FORCING_LEAST times
- * its initial value, whichever is larger, or when it makes no progress. If a direction with negative stiffness is
- * found, x is extended along it (Steihaug 1983), unless `prescribed` is true, which means that supports move. */
+/* Solves K x = f for the free components of the correction x = q->x by preconditioned conjugate gradients, starting
+ * from the given x. Components with prescribed displacement do not change. Stops when the residual is `wanted` [N] or
+ * FORCING_LEAST times its initial value, whichever is larger, or when it makes no progress. If a direction with
+ * negative stiffness is found, x is extended along it (Steihaug 1983), unless `prescribed` is true, which means that
+ * supports move. */
 static void correction(struct newton_solver *q, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;
@@ -305,8 +308,8 @@ static void correction(struct newton_solver *q, real wanted, bool prescribed)
 
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
-/* Computes the displacements q->z = q->u + share q->x, a share of the correction q->x beyond the present displacements,
- * and stores the forces at q->z in q->q. */
+/* Computes the displacements q->z = q->u + share q->x, with a share [1] of the correction q->x added to the present
+ * displacements, and stores the forces at q->z in q->q. */
 static void forces_along(struct newton_solver *q, real share)
 {
     combine(q, &q->z, 1, &q->u, share, &q->x);
@@ -362,9 +365,9 @@ static real work_along(struct newton_solver *q, real share, real left)
     return (2 * even + share * sum) / (3 * parts);
 }
 
-/* Adds the correction q->x, times the factor of the line search, to the displacements q->u, and updates the forces
- * q->f. left: norm of the residual before the correction [N]; prescribed: true if supports move. Returns the work of
- * all forces along the increment [J]. */
+/* Adds the correction q->x, multiplied by the factor of the line search, to the displacements q->u, and updates the
+ * forces q->f. left: norm of the residual before the correction [N]; prescribed: true if supports move. Returns the
+ * work of all forces along the increment [J]. */
 static real advance(struct newton_solver *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
@@ -376,8 +379,8 @@ static real advance(struct newton_solver *q, real left, bool prescribed)
     return work;
 }
 
-/* Returns the work of the present forces q->f on held components (those with prescribed displacement, at supports),
- * along `increment` [J]. */
+/* Returns the work [J] of the present forces q->f along `increment` on held components, those with prescribed
+ * displacement. */
 static real dot_held(const struct newton_solver *q, const struct field *increment)
 {
     real sum[2];
@@ -403,7 +406,7 @@ static bool is_balanced(const struct newton_solver *q)
 }
 
 /* Calls q->settle, which updates whatever the forces depend on besides displacements (branches of material laws, active
- * contacts) for the present state. Returns true if it has changed nothing, so that the solution is valid. Otherwise
+ * contacts) to the present state. Returns true if this has changed nothing, so that the solution is valid. Otherwise
  * recomputes the forces and returns false. */
 static bool laws_settle(struct newton_solver *q)
 {

@@ -7,23 +7,24 @@
 #include "multigrid_parts.h"
 
 /* DENSE: a level with fewer unknowns is solved as a dense matrix. DEGREE: steps of relaxation before and after the
- * correction by coarser levels, on the finest level, where products with the matrix take most of the time.
- * DEGREE_COARSE: such steps on other levels. RANGE: largest over smallest eigenvalue that relaxation damps. */
+ * correction by coarser levels, on the finest level (0), where products with the matrix take most of the time.
+ * DEGREE_COARSE: such steps on other levels. RANGE: ratio of the largest to the smallest eigenvalue that relaxation
+ * damps. */
 enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 #define RANGE 4.0
 
 /* ---- the finest level -------------------------------------------------------------------------------------------- */
 
-/* Largest sum of the blocks of a matrix row, over its diagonal, that counts as round-off. Exactly the sum is 0 in rows
- * without supports. */
+/* Largest sum of the blocks of a matrix row, divided by its diagonal, that counts as round-off. Without round-off the
+ * sum is 0 in rows without supports. */
 #define ROUND_OFF 1e-6
-/* Least diagonal entry of a node over the largest one [1]; a node below it has no stiffness. */
+/* Least ratio of the diagonal entry of a node to the largest one [1]; a node with a smaller ratio has no stiffness. */
 #define STIFFNESS_LEAST 1e-12
 
-/* Computes the diagonal block of row i on the finest level l. A rigid translation causes no bond forces, so the block
- * should equal minus the sum of the other blocks of the row; it is set to this sum if they differ by round-off only. A
- * larger difference is the stiffness of supports and foundations and is stored in l->rest. Also sets l->scale and
- * l->unconstrained of the row. */
+/* Computes the diagonal block of row i (one node) on the finest level l. A rigid translation causes no bond forces, so
+ * the block should equal minus the sum of the other blocks of the row; it is set to this sum if the two differ by
+ * round-off only. A larger difference is the stiffness of supports and foundations and is stored in l->rest. Also sets
+ * l->scale (mean diagonal entry) and l->unconstrained of the row. */
 static void diagonal_exact(const struct multigrid_level *l, int64_t i)
 {
     const int size = l->width * l->width;
@@ -44,7 +45,7 @@ static void diagonal_exact(const struct multigrid_level *l, int64_t i)
     l->scale[i] = trace / l->width;
 }
 
-/* Initialises the finest level l from the matrix a, which is kept by reference and must outlive it. held[i]: bit d is
+/* Initialises the finest level l from the matrix a, which is kept by reference and must outlive l. held[i]: bit d is
  * set if component d of node i is constrained. Returns FAILED, with a message, if a diagonal stiffness is negative or
  * not finite. */
 static status finest_make(struct multigrid_level *l, const struct block_matrix *a, const uint8_t *held)
@@ -102,14 +103,15 @@ static void finest_modes(struct multigrid_level *l, real *const *position)
 
 /* ---- all levels -------------------------------------------------------------------------------------------------- */
 
-/* Allocates the vectors (load, solution, residual and working memory) of level l. */
+/* Allocates the vectors (load, solution, residual and working memory) of level l; level_free frees them. */
 static void level_vectors(struct multigrid_level *l)
 {
     real **vector[] = {&l->b, &l->x, &l->y, &l->d, &l->t};
     for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = NEW("multigrid.vector", l->n * l->width, real);
 }
 
-/* Copies the diagonal blocks of coarse level l from its matrix to l->diagonal, and inverts them. */
+/* Copies the diagonal blocks of coarse level l (any but the finest) from its matrix to l->diagonal, and inverts
+ * them. */
 static void coarse_diagonal(struct multigrid_level *l)
 {
     const int size = l->width * l->width;
@@ -121,7 +123,7 @@ static void coarse_diagonal(struct multigrid_level *l)
 }
 
 /* Builds the next coarser level of m. Returns false, and builds none, if it would not have clearly fewer nodes than the
- * last one. */
+ * coarsest level so far. */
 static bool coarsen(struct multigrid *m)
 {
     struct multigrid_level *l = &m->level[m->levels - 1], *next = l + 1;
@@ -163,7 +165,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *matrix,
     return OK;
 }
 
-/* Frees the arrays of level l, but not the matrix that the finest level has by reference. */
+/* Frees the arrays of level l, except the matrix that the finest level has by reference. */
 static void level_free(struct multigrid_level *l)
 {
     void *owned[] = {
@@ -186,9 +188,9 @@ void multigrid_free(struct multigrid *m)
 
 /* ---- the cycle --------------------------------------------------------------------------------------------------- */
 
-/* Relaxes K x = b on level l by `degree` steps with the Chebyshev polynomial that is small between largest/RANGE and
- * l->largest, the largest eigenvalue (Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1). b and x are
- * vectors of the level. zero: true if x is 0 on entry. */
+/* Relaxes K x = b on level l by `degree` steps with the Chebyshev polynomial that is small between l->largest/RANGE and
+ * l->largest, the largest eigenvalue (Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1). K, b, x:
+ * matrix, load and solution of the level. zero: true if x is 0 on entry. */
 static void level_smooth(struct multigrid_level *l, int degree, bool zero)
 {
     const real theta = 0.5 * l->largest * (1 + 1 / RANGE), delta = 0.5 * l->largest * (1 - 1 / RANGE);
@@ -202,8 +204,8 @@ static void level_smooth(struct multigrid_level *l, int degree, bool zero)
     }
 }
 
-/* Solves K x = b on level k of m approximately by a V-cycle over this and the coarser levels. b and x are the vectors
- * of the level; x is overwritten. */
+/* Solves K x = b on level k of m (0: finest) approximately by a V-cycle over this and the coarser levels. b and x are
+ * the load and the solution of the level; x is overwritten. */
 static void cycle(struct multigrid *m, int k)
 {
     struct multigrid_level *l = &m->level[k];

@@ -4,8 +4,8 @@
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* Smallest ratio of the norm of a matrix entry to the geometric mean of the largest norms in its two rows at which the
- * entry counts as a connection. */
+/* Least size of a matrix entry that counts as a connection of two nodes: ratio of its norm to the geometric mean of the
+ * largest norms in its two rows [1]. */
 #define WEAK 0.1
 
 /* Returns the Frobenius norm of matrix entry q of level l, a block of l->width rows and columns. */
@@ -109,13 +109,14 @@ void multigrid_aggregate_nodes(struct multigrid_level *l)
 
 /* ---- rigid motions ----------------------------------------------------------------------------------------------- */
 
-/* Smallest share of the length of a column that orthogonalisation must leave; else the column is set to 0. Columns are
- * the rigid motions of an aggregate, which has fewer independent ones if it is a line or a single node. Round-off
- * leaves 1e-16 times the size of the body over that of the aggregate. */
+/* Smallest share of its length that a column must retain in orthogonalisation [1]; otherwise the column is set to 0.
+ * Columns are the rigid motions of an aggregate (nodes that form one coarser node), which has fewer independent ones if
+ * it is a line or a single node. Round-off leaves 1e-16 times the ratio of the size of the body to that of the
+ * aggregate. */
 #define DROPPED 1e-9
 
-/* Returns the scalar product of columns a and c of the matrix v over the n nodes in `member`. v has m columns, and w
- * rows for each node of the level. */
+/* Returns the scalar product of columns a and c of the matrix v over the n nodes in `member`. w: rows of v for each
+ * node of the level; m: columns of v. */
 static real column_dot(const real *v, const int32_t *member, int64_t n, int w, int m, int a, int c)
 {
     real sum = 0;
@@ -155,8 +156,8 @@ static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w
     }
 }
 
-/* Lists the nodes of every aggregate a (set of nodes that form one node of the coarser level), ascending:
- * member[first[a]] .. member[first[a + 1] - 1]. first: [coarse + 1], 0 before; member: [n]. */
+/* Lists the nodes of every aggregate a (set of nodes that form one node of the coarser level) of level l, ascending:
+ * member[first[a]] .. member[first[a + 1] - 1]. first: [coarse + 1], 0 on entry; member: [n]. */
 static void members_list(const struct multigrid_level *l, int64_t *first, int32_t *member)
 {
     for (int64_t i = 0; i < l->n; i++)

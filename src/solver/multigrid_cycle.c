@@ -22,8 +22,8 @@ static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t 
 }
 
 /* Multiplies matrix block q (2 x 2) by the displacement of the node of its column relative to `own`, the displacement
- * of the node of its row. Returns the four products of an entry and a component: the first two sum to the first
- * component of the force, the last two to the second. x: displacements of all nodes. */
+ * of the node of its row. x: displacements of all nodes. Returns the four products of an entry and a component: the
+ * first two sum to the first component of the force, the last two to the second. */
 static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(lane_pair_load(x + (int64_t)l->column[q] * 2) - own, two);
@@ -73,8 +73,9 @@ static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t 
         for (int c = 0; c < 3; c++) sum[a] -= (real)l->rest[(i * 3 + a) * 3 + c] * x[i * 3 + c];
 }
 
-/* Subtracts row i of K x, for the matrix K of level l, from sum[0 .. w - 1]. w: components per node; single: true for
- * the finest level, whose matrix is in single precision. w and single must be compile-time constants. */
+/* Subtracts row i of the product K x, with the matrix K of level l, from sum[0 .. w - 1]. x: displacements of all
+ * nodes; w: components per node; single: true for the finest level, whose matrix is in single precision. w and single
+ * must be compile-time constants. */
 static ALWAYS_INLINE void row_times(const struct multigrid_level *l, int64_t i, const real *x, real *sum, const int w,
                                     const bool single)
 {
@@ -121,8 +122,8 @@ static ALWAYS_INLINE void row_relax(const struct multigrid_level *l, int64_t i, 
     }
 }
 
-/* Computes row i of next->b, the load of the next coarser level: the residual l->t restricted by the matrix l->up. w,
- * m: components per node of level l and of the next level, compile-time constants. */
+/* Computes row i (one coarser node) of next->b, the load of the next coarser level: the residual l->t restricted by the
+ * matrix l->up. w, m: components per node of level l and of the next level, compile-time constants. */
 static ALWAYS_INLINE void row_restrict(const struct multigrid_level *l, struct multigrid_level *next, int64_t i,
                                        const int w, const int m)
 {
@@ -136,8 +137,9 @@ static ALWAYS_INLINE void row_restrict(const struct multigrid_level *l, struct m
     for (int a = 0; a < m; a++) next->b[i * m + a] = sum[a];
 }
 
-/* Adds row i of the prolongation of next->x, the solution of the next coarser level, to l->x: the product with the
- * matrix l->down. w, m: components per node of level l and of the next level, compile-time constants. */
+/* Adds row i (one node of level l) of the prolongation of next->x, the solution of the next coarser level, to l->x: the
+ * product with the matrix l->down. w, m: components per node of level l and of the next level, compile-time
+ * constants. */
 static ALWAYS_INLINE void row_prolong(struct multigrid_level *l, const struct multigrid_level *next, int64_t i,
                                       const int w, const int m)
 {

@@ -2,8 +2,8 @@
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* Subtracts multiples of row j from the rows below it in the symmetric matrix u[n][n]: one step of elimination.
- * inverse: reciprocal of the pivot u[j][j]. */
+/* Eliminates column j below row j of the symmetric matrix u[n][n]: subtracts multiples of row j from the rows below it.
+ * Only the upper triangle is used. inverse: reciprocal of the pivot u[j][j]. */
 static void dense_eliminate(real *u, int64_t n, int64_t j, real inverse)
 {
     const real *restrict pivot = u + j * n;

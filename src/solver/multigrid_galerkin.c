@@ -15,7 +15,7 @@ struct pattern {
     int32_t *column;
 };
 
-/* Working memory of the threads: for each thread a table with one entry per column, [n]. In general an entry is the
+/* Working memory of the threads: for each thread a table where[n] with one entry per column. In general an entry is the
  * position of the column in the list of the present row, valid only for columns of this row. In product_row it is the
  * last row in which the column occurred. */
 struct tables {
@@ -50,7 +50,7 @@ static int compare_columns(const void *a, const void *b)
 /* Finds the columns of row i of the product of two sparse matrices a and b, given by their patterns: row k of a has the
  * columns a_column[a_first[k]] to a_column[a_first[k + 1] - 1], likewise for b. where: table of the calling thread,
  * with entry i for a column that has been found; list: receives the columns in ascending order, NULL: they are only
- * counted. Returns their number. */
+ * counted. Returns the number of columns. */
 static int64_t product_row(const int64_t *a_first, const int32_t *a_column, const int64_t *b_first,
                            const int32_t *b_column, int64_t i, int32_t *where, int32_t *list)
 {
@@ -90,7 +90,8 @@ static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first,
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Computes out += a b for the row-major blocks a[r][k] and b[k][c]. r, k and c must be compile-time constants. */
+/* Computes out += a b for the row-major blocks a[r][k], b[k][c] and out[r][c]. r, k and c must be compile-time
+ * constants. */
 static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, const real *restrict b, const int r,
                                     const int k, const int c)
 {
@@ -107,9 +108,9 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     }
 }
 
-/* Computes row i of the product A P of the matrix A and the prolongation P of level p->l. Stores it in p->block, which
- * holds some consecutive rows of the product at a time, a slab. w, m: components per node of this and of the coarser
- * level, compile-time constants. */
+/* Computes row i of the product A P of the matrix A and the prolongation P of level p->l (from the coarser level to
+ * it). Stores it in p->block, which holds some consecutive rows of the product at a time, a slab. w, m: components per
+ * node of this and of the coarser level, compile-time constants. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
     const struct multigrid_level *l = p->l;
@@ -131,9 +132,9 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     }
 }
 
-/* Adds to row c of the coarser matrix P^T A P the contributions of the slab in p->block, some consecutive rows of the
- * product A P of matrix and prolongation. w, m: components per node of this and of the coarser level, compile-time
- * constants. */
+/* Adds to row c of the coarser matrix P^T A P the contributions of the rows p->first .. p->end - 1 of the product A P
+ * of matrix and prolongation, which are in p->block. w, m: components per node of this and of the coarser level,
+ * compile-time constants. */
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
     const struct transfer *up = &p->l->up;

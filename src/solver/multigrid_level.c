@@ -8,8 +8,8 @@
 #include "multigrid_parts.h"
 
 /* Computes the inverse of the symmetric block a[w][w] by a U^T D U factorisation, and stores it in `inverse` row by
- * row. held: components that are left out, as bits; their rows and columns are 0 in the inverse. A pivot below least *
- * scale is replaced by `scale`. */
+ * row. held: components that are left out, one bit each; their rows and columns are 0 in the inverse. A pivot below
+ * least * scale is replaced by `scale`. */
 static void block_invert(const real *a, real *inverse, int w, unsigned held, real least, real scale)
 {
     real u[WIDTH_MOST][WIDTH_MOST], pivot[WIDTH_MOST];
@@ -58,8 +58,9 @@ static bool entry_is_zero(const struct multigrid_level *l, int64_t q)
     return true;
 }
 
-/* Lists all nodes of level l that are connected with node i, directly or through other nodes, in list[], i included,
- * and sets seen[] to 1 for them. seen, list: [n]. Returns their number. */
+/* Lists all nodes of level l that are connected with node i, directly or through other nodes, in list[], including i,
+ * and sets seen[] to 1 for them. seen, list: [l->n]; seen is 0 for nodes not listed before. Returns the number of nodes
+ * listed. */
 static int64_t piece_list(const struct multigrid_level *l, int64_t i, uint8_t *seen, int32_t *list)
 {
     int64_t n = 0;
@@ -95,9 +96,9 @@ void multigrid_find_unconstrained_coarse_nodes(const struct multigrid_level *l, 
 
 /* ---- the largest eigenvalue -------------------------------------------------------------------------------------- */
 
-/* Number of Lanczos iterations. They find isolated stiff nodes, for which power iterations would need many more. They
- * underestimate the largest eigenvalue of a lattice by a few percent, which is within the margin of a quarter that
- * relaxation has (RANGE in multigrid.c). */
+/* Number of Lanczos iterations for the largest eigenvalue. They find isolated stiff nodes, for which power iterations
+ * would need many more. They underestimate the largest eigenvalue of a lattice by a few percent, which is within the
+ * margin of a quarter that relaxation has (RANGE in multigrid.c). */
 enum { LANCZOS = 8 };
 #define LANCZOS_SHORT 1.05
 
@@ -119,7 +120,7 @@ static void three_vectors_block(const void *context, int64_t first, int64_t end,
 }
 
 /* Computes l->d = D^-1 l->t, where D are the diagonal blocks of the matrix of level l. Stores two scalar products of
- * the vectors of l: x . t in sum[0] and t . d in sum[1]. */
+ * vectors of l: x . t in sum[0] and t . d in sum[1]. */
 static void lanczos_scale(struct multigrid_level *l, real *sum)
 {
     const int w = l->width;
@@ -143,9 +144,9 @@ static void lanczos_turn(struct multigrid_level *l, real a, real b, real length)
     l->x = l->y, l->y = x;
 }
 
-/* Estimates the largest eigenvalue of D^-1 K, with the diagonal blocks D, by the Lanczos method and stores it in
- * l->largest. The Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x
- * = x . t with t = K x. */
+/* Estimates the largest eigenvalue of D^-1 K by the Lanczos method and stores it in l->largest. K: matrix of level l;
+ * D: its diagonal blocks. The Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x
+ * . D D^-1 K x = x . t with t = K x. */
 void multigrid_estimate_largest_eigenvalue(struct multigrid_level *l)
 {
     real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];

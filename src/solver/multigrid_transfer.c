@@ -4,8 +4,8 @@
 
 /* ---- pattern ----------------------------------------------------------------------------------------------------- */
 
-/* Inserts `value` into the list of *n ascending values, unless the list contains it, and counts it in *n. The list must
- * have room for one more value. */
+/* Inserts `value` into list[], which has *n ascending values, and counts it in *n, unless the list contains it. The
+ * list must have room for one more value. */
 static void sorted_add(int32_t *list, int *n, int32_t value)
 {
     int k = *n;
@@ -16,8 +16,8 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
 }
 
 /* Stores in list[], ascending, the numbers of the aggregates to which node i and its neighbours belong. An aggregate is
- * a set of nodes that form one node of the coarser level. Returns the number of entries, 0 if the node has no
- * stiffness. list must have room for the node and its neighbours. */
+ * a set of nodes that form one node of the coarser level. Returns the number of entries, 0 if node i has no stiffness.
+ * list must have room for the node and its neighbours. */
 static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *list)
 {
     int n = 0;
@@ -90,7 +90,8 @@ static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, r
     }
 }
 
-/* Computes *up, the transpose of the prolongation p of level l, and allocates its arrays. */
+/* Computes *up, the transpose of the prolongation p of level l (from the coarser level to l), and allocates its
+ * arrays. */
 static void transfer_transpose(const struct multigrid_level *l, const struct transfer *p, struct transfer *up)
 {
     const int w = l->width, m = l->modes;

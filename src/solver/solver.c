@@ -45,15 +45,16 @@ void static_body_compute_tangent_product(const struct static_body *body, const s
     }
 }
 
-/* Parameters of solver_force_block: particles, and their constrained components, one bit each. */
+/* Parameters of solver_force_block: particles, and their constrained components, one byte per particle with one bit per
+ * axis. */
 struct constrained_forces {
     const struct particles *part;
     const uint8_t *held;
 };
 
 /* Adds the squares of the forces on particles first .. end - 1 [N^2]: over free components to sum[0], over constrained
- * components to sum[1]. context: solver and particles (struct constrained_forces). reproducible_sums calls it for each
- * block of particles. */
+ * components to sum[1]. context: particles and constraints (struct constrained_forces). Called by reproducible_sums for
+ * each block of particles. */
 static void solver_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct constrained_forces *f = context;

@@ -37,9 +37,9 @@ static void energy_block(const void *context, int64_t first, int64_t end, real *
         for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds to sum[0] the sum of weight r . r/Lambda, and to sum[1] that of r . r, over the particles first .. end - 1, with
- * the residual r and the diagonal preconditioner Lambda. The weight is 1/2 for particles on a plane of symmetry, else
- * 1. context: the solver (struct static_solver). Called by reproducible_sums for each block of particles. */
+/* Adds the sum of weight r . r/Lambda to sum[0], and the sum of r . r to sum[1], over the particles first .. end - 1,
+ * with the residual r and the diagonal preconditioner Lambda. The weight is 1/2 for particles on a plane of symmetry,
+ * else 1. context: the solver (struct static_solver). Called by reproducible_sums for each block of particles. */
 static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -63,8 +63,8 @@ static real unit_energy(const struct static_body *body)
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
 /* Computes the residual b - K u from the displacements u, with the applied forces b, and stores it in p->f [N]. Unlike
- * the residual of the recurrence it contains no accumulated round-off. Stores the norm of the reactions on constrained
- * components, then sets these components to 0. */
+ * the residual that the iteration updates it contains no accumulated round-off. Stores the norm of the reactions on
+ * constrained components, then sets these components to 0. */
 static void true_residual(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -79,8 +79,8 @@ static void true_residual(struct static_solver *s, const struct static_body *bod
     loads_collect_static_reactions(body->loads, p);
 }
 
-/* Sets the residual s->r to the forces p->f, 0 on constrained components, and restarts the search directions from
- * it. */
+/* Sets the residual s->r to the forces p->f, 0 on constrained components, and restarts the search directions from this
+ * residual. */
 static void restart(struct static_solver *s, const struct particles *p)
 {
     real sum[2];
@@ -93,7 +93,8 @@ static void restart(struct static_solver *s, const struct particles *p)
     s->rz = sum[0];
 }
 
-/* Computes the initial displacements of conjugate gradients, their residual and the first search direction. */
+/* Starts conjugate gradients: computes the initial displacements, their residual and the first search direction in
+ * s. */
 static void solver_cg_start(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -106,7 +107,7 @@ static void solver_cg_start(struct static_solver *s, const struct static_body *b
 }
 
 /* Advances conjugate gradients by a step: u += alpha d and r -= alpha K d, with K d in s->q; then computes the next
- * search direction d. alpha: length of the step [1]. Returns r . r [N^2]. */
+ * search direction d. alpha: factor of the search direction [1]. Returns r . r [N^2]. */
 static real solver_cg_advance(struct static_solver *s, real alpha)
 {
     real sum[2];
@@ -138,7 +139,7 @@ static void solver_cg_displace(const struct static_solver *s, const struct stati
 }
 
 /* Computes the residual from the displacements, and sets *done to true if it is at most the tolerance, else to false.
- * The iteration is restarted if, by round-off, the residual exceeds twice by_recurrence, the value that the iteration
+ * Restarts the iteration if, by round-off, the residual exceeds twice by_recurrence, the value that the iteration
  * itself has updated [N]. step: number of the iteration. Returns FAILED, with a message, after STALLS_MOST restarts
  * without progress. */
 static status check(struct static_solver *s, const struct static_body *body, int64_t step, real by_recurrence,

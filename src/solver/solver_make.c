@@ -9,8 +9,8 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Largest moment of the loads, over the sum of |force x distance|, that may follow from the irregular arrangement of
- * particles alone [1]. */
+/* Largest ratio of the moment of the loads to the sum of |force x distance| that may follow from the irregular
+ * arrangement of particles alone [1]. */
 #define TURNING_MOST 0.05
 
 static void field_make(struct field *v, int dim, int64_t n)
@@ -23,15 +23,15 @@ static void field_free(struct field *v)
     for (int d = 0; d < DIM_MAX; d++) memory_free(v->of[d]);
 }
 
-/* Context of solver_scaled_stiffness. */
+/* Context of solver_scaled_stiffness: the solver and the body whose stiffness is scaled. */
 struct scaled {
     struct static_solver *solver;
     const struct static_body *body;
 };
 
 /* Computes y = Lambda^-1/2 K Lambda^-1/2 x, with the diagonal matrix Lambda = s->diagonal and the stiffness K of the
- * bonds. x, y: dim n values. context: solver and body (struct scaled). Called by largest_eigenvalue. Overwrites
- * s->before and the velocities of the particles. */
+ * bonds. x, y: [dim][n]. context: solver and body (struct scaled). Called by largest_eigenvalue. Overwrites s->before
+ * and the velocities of the particles. */
 static void solver_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled *scaled = context;
@@ -95,16 +95,17 @@ static void make_weights(struct static_solver *s, const struct static_body *body
     }
 }
 
-/* Returns the number of steps of relaxation in which supports are moved to their final positions; 0 if none moves. It
- * is the number of spacings along the body plus 1: in a step, motion spreads through the body by one spacing at most,
- * so that supports that move faster would strain the bonds next to them more than the body. */
+/* Returns the number of steps of relaxation in which supports are moved to their final positions; 0 if none moves. The
+ * number is the length of the body in spacings plus 1: in a step, motion spreads through the body by one spacing at
+ * most, so that supports that move faster would strain the bonds next to them more than the body. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_component(&s->driven, s->dim, s->n);
     return most > 0 ? 1 + (int64_t)(particles_bounding_box_longest_edge(body->part) / body->spacing) : 0;
 }
 
-/* Computes s->applied, the norm of the applied forces on free components, i.e. those that no support prescribes [N]. */
+/* Computes s->applied, the norm of the applied forces on free components, those that no support constrains [N]. Clears
+ * p->f of the body. */
 static void make_applied(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -117,7 +118,7 @@ static void make_applied(struct static_solver *s, const struct static_body *body
 }
 
 /* Computes s->noise: ten times the norm of the forces that round-off of positions causes in a body at rest [N].
- * Residuals below it have no meaning. */
+ * Residuals below s->noise have no meaning. */
 static void make_noise(struct static_solver *s, const struct particles *p)
 {
     real sum = 0;
@@ -137,8 +138,8 @@ static bool component_constrained(const struct loads *l, int d)
     return false;
 }
 
-/* Returns OK if the applied forces along axis d are balanced, or if supports or planes of symmetry carry them. Returns
- * REFUSED, with a message, if not. */
+/* Returns OK if the applied forces along axis d are balanced, or if supports or planes of symmetry constrain the body
+ * along d. Returns REFUSED, with a message, if not. */
 static status force_balanced(const struct loads *loads, int d)
 {
     real sum = 0, size = 0;

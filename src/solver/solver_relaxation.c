@@ -5,8 +5,8 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Moves the supports by 1/s->ramp of their final displacements in step number `step`. Does nothing from step s->ramp
- * on. */
+/* Moves the supports by 1/s->ramp of their final displacements in step number `step` of the relaxation. Does nothing
+ * from step s->ramp on, when the supports have arrived. */
 static void supports_move(const struct static_solver *s, struct particles *p, int64_t step)
 {
     if (step >= s->ramp) return;
@@ -16,7 +16,7 @@ static void supports_move(const struct static_solver *s, struct particles *p, in
             if (s->held[i] >> d & 1) p->x[d][i] += s->driven.of[d][i] / (real)s->ramp;
 }
 
-/* Context of damping_block. */
+/* Context of damping_block: the solver and the particles of the body. */
 struct relaxing {
     const struct static_solver *solver;
     const struct particles *part;
@@ -24,7 +24,7 @@ struct relaxing {
 
 /* Adds three sums over the free components of particles first .. end - 1, from which the damping coefficient follows:
  * u^T k u to sum[0], u^T u to sum[1] and v^T v to sum[2]. u: displacements; v: velocities; k: diagonal estimate of
- * stiffness over mass, -(f^n - f^{n-1})/(Lambda v), from the change of the forces in a step. context: solver and
+ * stiffness divided by mass, -(f^n - f^{n-1})/(Lambda v), from the change of the forces in a step. context: solver and
  * particles (struct relaxing). Called by reproducible_sums for each block of particles. */
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
 {

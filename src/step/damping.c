@@ -21,7 +21,8 @@
 
 #define EXPONENT_MOST 50.0 /* largest c dt: beyond it, exp(-c dt) is round-off */
 
-/* Particles, or nodes of a mesh (flag is NULL), whose velocities are damped. */
+/* Particles, or nodes of a mesh (flag is NULL), whose velocities bulk damping reduces. n: their number; dim: dimensions
+ * of space. */
 struct damped {
     int64_t n;
     int dim;
@@ -31,13 +32,13 @@ struct damped {
     const uint8_t *flag;
 };
 
-/* Returns true if bulk damping acts on entry i of a (a particle or a mesh node) by its own mass. Returns false for a
- * material point of a mesh, since the nodes carry its mass. */
+/* Returns true if bulk damping acts on entry i of a (a particle or a mesh node) itself. Returns false for a material
+ * point of a mesh, since the nodes carry its mass. */
 static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
 
 /* Adds to sum[0] the energy [J] that bulk damping has dissipated since the previous step in the particles or mesh nodes
- * with the numbers first .. end - 1. context: a struct damped with their velocities v, and `before` at the previous
- * damping. Called by reproducible_sums for each block of numbers. */
+ * with the numbers first .. end - 1. context: a struct damped with the present velocities v, and with `before`, the
+ * velocities at the previous damping. Called by reproducible_sums for each block of numbers. */
 static void loss_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -66,8 +67,7 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Returns `decay`, the product c dt of the decay rate c of bulk damping and the time step, limited to EXPONENT_MOST
- * [1]. */
+/* Returns `decay`, the product of the rate of bulk damping and the time step, limited to EXPONENT_MOST [1]. */
 static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_velocity_increment_factor(real rate_times_dt) { return exp(-0.5 * capped(rate_times_dt)); }
@@ -87,9 +87,9 @@ static int damped_find(const struct particles *p, const struct mesh *mesh, real 
     return mesh->points > 0 ? 2 : 1;
 }
 
-/* Multiplies the velocities of particles and mesh nodes by `factor` [1], also APIC velocity gradients and velocities of
- * mirror images, and subtracts the lost momentum from the impulse of the loads. Returns the kinetic energy before that
- * [J]. */
+/* Multiplies the velocities of particles and mesh nodes, the APIC velocity gradients and the velocities of mirror
+ * images by `factor` [1], and subtracts the lost momentum from the impulse of the loads l. Returns the kinetic energy
+ * before that [J]. */
 static real slow_all(struct particles *p, const struct mesh *mesh, struct loads *l, real factor)
 {
     struct damped all[2];

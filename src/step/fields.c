@@ -15,9 +15,9 @@
 
 /* ---- displacement gradients -------------------------------------------------------------------------------------- */
 
-/* Sums over the neighbours of a particle: K = sum xi xi^T and M = sum u xi^T, with the reference vector xi and the
- * relative displacement u of a neighbour. H = M K^-1 is the least-squares fit of u = H xi; K and I + H are the shape
- * tensor and the deformation gradient of Silling et al. 2007 with unit weights. */
+/* Sums over the neighbours of a particle: K = sum xi xi^T and M = sum u xi^T, with the reference vector xi [m] and the
+ * relative displacement u [m] of a neighbour. H = M K^-1 is the least-squares fit of u = H xi; K and I + H are the
+ * shape tensor and the deformation gradient of Silling et al. 2007 with unit weights. */
 struct gradient_sum {
     real K[3][3], M[3][3];
 };
@@ -57,7 +57,8 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
         }
 }
 
-/* Computes the displacement gradient of peridynamic particle i from its intact bonds, in H[dim dim][i]. */
+/* Computes the displacement gradient of peridynamic particle i from its intact bonds, and stores it in H[dim
+ * dim][i]. */
 static void gradient_of_bonds(const struct bonds *bonds, const struct particles *part, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
@@ -66,9 +67,9 @@ static void gradient_of_bonds(const struct bonds *bonds, const struct particles 
     gradient_fit(&sum, part->dim, i, H);
 }
 
-/* Computes the displacement gradient of material point i on the grid, in H[dim dim][i], by a fit to the neighbouring
+/* Computes the displacement gradient of material point i on the grid, H[dim dim][i], by a fit to the neighbouring
  * points in `near` that belong to its body and are not separated from it by pre-cracks or voids. Peridynamic neighbours
- * with broken bonds are left out: a crack may separate them. */
+ * with broken bonds are left out, because a crack may separate them from the point. source: pre-cracks and voids. */
 static void gradient_of_points(const struct particles *p, const struct bond_source *source,
                                const struct neighbour_list *near, int64_t i, real *const *H)
 {
@@ -90,8 +91,8 @@ static bool in_mesh(const struct reference_frame *frame, int64_t i)
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
-/* Computes the displacement gradients of all particles from mesh nodes, bonds or near points, into arrays that are
- * allocated here: H[dim dim][n] [1]. The caller releases them with memory_free. */
+/* Computes the displacement gradients of all particles, H[dim dim][n] [1], from mesh nodes, bonds or near points.
+ * Allocates the arrays H[k], which the caller frees with memory_free. */
 static void gradients_make(const struct run *e, real **H)
 {
     const struct particles *p = &e->part;
@@ -114,9 +115,9 @@ static void gradients_make(const struct run *e, real **H)
 
 /* ---- plastic work and levels ------------------------------------------------------------------------------------- */
 
-/* Returns the plastic work per volume of every particle, an array of p->n values [J/m^3]: of material points the stored
- * work, of peridynamic particles the plastic work of their bonds over their volume. Returns NULL if nothing yields. The
- * caller frees the array with memory_free. */
+/* Returns the plastic work per volume of every particle, an array of p->n values [J/m^3]: the stored work of material
+ * points, and for peridynamic particles the plastic work of their bonds, divided by the volume of the particle. Returns
+ * NULL if nothing yields. The caller frees the array with memory_free. */
 static real *plastic_work_make(const struct particles *p, const struct bonds *b)
 {
     if (!p->plastic_strain && !b->plastic_path) return NULL;
@@ -161,9 +162,9 @@ static real *damage_make(const struct particles *p, const struct bonds *bonds)
     return damage;
 }
 
-/* Returns for every particle the ratio of its stress to the strength in the same direction of stress, according to the
- * strength surface of its material: 1 on the surface [1]. It is an array of p->n values, which the caller frees with
- * memory_free; NULL if no material has a strength surface. */
+/* Returns for every particle the ratio of its stress to its strength in the same direction of stress [1], according to
+ * the strength surface of its material; 1 on the surface. The array has p->n values; the caller frees it with
+ * memory_free. Returns NULL if no material has a strength surface. source: materials of the bonds b. */
 static real *shares_make(const struct particles *p, const struct bonds *b, const struct bond_source *source)
 {
     if (!b->soft.near) return NULL;
@@ -172,9 +173,9 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
     return share;
 }
 
-/* Returns the ratio of stress to strength, according to the strength surface of the material, for the points that
- * represent coarse cells in frames: 1 on the surface [1]. It is an array of shown->n values, which the caller frees
- * with memory_free. */
+/* Returns for the points that represent coarse cells in frames the ratio of stress to strength [1], according to the
+ * strength surface of the material; 1 on the surface. The array has shown->n values; the caller frees it with
+ * memory_free. */
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);
@@ -183,8 +184,8 @@ static real *point_shares_make(const struct particles *shown, const struct scene
     return share;
 }
 
-/* Returns the refinement level of the mesh cell of every particle [n], 0 for particles outside meshes. The caller frees
- * it. */
+/* Returns the coarsening level (0: finest) of the mesh cell of every particle, an array [part->n]; 0 for particles
+ * outside meshes. The caller frees it with memory_free. */
 static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
 {
     const struct mesh *mesh = &frame->mesh;
@@ -194,8 +195,8 @@ static uint8_t *cell_levels_make(const struct reference_frame *frame, const stru
     return level;
 }
 
-/* Returns the refinement level of every point that represents a coarse cell in frames, one entry per point; the spacing
- * doubles from level to level. The caller releases it with memory_free. */
+/* Returns the coarsening level of every point that represents a coarse cell in frames, one entry per point. The spacing
+ * doubles from level to level; level 0 has the spacing of the scene. The caller frees the array with memory_free. */
 static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
 {
     uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);
@@ -206,9 +207,9 @@ static uint8_t *point_levels_make(const struct reference_frame *frame, const str
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores pointers
- * to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as bits ASK_...
- * (output/output.h). */
+/* Computes the fields of a frame that particles do not store (strain, density, plastic work, level of cells) and stores
+ * pointers to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as bits
+ * ASK_... (output/output.h). Release them with frame_fields_free. */
 void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra)
 {
     extra->asked = requested_field_bits, extra->material = e->scene->material, extra->space = e->scene->space;

@@ -7,19 +7,20 @@
 #include "base/memory.h"
 #include "data/cells.h"
 
-/* Distance of two particles below which they have moved into each other [spacings]. */
+/* Present distance of two particles below which they count as having moved into each other [spacings]. */
 #define INSIDE 0.5
-/* Reference distance up to which two particles do not count: compression brings them near each other [spacings]. */
+/* Reference distance up to which two particles do not count as parts that pass through each other, since compression
+ * brings them near each other [spacings]. */
 #define APART 3
 enum { PARTS_OF_DURATION = 25 }; /* number of comparisons per run */
-/* Rotation of a surface from which on a dead pressure is named [degrees]: it is off by sin 10 degrees = 0.17 of its
- * value across the surface. */
+/* Rotation of a surface above which a pressure along the undeformed normals is reported [degrees]: it is wrong by sin
+ * 10 degrees = 0.17 of its value across the surface. */
 #define TURNED_MOST 10
 #define DEGREES (180 / 3.14159265358979323846)
 
 /* ---- parts that pass through each other -------------------------------------------------------------------------- */
 
-/* Returns the largest length of displacement of a particle minus the mean displacement [m]. */
+/* Returns the largest magnitude over all particles of displacement minus mean displacement [m]. */
 static real largest_relative_displacement(const struct particles *p)
 {
     real mean[DIM_MAX] = {0}, most2 = 0;
@@ -96,7 +97,8 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
 /* ---- pressures on surfaces that have turned ---------------------------------------------------------------------- */
 
 /* Returns the rotation angle of the particles of load l about their centre [rad], the largest one among the coordinate
- * planes: that of the best fit of positions in a plane (x_a, x_b) by a rotated image of the reference positions. */
+ * planes. In a plane (x_a, x_b) it is the angle of the rotation that fits the present positions to the reference
+ * positions best. */
 static real rotation_of_loaded_particles(const struct load *l, const struct particles *p)
 {
     real X0[DIM_MAX] = {0}, x0[DIM_MAX] = {0}, most = 0;

@@ -7,13 +7,13 @@
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Equivalent plastic strain below which pairs of neighbouring points are not compared [1]: a stretch by 2 % separates
- * no points. */
+/* Equivalent plastic strain below which pairs of neighbouring points are not compared [1], because a stretch by 2 %
+ * separates no points. */
 #define FLOWED_LEAST 0.02
 /* Largest reference distance of neighbours [spacings]: those along the axes of a lattice have 1, along diagonals 1.4.
  */
 #define NEIGHBOUR 1.2
-/* Stretch of the distance of neighbours below which they cannot be parted. */
+/* Ratio of present to reference distance of neighbouring points below which they cannot be parted [1]. */
 #define PARTED_LEAST 1.25
 enum { PARTS_OF_DURATION = 50 }; /* number of comparisons per run: later by a fiftieth, a warning is soon enough */
 
@@ -27,7 +27,7 @@ const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape)
     return NULL;
 }
 
-/* Returns true if point i is on the grid of the current frame and of a material that yields. */
+/* Returns true if point i is on the grid of the current frame and its material yields. */
 static bool flows_on_grid(const struct particles *p, const struct scene *s, int64_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED) && material_yields(&s->material[p->material[i]]);
@@ -60,8 +60,8 @@ struct held_cells {
     uint64_t *key; /* of a cell in each slot, 0: none */
 };
 
-/* Returns the slot, in the hash table h of cells that contain points, of the cell at the position x (dim components
- * [m]), or the empty slot in which it belongs. *key: receives the key of the cell. */
+/* Returns the slot in h, the hash table of cells that contain points, of the cell at the position x[dim] [m], or the
+ * empty slot in which it has to be entered. *key: receives the key of the cell, not 0. */
 static uint64_t cell_slot(const struct held_cells *h, const real *x, uint64_t *key)
 {
     *key = 1;
@@ -100,9 +100,9 @@ struct pair_counts {
     struct stretched_pair farthest;
 };
 
-/* Computes in *stretched the present distance of two material points over their reference distance [1] and the position
- * midway between them. *axis: receives the axis along which they are farthest apart. Returns false, and stores nothing,
- * if the ratio is below PARTED_LEAST. */
+/* Computes the ratio of the present to the reference distance of two material points [1] and the position midway
+ * between them [m] in *stretched. *axis: receives the axis along which they are farthest apart. Returns false, and
+ * stores nothing, if the ratio is below PARTED_LEAST. */
 static bool pair_is_stretched(const struct particles *p, const struct point_pair *pair,
                               struct stretched_pair *stretched, int *axis)
 {
@@ -120,7 +120,8 @@ static bool pair_is_stretched(const struct particles *p, const struct point_pair
 }
 
 /* Returns true if the shape functions of two material points have at most one layer of nodes in common across `axis`:
- * their distance along it is greater than a cell and what the functions extend beyond the cells of the points. */
+ * if the distance of the points along the axis is greater than a cell plus the extent of the functions beyond the cells
+ * of the points. s: scene, for cell and shape functions. */
 static bool pair_shares_few_nodes(const struct particles *p, const struct point_pair *pair, int axis,
                                   const struct scene *s)
 {
@@ -157,9 +158,9 @@ static bool in_tension(const struct particles *p, int64_t i)
     return sum > 0;
 }
 
-/* Counts the pairs that have come apart, with empty cells between them and at most one common layer of nodes, and those
- * whose distance under tension is at least `far` times the reference one. g: grid of the points; s: scene, for the
- * shape functions. */
+/* Counts two kinds of pairs of points: parted ones, which have empty cells between them and at most one common layer of
+ * nodes, and pulled ones, whose distance under tension is at least `far` times the reference distance. g: grid of the
+ * points; s: scene, for the shape functions. */
 static struct pair_counts pairs_count(const struct point_pairs *pairs, const struct particles *p, const struct grid *g,
                                       const struct scene *s, real far)
 {
@@ -185,8 +186,9 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
     return c;
 }
 
-/* Prints a warning that c->parted of n pairs of points have gaps between them or, if there are none, that
- * c->pulled of them are stretched too far for the shape function of scene s. t: current time [s]. */
+/* Prints a warning about pairs of neighbouring points and adds it to the list `to`: c->parted of n pairs have gaps
+ * between them or, if there are none, c->pulled of them are stretched too far for the shape function of the scene s. t:
+ * current time [s]. */
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
     const struct weak_shape *w = c->parted > 0 ? NULL : shape_properties_if_weak_in_tension(s->shape);

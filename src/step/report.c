@@ -27,15 +27,15 @@
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the step nearest to `step` at which the coarse cells of all levels have reached the same time. Coarser cells
- * have longer time steps, so this is so only after each multiple of clock->stride steps. */
+/* Returns the step nearest to step number `step` at which the mesh cells of all levels have reached the same time.
+ * Coarser cells have longer time steps, so this happens only after each multiple of clock->stride steps. */
 static int64_t common_step(const struct run_clock *clock, int64_t step)
 {
     return (step + clock->stride / 2) / clock->stride * clock->stride;
 }
 
-/* Returns the step after which event k of n events spread evenly over the run is due: k steps/n, rounded. The product k
- * steps is avoided, since it can exceed 64 bits. If n <= 0, the last step is returned. */
+/* Returns the step after which event k (from 0) of n events spread evenly over the run is due: k steps/n, rounded. The
+ * product k steps is avoided, since it can exceed 64 bits. Returns the last step if n <= 0. */
 static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 {
     if (n <= 0) return clock->steps;
@@ -48,9 +48,9 @@ int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock 
     return s->frames < most ? s->frames : most;
 }
 
-/* Returns the step after which frame k of the whole body is written. It is the step nearest to the time that scene s
- * gives for the frame, or one of evenly spread steps if the scene gives no times. If frames are closer together than
- * the steps, some are written at later or earlier steps, so that each frame has a step of its own. */
+/* Returns the step after which frame k (from 0) of the whole body is written. It is the step nearest to the time that
+ * the scene s gives for the frame, or one of evenly spread steps if the scene gives no times. If frames are closer
+ * together than the steps, some are written at later or earlier steps, so that each frame has a step of its own. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
@@ -99,15 +99,15 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
     return s;
 }
 
-/* Returns true if frame number `frames` of the body, counted from 0, is due after `step` steps. */
+/* Returns true if frame number `frames` (from 0) of the whole body is due after `step` steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
     return frames <= report_frame_count_of_run(s, clock) && step >= report_step_number_of_frame(s, clock, frames);
 }
 
-/* Returns true if frame number `frames` of a region, counted from 0, is due after `step` steps. Frames are written
- * every `every` [s] and at the end of the run; of several frames that are due in one step only one is written.
- * duration: of the run [s]. */
+/* Returns true if frame number `frames` (from 0) of a region is due after `step` steps. Frames are written every
+ * `every` [s] and at the end of the run; of several frames that are due in one step only one is written. duration:
+ * duration of the run [s]. */
 static bool region_frame_due(const struct run_clock *clock, real every, real duration, int frames, int64_t step)
 {
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
@@ -128,8 +128,8 @@ unsigned report_bits_of_frame_series_due(const struct output *out, const struct 
     return due;
 }
 
-/* Returns the fields that the frames of series k contain, as bits ASK_... (output/output.h): those given for the
- * series, else those of the scene. Series 0 is the whole body, series 1, 2, .. are regions. */
+/* Returns the fields that the frames of series k contain, as bits ASK_... (output/output.h): the fields given for the
+ * series, else those of the scene. Series 0 is the whole body; series 1, 2, .. are regions. */
 static unsigned asked_of(const struct scene *scene, int k)
 {
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
@@ -172,8 +172,8 @@ static status write_frames(struct run *e, unsigned due)
     return s == OK && due & 1 ? profiles_write_csv_files(&e->probing->probes, out, &seen) : s;
 }
 
-/* Writes a checkpoint of the run and stores how long this took in e->report, without the time of waiting for a frame.
- * Returns FAILED, with a message, if the file cannot be written. */
+/* Writes a checkpoint of the run and adds the time that this took to e->report, without the time of waiting for a
+ * frame. Returns FAILED, with a message, if the file cannot be written. */
 static status write_checkpoint(struct run *e)
 {
     struct run_report *r = e->report;
@@ -188,9 +188,9 @@ static status write_checkpoint(struct run *e)
     return OK;
 }
 
-/* Returns true if a checkpoint is due after a time step or load step. If the scene gives an interval, it is due after
- * this time, and after every load step. Otherwise it is due after CHECKPOINT_SECONDS, or after a load step, but only if
- * checkpoints so far took less than the share CHECKPOINT_SHARE of the run time. */
+/* Returns true if a checkpoint is due after a time step or load step. If the scene gives an interval, the checkpoint is
+ * due after this time, and after every load step. Otherwise it is due after CHECKPOINT_SECONDS, or after a load step,
+ * but only if checkpoints so far took less than the share CHECKPOINT_SHARE of the run time. */
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
     const bool in_steps = scene_has_load_steps(s);
@@ -207,8 +207,8 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
     return wall_clock_seconds() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
-/* Adds and prints warnings for frames and profiles that a resumed run should have, but whose files are missing. probes:
- * probes with profiles. Returns FAILED, with a message, if the list of frames cannot be read. */
+/* Adds warnings to `to` and prints them, for frames and profiles that a resumed run should have, but whose files are
+ * missing. probes: probes with profiles. Returns FAILED, with a message, if the list of frames cannot be read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[2 * PATH_NAME_ROOM + 300];
@@ -242,7 +242,7 @@ status report_start_before_first_step(struct run *e)
 
 /* ---- progress ---------------------------------------------------------------------------------------------------- */
 
-/* Writes a duration to text[size], in s, min or h depending on its size. seconds: the duration [s]. */
+/* Writes the duration `seconds` [s] to text[size], in s, min or h depending on its size. */
 static void duration_text(char *text, size_t size, double seconds)
 {
     if (seconds < 100)
@@ -254,7 +254,7 @@ static void duration_text(char *text, size_t size, double seconds)
 }
 
 /* Prints the progress line on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since the
- * previous one. last: after the last step, where it is always printed on a terminal. */
+ * previous line. last: true after the last step, when the line is always printed on a terminal. */
 static void progress(struct run *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);

@@ -45,7 +45,7 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           [20] = {"mpm_share", ""},
                                                           {"inactive_share", ""}};
 
-/* Returns the mean fraction of the bodies that was at rest in the steps since the last call [1]; 0 if there was no
+/* Returns the mean fraction of the bodies that was at rest in the steps since the previous call [1]; 0 if there was no
  * step. The next call begins a new mean. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
 {
@@ -63,8 +63,8 @@ static bool is_free(const struct scene *s, const struct reference_frame *frame)
            frame->levels.n == 0;
 }
 
-/* Stores names and units of the history columns of angular momentum in column[], unless it is NULL. Returns their
- * number, which is 0 if a load acts on the bodies, so that their angular momentum need not be conserved. */
+/* Stores names and units of the history columns of angular momentum in column[], unless it is NULL. Returns the number
+ * of columns, which is 0 if a load acts on the bodies, so that angular momentum need not be conserved. */
 static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
@@ -174,14 +174,14 @@ static bool wants_motion(const struct scene *s)
     return motion;
 }
 
-/* Returns the present kinetic energy of particles and of nodes of meshes [J]. */
+/* Returns the present kinetic energy of particles and mesh nodes [J]. */
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
     return particles_kinetic_energy(p) + reference_frame_kinetic_energy(reference);
 }
 
-/* Stores the grids of the reference frame and of its coarse cells, whose nodes carry momentum, in nodes[]; returns
- * their number. */
+/* Stores the grids of the reference frame and of its coarse cells, whose nodes carry momentum, in nodes[]. Returns the
+ * number of grids. */
 static int meshes(const struct reference_frame *frame, const struct grid *nodes[LEVELS_MAX + 1])
 {
     const struct mesh_levels *levels = &frame->levels;
@@ -190,7 +190,7 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
     return 1 + levels->n;
 }
 
-/* Computes the present momentum of all particles, momentum[dim] [kg m/s]. */
+/* Computes the present momentum of all particles and mesh nodes, momentum[dim] [kg m/s]. */
 static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
@@ -198,8 +198,9 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     particles_linear_momentum(p, nodes, grids, momentum, NULL);
 }
 
-/* Replaces momentum[dim], the momentum after the step, by that at the time t of a sample [kg m/s], by interpolation
- * from s->momentum before t. now->t: time of the velocities after the step [s]; now->scale: factor on the result. */
+/* Replaces momentum[dim], the momentum after the step [kg m/s], by the momentum at the time t [s] of a sample, by
+ * interpolation from s->momentum before t. now->t: time of the velocities after the step [s]; now->scale: factor on the
+ * result. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
@@ -282,8 +283,8 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns a correction of the kinetic energy of a sample [J]: the mean of m v^2/2 before and after the velocity update
- * of the step, minus m v_before . v_after/2. Absorbing dashpots, which act during the update, are left out. */
+/* Returns the correction of the kinetic energy of a sample [J]: the mean of m v^2/2 before and after the velocity
+ * update of the step, minus m v_before . v_after/2. Absorbing dashpots, which act during the update, are left out. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
@@ -373,7 +374,7 @@ void sample_take_in_equilibrium(struct run *e)
                  e->loads.work + e->loads.constraint_work + rigids_compute_energy(e->rigid, e->clock.dt).work);
 }
 
-/* Returns the power v . f of the forces on particles that bonds move and on nodes of the reference frame [W]. */
+/* Returns the power v . f [W] of the forces on particles that bonds move and on nodes of the reference frame. */
 static real power_now(const struct particles *p, const struct reference_frame *reference)
 {
     const struct grid *g = &reference->mesh.grid;
@@ -387,8 +388,8 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power_of_coarse_nodal_forces(&reference->levels);
 }
 
-/* Returns the power v . f of the forces on nodes whose motion loads prescribe (walls) [W]. power_now includes it; it is
- * work of the loads. */
+/* Returns the power v . f [W] of the forces on nodes whose motion loads prescribe (walls). power_now includes this
+ * power, which is work of the loads. */
 static real power_of_walls(const struct reference_frame *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
@@ -404,7 +405,7 @@ static real power_of_walls(const struct reference_frame *reference)
     return power;
 }
 
-/* Subtracts the forces on nodes with prescribed motion from the reactions of their loads [N]. */
+/* Subtracts the forces on nodes of the grid g with prescribed motion (walls) from the reactions of their loads [N]. */
 static void reactions_add(struct loads *l, const struct grid *g)
 {
     for (int64_t k = 0; k < g->walls; k++)
@@ -482,8 +483,8 @@ void sample_update_probes_of_every_step(struct run *e)
     probes_update_every_step(&e->probing->probes, &o);
 }
 
-/* Warns that the first bonds of particles with prescribed motion break, and names the first boundary that drives such
- * particles. when: the time, as "at 1 s" or "in load step 1". */
+/* Adds the warning to `to` that the first bonds of particles with prescribed motion break, with the first boundary
+ * condition that drives such particles, and prints it. when: the time, as "at 1 s" or "in load step 1". */
 static void say_torn(struct warnings *to, const struct loads *loads, const struct particles *p, const char *when)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;

@@ -15,8 +15,9 @@
 #define FLOW_DOUBTFUL                                                                                                  \
     0.003 /* relative error of the energy balance that is reported of points that flow on the grid: bars of several    \
              diameters that hit a wall have less, shorter ones up to three times that */
-/* Energy that broken bonds have released beyond what they had stored, over the largest energy, above which a run warns
- * [1]: far above round-off, and a fifth of the error of the energy balance that tests/scenes allow peridynamics. */
+/* Ratio of the energy that broken bonds have released beyond what they had stored to the largest energy, above which a
+ * run warns [1]: far above round-off, and a fifth of the error of the energy balance that tests/scenes allow
+ * peridynamics. */
 #define RELEASED_NOTICED 1e-3
 #define FAST_TIP 5 /* [spacings] least growth of a tip whose speed is judged: shorter ones have not settled */
 #define DAMPED_DOUBTFUL                                                                                                \
@@ -53,14 +54,15 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
     return true;
 }
 
-/* Least error of the energy balance that is compared with the energy apart from flight, over the largest energy [1]:
- * smaller ones are those of the work of loads. A judgement. */
+/* Least error of the energy balance, relative to the largest energy [1], that is compared with the energy apart from
+ * flight: smaller errors are those of the work of loads. A judgement. */
 #define FLIGHT_LEAST 1e-3
 
 /* Warns of an error of the energy balance that is small beside the kinetic energy of the common motion of all
- * particles, but above ENERGY_DOUBTFUL of the largest energy without that. In flight through the grid stress gains
+ * particles, but above ENERGY_DOUBTFUL of the largest energy apart from that. In flight through the grid stress gains
  * energy where points are not mapped ahead of their positions (field_set_flight): with linear shapes a block of 40 x 20
- * points at 200 m/s gains a fifth in eleven cells. Returns true if it warns. */
+ * points at 200 m/s gains a fifth in eleven cells. w: energies of the run; to: list of warnings. Returns true if it
+ * warns. */
 static bool say_flight(const struct particles *p, const struct diagnostics *w, struct warnings *to)
 {
     const real error = w->now.balance_error, amount = fabs(error) * w->energy_scale;
@@ -78,11 +80,12 @@ static bool say_flight(const struct particles *p, const struct diagnostics *w, s
 }
 
 #define SPIN_DOUBTFUL 0.01 /* relative error of angular momentum that is reported */
-/* Angular momentum over momentum and spacing up to which angular momentum is round-off [1]. */
+/* Ratio of angular momentum to momentum times spacing up to which angular momentum is round-off [1]. */
 #define SPIN_OF_ROUND_OFF 1e-9
 
 /* Warns that the bodies gained or lost angular momentum although no load acts on them, if the relative error exceeds
- * SPIN_DOUBTFUL. apic: points on the grid use APIC; spacing: of the particles [m]. */
+ * SPIN_DOUBTFUL. w: sums of the run; apic: true if points on the grid use APIC; spacing: distance of particles [m]; to:
+ * list of warnings. */
 static void say_spin(const struct diagnostics *w, bool apic, real spacing, struct warnings *to)
 {
     const real error = w->now.spin_error;
@@ -97,15 +100,15 @@ static void say_spin(const struct diagnostics *w, bool apic, real spacing, struc
     warnings_add_and_print(to, text);
 }
 
-/* Returns true if interface damping is the only damping in a dynamic scene, and material points are in its zone at the
- * interface. */
+/* Returns true if interface damping is the only damping of the dynamic scene s, and material points are in the zone at
+ * the interface of bonds and points in which it acts. */
 static bool zone_damps(const struct scene *s, const struct coupling_state *coupling)
 {
     return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_is_dynamic(s);
 }
 
-/* Warns that interface damping dissipated much energy, if share > DAMPED_DOUBTFUL. share: dissipated energy over the
- * largest energy of the run [1]. */
+/* Warns that interface damping dissipated much energy, if share > DAMPED_DOUBTFUL. share: ratio of the dissipated
+ * energy to the largest energy of the run [1]; to: list of warnings. */
 static void say_damped(real share, struct warnings *to)
 {
     char text[320];
@@ -118,8 +121,9 @@ static void say_damped(real share, struct warnings *to)
     warnings_add_and_print(to, text);
 }
 
-/* Writes to text[capacity] a warning that the first bonds broke in a collision so fast that the numerical fronts
- * oscillate. Returns false, without text, if no such collision was expected, no bond broke, or the scene accepts it. */
+/* Writes a warning to text[capacity] that the first bonds broke in a collision so fast that stress oscillates behind
+ * the front. Returns false, without text, if no such collision was expected, no bond broke, or the scene s silences the
+ * warning. w: time of the first break. */
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t capacity)
 {
     const struct shock shock = scene_most_severe_collision(s);

@@ -5,7 +5,7 @@
 
 #define SHOCK 0.1 /* least reported collision speed, over the speed at which a front breaks or yields a body */
 
-/* Returns the strain at which material m breaks or yields [1]; INFINITY if it does neither. */
+/* Returns the strain at which material m breaks or yields in the scene s [1]; INFINITY if it does neither. */
 static real strain_limit(const struct scene *s, const struct material *m)
 {
     const real strain = s->method == METHOD_MPM ? INFINITY : m->onset_stretch;
@@ -23,10 +23,10 @@ static real least_impedance(const struct scene *s, int b)
     return least;
 }
 
-/* Returns the closing speed of bodies a and b at which the shock wave of their collision breaks or yields body a [m/s].
- * Returns INFINITY if it never does. At a closing speed v, the velocity of body a changes by the share Z_b/(Z_a + Z_b)
- * of v, with the impedances Z = density times wave speed c, because stress and velocity are equal at the common face.
- * The strain of its wave is this change over c: v/(2 c) between bodies of one material, v/c beside a rigid body. */
+/* Returns the closing speed of bodies a and b at which the shock wave of their collision breaks or yields body a [m/s];
+ * INFINITY if it never does. At a closing speed v, the velocity of body a changes by the share Z_b/(Z_a + Z_b) of v,
+ * with the impedances Z = density times wave speed c, because stress and velocity are equal at the common face. The
+ * strain of its wave is this change divided by c: v/(2 c) between bodies of one material, v/c beside a rigid body. */
 static real speed_limit(const struct scene *s, int a, int b)
 {
     const real other = least_impedance(s, b);
@@ -40,8 +40,8 @@ static real speed_limit(const struct scene *s, int a, int b)
     return least;
 }
 
-/* Computes the initial velocity of body b at position X[dim] [m], velocity[dim] [m/s]: `bodies.velocity`, or the last
- * entry of `initial` that sets it there. */
+/* Computes the initial velocity of body b at position X[dim] [m], velocity[dim] [m/s]: `bodies.velocity`, or that of
+ * the last entry of `initial` that applies to the body at X. */
 static void start_speed(const struct scene *s, int b, const real *X, real *velocity)
 {
     for (int d = 0; d < s->dim; d++) velocity[d] = s->body[b].velocity[d];
@@ -57,8 +57,8 @@ static void start_speed(const struct scene *s, int b, const real *X, real *veloc
     }
 }
 
-/* Returns the speed at which bodies a and b approach along the axis with the largest gap between their bounding boxes
- * [m/s]. Returns 0 if they do not meet within the duration, or if the box of one is unknown. */
+/* Returns the speed at which bodies a and b approach each other along the axis with the largest gap between their
+ * bounding boxes [m/s]. Returns 0 if they do not meet within the duration, or if one of the boxes is unknown. */
 static real closing_speed(const struct scene *s, int a, int b)
 {
     const int body[2] = {a, b};

@@ -16,14 +16,15 @@
 #define LOAD_SHARE_LEAST 0.5 /* least share of the motion that a load must explain: speeds double at free faces */
 #define LARGE_STRAIN 0.1     /* initial strain that counts as the cause: stresses of a tenth of the modulus */
 #define ENERGY_STEPS 50      /* steps before the energy check begins */
-/* Smallest energy without a source, over the largest energy, at which a run fails [1]. Empirical: the first steps after
- * a jump in velocity show 0.1, unstable runs that break all bonds 0.9. */
+/* Smallest ratio of the energy gained without a source to the largest energy at which a run fails [1]. Empirical: the
+ * first steps after a jump in velocity show 0.1, unstable runs that break all bonds 0.9. */
 #define ENERGY_FROM_NOWHERE 0.5
-/* Smallest energy, over the largest energy, that bonds may release when they break beyond what they had stored, at
- * which a run fails [1]. Empirical: scenes in inputs/ show none with any model; ospd under pressure shows 0.4. */
+/* Smallest ratio of the energy that breaking bonds release beyond what they had stored to the largest energy at which a
+ * run fails [1]. Empirical: scenes in inputs/ show none with any model; ospd under pressure shows 0.4. */
 #define RELEASED_FROM_NOWHERE 0.25
-/* Ratio of kinetic energy 1/2 m v- . v+ (v-, v+: velocities before and after a velocity update) to strain energy below
- * which velocities change sign in every step. Steps below the critical step have at least -(dt/dt_critical)^2. */
+/* Ratio of kinetic energy 1/2 m v- . v+ to strain energy below which velocities change sign in every step [1]; v-, v+:
+ * velocities before and after a velocity update. Time steps below the critical step have at least
+ * -(dt/dt_critical)^2. */
 #define KINETIC_LEAST -0.9
 enum { INVERSION_STEPS = 50 }; /* steps between checks for inverted cells, which cost about half a step */
 enum { MOMENTS = 256 };        /* samples of a function of time */
@@ -47,8 +48,8 @@ void stability_store_start_speed(struct stability *s, const struct particles *p)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Computes the largest value *most and the mean *mean of |f| between the times `from` and `to` [s], from MOMENTS evenly
- * spaced times. */
+/* Computes the largest value *most and the mean value *mean of |f| between the times `from` and `to` [s], from MOMENTS
+ * evenly spaced times. f: function of time of a load. */
 static void factors(const struct time_function *f, real from, real to, real *most, real *mean)
 {
     *most = *mean = 0;
@@ -59,8 +60,8 @@ static void factors(const struct time_function *f, real from, real to, real *mos
     }
 }
 
-/* Returns the speed to which a load alone accelerates the fastest of its particles within the last `steps` time steps
- * [m/s]. For a prescribed motion returns its largest speed, and for mirrors and absorbing boundaries 0. */
+/* Returns the speed to which `load` alone accelerates the fastest of its particles within the last `steps` time steps
+ * [m/s]. For a prescribed motion returns the largest prescribed speed, for mirrors and absorbing boundaries 0. */
 static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
@@ -80,8 +81,8 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
 }
 
 /* Returns true if the loads explain the motion of a run that has diverged, so that no instability has to be assumed: if
- * `given` is at least LOAD_SHARE_LEAST times the kinetic energy. given: energy at the start plus work of the loads
- * [J]. */
+ * `given`, the energy at the start plus the work of the loads [J], is at least LOAD_SHARE_LEAST times the kinetic
+ * energy, or if this is not finite. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = particles_kinetic_energy(p) + reference_frame_kinetic_energy(frame);
@@ -151,7 +152,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
 
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
-/* Writes to text[capacity] the advice to choose a smaller time step; returns the length of this text. */
+/* Writes the advice to choose a smaller time step to text[capacity]. Returns the length of this text. */
 static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t capacity)
 {
     return snprintf(text, capacity, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
@@ -159,7 +160,8 @@ static int say_step(const struct scene *s, const struct run_clock *clock, char *
                     clock->dt_critical);
 }
 
-/* Returns true if a mirror of scene s prevents motion along its plane, too (hold_tangential). */
+/* Returns true if a mirror (plane of symmetry) of the scene s also prevents motion along its plane
+ * (hold_tangential). */
 static bool holds_images(const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -167,8 +169,8 @@ static bool holds_images(const struct scene *s)
     return false;
 }
 
-/* Writes to text[capacity] alternatives for a scene that gains energy: for each option that the scene can do without,
- * another choice such as `method: pd`. */
+/* Writes alternatives for a scene s that gains energy to text[capacity]: for each option that the scene can do without,
+ * another choice such as `method: pd`. coupling: coupling method of the run. */
 static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
                        char *text, size_t capacity)
 {
@@ -208,8 +210,8 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
     return sqrt(least2);
 }
 
-/* Writes to text[capacity] how far bonds are compressed, with a remedy. Returns false, without text, if no bond is
- * shorter than SQUEEZED times its reference length. */
+/* Writes to text[capacity] how far bonds are compressed, with a remedy, for the message of a diverged run. Returns
+ * false, without text, if no bond is shorter than SQUEEZED times its reference length. clock: for the time step. */
 static bool squeeze_explanation(const struct bonds *b, const struct particles *p, const struct run_clock *clock,
                                 char *text, size_t capacity)
 {
@@ -266,9 +268,9 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
 
 /* ---- divergence and inversion ------------------------------------------------------------------------------------ */
 
-/* Returns FAILED, with a message and a remedy, if a particle is faster than the fastest wave, or has a position or
- * velocity that is not finite. check_peridynamic: check the peridynamic particles too; check_mesh_points: check the
- * material points of a mesh too. */
+/* Returns FAILED, with a message and a remedy, if a particle of the run is faster than the fastest wave, or has a
+ * position or velocity that is not finite. Material points on the grid are always checked. check_peridynamic: true to
+ * check the peridynamic particles too; check_mesh_points: true to check the material points of a mesh too. */
 status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points)
 {
     char remedy[REMEDY_LENGTH];
@@ -281,8 +283,8 @@ status divergence_check_particles(const struct run *e, bool check_peridynamic, b
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
-/* Returns FAILED, with a message, if a cell of the mesh is inverted; tested every INVERSION_STEPS steps and at the end.
- * An inverted cell resists deformation like an intact one, so that neither energy nor speed reveals it. */
+/* Returns FAILED, with a message, if a cell of the mesh is inverted. Tests only every INVERSION_STEPS steps and at the
+ * end. An inverted cell resists deformation like an intact one, so that neither energy nor speed reveals it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
@@ -302,8 +304,8 @@ static status inversion_check(const struct run_clock *clock, const struct partic
 }
 
 /* Returns FAILED, with a message, if the formula of a load has a value that is not finite. Such a value makes the
- * impulse of the loads infinite or NaN, so that only then the formulas are evaluated at the times of the last steps. At
- * the end of the run they are always evaluated once. */
+ * impulse of the loads infinite or NaN; only then the formulas are evaluated, at the times of the last steps. At the
+ * end of the run they are always evaluated once. */
 static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
     const real *impulse = l->impulse;
@@ -342,10 +344,10 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-/* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance exceeds
- * ENERGY_FROM_NOWHERE, or breaking bonds released too much energy beyond what they had stored. The error is not tested
- * in the first ENERGY_STEPS steps, in which half a step of a load is a large share of the energy, unless the time step
- * is above the critical one. */
+/* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance in w
+ * exceeds ENERGY_FROM_NOWHERE, or breaking bonds released too much energy beyond what they had stored. The error is not
+ * tested in the first ENERGY_STEPS steps, in which half a step of a load is a large share of the energy, unless the
+ * time step is above the critical one. */
 static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
@@ -371,12 +373,12 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
         (long long)clock->step, clock->t, (int)p->id[i], particle_position_text(p, i, 6).text, what, remedy);
 }
 
-/* Elastic strain of points on the grid at which a warning is printed. A strip under tension tears or gains energy at
- * strains above 0.09 with every shape function and transfer (tests/scenes/test_frame.sh). */
+/* Elastic strain [1] of points on the grid above which a warning is printed. A strip under tension tears or gains
+ * energy at strains above 0.09 with every shape function and transfer (tests/scenes/test_frame.sh). */
 #define STRETCH_MOST 0.08
 
-/* Warns that a point on the grid has a strain beyond STRETCH_MOST, with a remedy that scene s allows. strain: of the
- * point [1]; t: time [s]; x: first coordinate of the point [m]. */
+/* Warns that a point on the grid has a strain beyond STRETCH_MOST, with a remedy that the scene s allows. strain:
+ * strain of the point [1]; t: time [s]; x: first coordinate of the point [m]; to: list of warnings. */
 static void warn_of_stretched(const struct scene *s, real strain, real t, real x, struct warnings *to)
 {
     char text[560], remedy[200] = "use mpm.frame: reference";
@@ -391,8 +393,8 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, real x
     warnings_add_and_print(to, text);
 }
 
-/* Warns of the first elastic point on the grid with a strain above STRETCH_MOST, unless scene s accepts it. t: present
- * time [s]. Returns true if there is one. */
+/* Warns of the first elastic point on the grid with a strain above STRETCH_MOST, unless the scene s silences this
+ * warning. t: present time [s]; to: list of warnings. Returns true if there is such a point. */
 static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     const int n = symmetric_component_count(p->dim);
@@ -416,8 +418,8 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
  * its square. */
 #define FLOW_MOST 0.05
 
-/* Warns of the first point of a mesh with a plastic strain above FLOW_MOST. t: present time [s]. Returns true if there
- * is one. */
+/* Warns of the first point of a mesh with a plastic strain above FLOW_MOST. t: present time [s]; to: list of warnings.
+ * Returns true if there is such a point. */
 static bool say_flowed(const struct particles *p, real t, struct warnings *to)
 {
     char text[300];
@@ -439,7 +441,7 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
 #define TURNED_MOST 0.5
 
 /* Warns of the first point on the grid whose back stress may oscillate: one with kinematic hardening and a plastic
- * strain above TURNED_MOST. t: present time [s]. Returns true if there is one. */
+ * strain above TURNED_MOST. t: present time [s]; to: list of warnings. Returns true if there is such a point. */
 static bool say_turned(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     char text[360];

@@ -28,8 +28,8 @@ struct step {
 };
 
 /* Returns the quantities that all phases of the next step use: the time in its middle, the factors of bulk damping and
- * the duration of the velocity update. The latter is half a time step in the first step and is also stored in
- * *transfer. damping: rate c of bulk damping [1/s]. */
+ * the duration of the velocity update. The latter is half as long in the first step and is also stored in *transfer.
+ * damping: rate c of bulk damping [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
     const real dt = clock->dt, decay = damping * dt, share = damping_velocity_increment_factor(decay);
@@ -38,8 +38,8 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
     return (struct step){.middle = clock->t + 0.5 * dt, decay, share, dt_velocity};
 }
 
-/* Records the bonds broken in this step and converts material points near them to peridynamic particles.
- * now->converted: receives their number. */
+/* Records the bonds broken in this step and converts material points near them to peridynamic particles. now->broken:
+ * number of these bonds; now->converted: receives the number of points. */
 static void conversion(struct run *e, struct step *now)
 {
     const bool marked = conversion_flag_points_near_bodies_or_faces(e);
@@ -61,8 +61,8 @@ static void motion_begin(struct run *e, struct step *now)
     timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
 }
 
-/* Sorts the points on the grid into cells. Returns FAILED, with a message, if positions of points are not finite or a
- * grid would need too many nodes. */
+/* Sorts the points on the grid into cells. Returns FAILED, with a message, if positions of points are not finite or if
+ * a grid would need too many nodes. */
 static status sort(struct run *e)
 {
     bool lost;
@@ -82,8 +82,8 @@ static void zone_damp(struct run *e, struct step *now)
 }
 
 /* Stores the velocities before the forces of this step, from which the energy loss by bulk damping is computed. In the
- * first step it damps them by half a step before, because velocities are half a step behind positions from then on.
- * Does nothing without bulk damping. now->decay: product of damping rate and time step [1]. */
+ * first step it also damps them over half a time step, because velocities are half a step behind positions from then
+ * on. Does nothing without bulk damping. now->decay: product of damping rate and time step [1]. */
 static void damping_begin(struct run *e, const struct step *now)
 {
     real *const *before = e->report->sampling.before;
@@ -98,7 +98,7 @@ static void damping_begin(struct run *e, const struct step *now)
 }
 
 /* Returns true if the loop over bonds may also move the particles, because nothing reads positions between forces and
- * motion; samples, growing cracks and viscosity would. The loop moves each particle when it no longer reads its
+ * motion, as samples, growing cracks and viscosity would. The loop moves each particle when it no longer reads its
  * position (kernels/pd/sweep.h), with bit-identical results. This saves 38 % of a step with 1.7 million particles,
  * which exceed the cache. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
@@ -106,15 +106,16 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
     return !report->sampling.due && s->growths == 0 && !scene_has_viscosity(s);
 }
 
-/* Returns the number of time steps between two tests of the stresses of particles against strength surfaces: in these
- * steps a wave crosses half a horizon. horizon [m]; wave_speed [m/s]; dt: time step [s]. */
+/* Returns the number of time steps between two tests of the stresses of particles against strength surfaces: the steps
+ * in which a wave crosses half a horizon, at least 1. horizon [m]; wave_speed [m/s]; dt: time step [s]. */
 static int64_t surface_interval(real horizon, real wave_speed, real dt)
 {
     return 1 + (int64_t)(0.5 * horizon / (wave_speed * dt));
 }
 
-/* Computes the forces of bonds and breaks the bonds beyond their limit. now->broken receives the number of directed
- * bonds broken. If sweep_moves returns true, the loop over bonds also moves the particles without loads. */
+/* Computes the forces of bonds and breaks the bonds beyond their limit. now->broken: receives the number of broken
+ * bonds, each counted once for each of its two particles. If sweep_moves returns true, the loop over bonds also moves
+ * the particles without loads. */
 static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
@@ -175,8 +176,8 @@ static void move_frame(struct run *e, const struct step *now)
     reference_frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
-/* Adds the reactions of prescribed nodal velocities to their supports. Then sets velocities and positions of particles
- * with prescribed motion to their values at the end of the step. */
+/* Adds the reactions at nodes with prescribed velocity to their supports. Then sets velocities and positions of
+ * particles with prescribed motion to their values at the end of the step. */
 static void step_hold(struct run *e, const struct step *now)
 {
     for (int k = 0; k < e->grid->fields; k++)

@@ -12,15 +12,15 @@
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Returns true if cells of the grid have about two points per direction (1.7 to 2.3). */
+/* Returns true if cells of the grid have about two points per direction (s->cell from 1.7 to 2.3). */
 static bool two_per_cell(const struct scene *s) { return fabs(s->cell - 2) < 0.3; }
 
 /* Returns the critical time step of material points on a grid, divided by h/(c + |v|) [1], with the node distance h,
- * the wave speed c and the speed v of the points. The values are slightly below the smallest limits that were measured
- * over all positions of points within their cells, because a moving body passes through all of them. With FLIP the
- * limit hardly depends on n, the number of points per cell and direction; with APIC it does. With linear shape
- * functions the smallest limit is that of points exactly on nodes, where round-off decides to which cell they belong;
- * elsewhere it is three times as large. */
+ * the wave speed c and the speed v of the points. s: scene, for shape functions, transfer scheme and points per cell.
+ * The values are slightly below the smallest limits that were measured over all positions of points within their cells,
+ * because a moving body passes through all of them. With FLIP the limit hardly depends on n, the number of points per
+ * cell and direction; with APIC it does. With linear shape functions the smallest limit is that of points exactly on
+ * nodes, where round-off decides to which cell they belong; elsewhere it is three times as large. */
 static real points_share(const struct scene *s)
 {
     const real n = s->cell;
@@ -39,11 +39,11 @@ static real points_share(const struct scene *s)
 }
 
 /* Returns a factor on the critical time step of material points that accounts for nearly incompressible materials [1].
- * Neighbouring nodes that move against each other in all directions feel the stiffness c11 + (dim - 1) c12, a plane
- * wave only c11; r is the ratio of both. The limits of points_share were measured for r up to 5/3, so the factor is
- * sqrt((5/3)/r), at most 1. (Measured in 3D from nu = 0.25 to 0.499: limits fall to 0.76 to 0.80, the factor to 0.75.)
- * The factor is 1 for linear shape functions with two points per cell and direction, whose limit does not depend on
- * r. */
+ * tables: elastic constants of the materials of the scene s. Neighbouring nodes that move against each other in all
+ * directions feel the stiffness c11 + (dim - 1) c12, a plane wave only c11; r is the ratio of the first to the second.
+ * The limits of points_share were measured for r up to 5/3, so the factor is sqrt((5/3)/r), at most 1. (Measured in 3D
+ * from nu = 0.25 to 0.499: limits fall to 0.76 to 0.80, the factor to 0.75.) The factor is 1 for linear shape functions
+ * with two points per cell and direction, whose limit does not depend on r. */
 static real volume_share(const struct scene *s, const struct material_tables *tables)
 {
     const real observed = 5.0 / 3;
@@ -54,8 +54,8 @@ static real volume_share(const struct scene *s, const struct material_tables *ta
     return sqrt(observed / most);
 }
 
-/* Returns the largest speed expected in the run [m/s]: the maximum of `speed`, the largest speed at the start, and of
- * the speeds that boundaries prescribe. */
+/* Returns the largest speed expected in the run [m/s]: the maximum of `speed`, the largest speed of the particles p at
+ * the start, and of the speeds that boundary conditions (loads l) prescribe. */
 static real fastest_driven(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -66,8 +66,8 @@ static real fastest_driven(const struct scene *s, const struct loads *l, const s
     return speed;
 }
 
-/* Returns the critical time step of points on a grid [s]. h: node distance [m]; speed: largest speed of the points
- * [m/s]. */
+/* Returns the critical time step of material points on a grid [s]. tables: wave speed and elastic constants; h: node
+ * distance [m]; speed: largest speed of the points [m/s]. */
 static real critical_of_points(const struct scene *s, const struct material_tables *tables, real h, real speed)
 {
     return points_share(s) * volume_share(s, tables) * h / (tables->wave_speed + speed);
@@ -75,11 +75,13 @@ static real critical_of_points(const struct scene *s, const struct material_tabl
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* Factors of the critical step if a grid moves all particles (pmg, pgg) and does not resolve the shortest waves of
- * the bonds. Limits measured by `bench stability`, for cells of one spacing and of two, by dimension. */
+/* Factors on the critical time step of bonds if a grid moves all particles (couplings pmg, pgg) and does not resolve
+ * the shortest waves of the bonds: [0][dim] for cells of one spacing, [1][dim] for two. Limits measured by `bench
+ * stability`. */
 static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4, 2.5}};
-/* Factors of the critical step if a grid moves particles near points (pm, pg) and FLIP retains motion that the grid
- * does not resolve. Measured where few particles share a node, the worst case. */
+/* Factors on the critical time step of bonds if a grid moves particles near material points (couplings pm, pg) and FLIP
+ * retains motion that the grid does not resolve: [0][dim] for cells of one spacing, [1][dim] for two. Measured where
+ * few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
 /* Returns the factor on the critical time step of bonds for a coupling method [1]. It differs from 1 if the grid moves
@@ -92,16 +94,17 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
-/* Returns the force function with which the critical time step of the scene's bonds is computed: that of elastic bonds.
- * It serves yielding bonds, too, which are not stiffer than elastic ones. */
+/* Returns the force function of elastic bonds, with which the critical time step of the bonds of the scene s is
+ * computed. It serves yielding bonds, too, which are not stiffer than elastic ones. */
 static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
 }
 
-/* Returns the smallest critical time step [s] of infinite lattices with the family of `all`, one lattice for each
- * material. force: force function of the bonds. *bound: receives the smallest of the lower bounds of these time steps
- * that follow from the row sums of the stiffness matrices [s]. */
+/* Returns the smallest critical time step [s] of infinite lattices with the family (neighbours of a particle) of `all`,
+ * one lattice for each material. p: particles, for the extent of the body; force: force function of the bonds. *bound:
+ * receives the smallest of the lower bounds of these time steps [s], which follow from the row sums of the stiffness
+ * matrices. */
 static real critical_of_lattices(const struct bond_source *all, const struct particles *p, bond_force_fn *force,
                                  real *bound)
 {
@@ -127,12 +130,12 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
  * takes the time of about 30 rounds of a few time steps each. */
 enum { ITERATED_MOST = 15000 };
 
-/* Returns the critical time step of the bonds [s]. Returns INFINITY for the method mpm, which has no bonds, and the
- * time in which a wave crosses one spacing for a peridynamic body without bonds. In a small peridynamic body, or one
- * that is not on a lattice, it follows from the highest frequency of the body, found by iteration. Otherwise it follows
- * from the highest frequency of an infinite lattice. Scattered particles, bonds near surfaces and heavy neighbours can
- * make the body stiffer than this lattice. Therefore the step is multiplied by the ratio of the bound from row sums of
- * the body's stiffness matrix to that of the lattice, if this is below 1. */
+/* Returns the critical time step of the bonds of the run e [s]. Returns INFINITY for the method mpm, which has no
+ * bonds, and the time in which a wave crosses one spacing for a peridynamic body without bonds. In a small peridynamic
+ * body, or one that is not on a lattice, the step follows from the highest frequency of the body, found by iteration.
+ * Otherwise it follows from the highest frequency of an infinite lattice. Scattered particles, bonds near surfaces and
+ * heavy neighbours can make the body stiffer than this lattice. Therefore the step is multiplied by the ratio of two
+ * bounds from row sums of stiffness matrices, that of the body to that of the lattice, if this is below 1. */
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -153,8 +156,9 @@ static real critical_of_bonds(struct run *e)
 
 #define STEPS_MOST 1e12 /* limit of scene_check.c */
 
-/* Sets clock->steps and clock->dt, at most `dt` [s], so that whole steps fill the duration; their number is a multiple
- * of clock->stride. Returns REFUSED, with a message, for more than STEPS_MOST steps. */
+/* Sets the number of steps, clock->steps, and the time step clock->dt, at most `dt` [s], so that whole steps fill the
+ * duration of the scene s; their number is a multiple of clock->stride. Returns REFUSED, with a message, for more than
+ * STEPS_MOST steps. */
 static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
     if (!(s->duration / dt <= STEPS_MOST))
@@ -180,20 +184,21 @@ static real contact_safety(const struct scene *s)
     return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
 }
 
-/* Returns the largest time step for which motion against bulk damping is within 1 % of c v = f/m (damping.c): c dt <=
- * 0.5 [s]. INFINITY without damping. It is a limit of accuracy, not of stability. */
+/* Returns the largest time step [s] for which motion against bulk damping of rate c is within 1 % of c v = f/m
+ * (damping.c): c dt <= 0.5. Returns INFINITY without damping. It is a limit of accuracy, not of stability. */
 static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
-/* Returns the stiffness of bond cores that the time step allows, (dt_critical/dt)^2 - 1, from 0 to CORE_STIFFNESS [1].
- * A core resists strong compression of a bond (kernels/pd/bond_core.h). */
+/* Returns the stiffness of the repulsive cores of bonds that the time step allows, (dt_critical/dt)^2 - 1, from 0 to
+ * CORE_STIFFNESS [1]. A core resists strong compression of a bond (kernels/pd/bond_core.h). clock: time step and
+ * critical time step. */
 static real core_stiffness(const struct scene *scene, const struct run_clock *clock)
 {
     if (!scene_is_dynamic(scene)) return CORE_STIFFNESS;
     return real_max(0, real_min(CORE_STIFFNESS, square(clock->dt_critical / clock->dt) - 1));
 }
 
-/* Returns the smallest ratio of a particle's mass to density times volume, at most 1 [1]. Only particle lists with a
- * column of masses can make it less than 1. */
+/* Returns the smallest ratio of a particle's mass to density times volume over all particles p, at most 1 [1]. Only
+ * particle lists with a column of masses can make it less than 1. */
 static real lightest_share(const struct scene *s, const struct particles *p)
 {
     real least = 1;
@@ -204,7 +209,7 @@ static real lightest_share(const struct scene *s, const struct particles *p)
     return least;
 }
 
-/* Computes the critical time step and the time step of a run, and the number of steps, in e->clock. The limits of all
+/* Computes the critical time step, the time step and the number of steps of the run e, in e->clock. The limits of all
  * methods of the scene apply from the start, because particles convert later. Returns REFUSED, with a message, if the
  * prescribed step is too large for coarse cells, or the steps are too many. */
 status time_step_choose_and_count_steps(struct run *e)

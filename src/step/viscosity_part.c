@@ -10,8 +10,8 @@
 #include "run/energies.h"
 #include "run/part.h"
 
-/* Allocates the arrays of v on the first call, if a material is viscous. n: number of particles; nodes: number of nodes
- * of the mesh. Returns true if the arrays exist. */
+/* Allocates the arrays of v on the first call, if a material of the scene s is viscous. n: number of particles; nodes:
+ * number of nodes of the mesh. Returns true if the arrays exist. */
 static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n, int64_t nodes)
 {
     if (v->work || !scene_has_viscosity(s)) return v->work != NULL;
@@ -25,9 +25,9 @@ static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n
     return true;
 }
 
-/* Returns the viscous pressure over rho c^2 [1]: linear x + quadratic x^2, with x = crossing * rate. linear, quadratic:
- * coefficients of the material [1]; crossing: time h/c in which a wave of speed c crosses the resolved length h [s];
- * rate: rate of compression [1/s]. */
+/* Returns the viscous pressure, divided by rho c^2 [1]: linear x + quadratic x^2, with x = crossing * rate. linear,
+ * quadratic: coefficients of the material [1]; crossing: time h/c in which a wave of speed c crosses the resolved
+ * length h [s]; rate: rate of compression [1/s]. */
 static real viscous_strain(real linear, real quadratic, real crossing, real rate)
 {
     const real x = crossing * rate;
@@ -35,7 +35,7 @@ static real viscous_strain(real linear, real quadratic, real crossing, real rate
 }
 
 /* Returns the viscous pressure of material m [Pa], 0 in expansion. h: resolved length, such as a spacing or the edge of
- * a cell [m]; rate: growth rate of volume over volume, negative in compression [1/s]. */
+ * a cell [m]; rate: growth rate of the volume, divided by the volume, negative in compression [1/s]. */
 static real viscous_pressure(const struct material *m, real h, real rate)
 {
     if (!(rate < 0)) return 0;
@@ -47,8 +47,8 @@ static real taken_by(const void *work, int64_t i) { return ((const real *)work)[
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the viscous force of a bond to f[dim], the force on its particle i [N]. It acts in compression only. A bond
- * between two materials has the mean of their coefficients. stiffness: stiffness of the bonds (struct bonds). */
+/* Adds the viscous force of `bond` to f[dim], the force on its particle i [N]. It acts in compression only. A bond
+ * between two materials has the mean of their coefficients. stiffness: member of struct bonds. */
 static void bond_push(const struct material *material, const struct particles *p, int64_t i, const struct bond *bond,
                       real stiffness, real *f)
 {
@@ -135,7 +135,8 @@ void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct pa
 
 /* ---- cells of the reference frame -------------------------------------------------------------------------------- */
 
-/* Computes the inverse of the matrix F[dim dim], row by row, and returns the determinant of F, which must not be 0. */
+/* Computes the inverse of the matrix F[dim dim] into `inverse`, row by row, and returns the determinant of F, which
+ * must not be 0. */
 static real invert_gradient(const real *F, int dim, real *inverse)
 {
     if (dim == 1) {
@@ -220,8 +221,8 @@ static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
         if (mesh->kind[I] && cell_colour(mesh, I) == colours) cell_push(mesh, I, P, f);
 }
 
-/* Adds the viscous forces f[dim][g->n] [N] to the forces on nodes, and the energy that they have dissipated since the
- * previous step to v->taken. half: half of the time step, 0 in the first step [s]. */
+/* Adds the viscous forces f[dim][g->n] [N] to the forces on the nodes of g, and the energy that they have dissipated
+ * since the previous step to v->taken. half: half of the time step, 0 in the first step [s]. */
 static void nodes_book(struct viscosity *v, const struct grid *g, real half, real *const *f)
 {
     real *work = NEW("viscosity.node_work", g->n, real);
