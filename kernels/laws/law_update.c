@@ -85,7 +85,8 @@ struct flow_equation {
 /* Returns the yield equation of eight points (struct flow_equation): how the equivalent relative stress q falls with t
  * = da/q, da being the increment of plastic strain. law: flow law of the points; p: their trial stress and back stress.
  * g: factor on the back stress X [1]; stiffness: kinematic hardening modulus that acts over the step [Pa]. xi: receives
- * the relative stress s - g X [Pa] (relative_stress). */
+ * the relative stress s - g X [Pa] (relative_stress). space: compile-time constant, as in all functions of this
+ * file. */
 static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
@@ -102,7 +103,7 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
  * less back stress) of eight points. t = da/q [1/Pa]: increment da of plastic strain, divided by the equivalent
  * relative stress q. e: yield equation of the points. In 1D r is Young's modulus (e->A), in 3D and plane strain three
  * times the shear modulus (e->B), plus the kinematic hardening modulus. Not for plane stress, where two parts of xi
- * fall at different rates. */
+ * fall at different rates. space: compile-time constant. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
     return space == SPACE_LINE ? e->A : e->B;
@@ -110,7 +111,7 @@ static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum
 
 /* Returns for eight points the equivalent relative stress q [Pa] (of stress less back stress) that remains after
  * plastic flow. e: yield equation; t: increment of plastic strain, divided by q [1/Pa]. *fall: in plane stress receives
- * -q dq/dt [Pa^3], else is not set. */
+ * -q dq/dt [Pa^3], else is not set. space: compile-time constant. */
 static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
 {
     if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
@@ -124,7 +125,7 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
  * (no flow). With t = da/q, the increment da of plastic strain divided by the equivalent relative stress q, the
  * equation means q = bound + slope da. e: yield equation q(t); bound: yield stress at the start [Pa]; slope: its
  * derivative by the plastic strain [Pa]. In plane stress t follows from Newton's method, started at t = 0, else from a
- * closed form. */
+ * closed form. space: compile-time constant. */
 static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes bound, lanes slope,
                                           const enum space space)
 {
@@ -142,7 +143,7 @@ static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes b
 /* Returns for eight points the kinematic hardening modulus [Pa] that acts over a small step: C - gamma (3/2) xi:X/q. C
  * and gamma are modulus and recall constant of the Armstrong-Frederick law (law->kinematic); the recall of the back
  * stress X (p->back) moves the yield surface back. xi: trial relative stress [Pa], in the order of relative_stress; q:
- * its equivalent stress [Pa]. */
+ * its equivalent stress [Pa]. space: compile-time constant. */
 static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct law_points *p, const lanes *xi,
                                              lanes q, const enum space space)
 {
@@ -193,7 +194,7 @@ static ALWAYS_INLINE lanes omega(lanes z)
  * The tangent is taken at the da at which this stress equals the equivalent stress, which falls linearly with da;
  * `omega` gives a first estimate of da. The rate is that of the plastic strain, not of the total strain, because the
  * latter falls to 0 where loads reverse, and the plastic strain would then depend on the size of the step. trial: yield
- * equation at the start of the step. */
+ * equation at the start of the step. space: compile-time constant. */
 static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law_points *p,
                                          const struct flow_equation *trial, lanes *bound, lanes *slope,
                                          const enum space space)
@@ -215,8 +216,8 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law
 /* Returns the plastic flow t = da/q [1/Pa] of eight points in a small step, by one linearised evaluation (da: increment
  * of plastic strain, q: equivalent relative stress). law: flow law; p: state of the points; trial, xi: yield equation
  * and relative stress [Pa] of the trial state; bound: yield stress at the start of the step [Pa]; slope: its derivative
- * by the plastic strain [Pa]. *back: receives the factors by which the back stress changes in the step
- * (recall_after). */
+ * by the plastic strain [Pa]. *back: receives the factors by which the back stress changes in the step (recall_after).
+ * space: compile-time constant. */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -236,7 +237,7 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
 /* Returns the plastic flow t = da/q [1/Pa] of eight points in a step of any size, by iteration to round-off (da:
  * increment of plastic strain, q: equivalent relative stress). law: flow law; p: trial state of the points; bound:
  * yield stress at the start of the step [Pa]. *back: receives the factors by which the back stress changes in the step
- * (recall_after). */
+ * (recall_after). space: compile-time constant. */
 static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
@@ -262,7 +263,8 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
 /* Applies plastic flow to eight points: computes their increments of plastic strain, strain = 3/2 t xi [1] (components
  * xx yy zz xy yz zx), and changes their stress p->s and back stress p->back accordingly. xi: relative stress at the end
  * of the step [Pa], in the order of relative_stress; t: increment of equivalent plastic strain, divided by the
- * equivalent relative stress [1/Pa]; back: factors by which the back stress changes in the step (recall_after). */
+ * equivalent relative stress [1/Pa]; back: factors by which the back stress changes in the step (recall_after). law:
+ * elastic and kinematic constants; space: compile-time constant. */
 static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {
@@ -285,7 +287,7 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
 
 /* Returns for eight points the plastic work of a small step per reference volume [J/m^3], by the trapezoidal rule:
  * strain : (s_0 v_0 + s_1 v_1)/2, with the stresses s_0, s_1 and the relative volumes v_0, v_1 at the start and at the
- * end of the step (in p). strain: increments of plastic strain [1], xx yy zz xy yz zx. */
+ * end of the step (in p). strain: increments of plastic strain [1], xx yy zz xy yz zx. space: compile-time constant. */
 static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_broadcast(0);
@@ -298,9 +300,9 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
 /* Returns for eight points the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress
  * and back stress along the path on which the trial stress grows in proportion, at constant temperature and direction
  * of flow. The integral of the back stress over the increment a of plastic strain is X:N b + (C/gamma) (a - b), b = (1
- * - exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. p: state at the end of the step; back: back
- * stress X at its start [Pa]; more: increment a [1]; strain: increments of the components of plastic strain [1], xx yy
- * zz xy yz zx. */
+ * - exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. law: flow law; p: state at the end of the step;
+ * back: back stress X at its start [Pa]; more: increment a [1]; strain: increments of the components of plastic strain
+ * [1], xx yy zz xy yz zx. space: compile-time constant. */
 static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_points *p, const lanes *back, lanes more,
                                      const lanes *strain, const enum space space)
 {

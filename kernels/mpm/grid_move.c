@@ -33,8 +33,8 @@ void grid_clear(struct grid *g)
 /* Sets one velocity component of a node of the grid, and its change in the step (g->force), to the values that the wall
  * w prescribes (wall: a nodal component with prescribed velocity). The impulse of the wall replaces that of the forces
  * on the node, and with APIC also the momentum that points have given to the node. Adds this impulse to impulse[axis]
- * [N s] and the work of the wall to *work [J]; stores the reaction in w [N s]. Does nothing for nodes lighter than
- * smallest_mass [kg]. */
+ * [N s] and the work of the wall to *work [J]; stores the reaction in w [N s]. transfer: scheme of the grid (FLIP or
+ * APIC). Does nothing for nodes lighter than smallest_mass [kg]. */
 static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX],
                       real *work)
 {
@@ -149,7 +149,7 @@ static int64_t leader_of(const struct grid *g, int64_t I)
     return leader;
 }
 
-/* Compares two light nodes by their node index, for sorting. */
+/* Compares two light nodes a and b (struct follower) by their node index, for sorting: -1, 0 or 1. */
 static int by_node(const void *a, const void *b)
 {
     const struct follower *p = a, *q = b;
@@ -193,8 +193,8 @@ static void lend(struct grid *g, int64_t I, int64_t J, real times)
 }
 
 /* Finds the light nodes of the grid (g->follower), whose acceleration is extrapolated from heavier nodes, and transfers
- * their force and mass to these. With FLIP there are none. smallest_mass: lighter nodes are left out [kg]. Call before
- * velocities are computed. */
+ * their force and mass to these. transfer: scheme of the grid; with FLIP there are none. smallest_mass: lighter nodes
+ * are left out [kg]. Call before velocities are computed. */
 static void followers_in(struct grid *g, enum transfer transfer, real smallest_mass)
 {
     g->followers = 0;

@@ -118,7 +118,7 @@ static void weights_follow(struct bonds *b)
 /* Recomputes the reactions of those bonds in b->clamped (bonds to mirror images beyond clamped planes) that the force
  * kernel has broken in this step. Their reaction is the share that acts until the bond breaks, with the states before
  * bonds broke (bond_last.h). These bonds are recognised by their weights: c->w, copied before the step, is not 0, but
- * the present weight is 0. */
+ * the present weight is 0. limit: breaking limits and time step. */
 static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const struct clamped *c = &b->clamped;

@@ -24,9 +24,10 @@ struct family_sums {
     lanes_mask moved;
 };
 
-/* Adds the eight bonds of a column (one bond of each of eight particles) to the sums over their families: w r e, with
- * the extension e = |Y| - r, and in models with rotations w Y (x) xi. x[dim], X[dim]: present and reference positions
- * of the eight particles [m]. */
+/* Adds the eight bonds of a column (one bond of each of eight particles) to *sum, the sums over their families (all
+ * bonds of one particle): w r e, with the extension e = |Y| - r, and in models with rotations w Y (x) xi. x[dim],
+ * X[dim]: present and reference positions of the eight particles [m]. model: state-based model, a compile-time
+ * constant. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
                                             const struct column column, const lanes *x, const lanes *X, const int dim,
                                             const enum pd_model model)
@@ -46,9 +47,9 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     }
 }
 
-/* Computes the rotations of eight families from their moments sum w Y (x) xi, in the form in which rotations are stored
- * (rotation.h). moved: lanes that are 0 belong to families in which no neighbour has moved, whose rotation is set to
- * the identity exactly. spring: spring stiffness of the families [N/m]. */
+/* Computes the rotations of eight families from `moment`, their moments sum w Y (x) xi [dim dim], in the form in which
+ * rotations are stored (rotation.h). moved: lanes that are 0 belong to families in which no neighbour has moved, whose
+ * rotation is set to the identity exactly. spring: spring stiffness of the families [N/m]. */
 static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, lanes_mask moved, lanes spring,
                                           const int dim)
 {
@@ -89,7 +90,7 @@ struct family_state {
 };
 
 /* Stores the states *k (pressure, spring stiffness and rotation) of the families of the eight particles of row block g
- * in b->state. */
+ * in b->state. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -159,7 +160,7 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
 /* Updates the states *k of those particles of row block g (bonds of eight particles) that are material points. Adds to
  * the pressure of each the mean strain of its cell, and replaces its rotation by that of the cell. Stores the reactions
  * of the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes of the eight families;
- * sum: sums over their bonds. */
+ * sum: sums over their bonds. model: state-based model, a compile-time constant. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -182,7 +183,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* Computes pressure, spring stiffness and rotation of the families (all bonds of one particle) of row block g (eight
  * particles), and stores them in b->state. Families of material points include the contribution of the cell of the
- * point. sum: sums over the bonds of each family. */
+ * point. sum: sums over the bonds of each family. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -204,7 +205,8 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
 /* Computes the states (pressure, spring stiffness, rotation) of the eight particles of row block g from sums over their
  * bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit, and
  * b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the states for
- * the remaining bonds are means of those with and without the breaking bonds (state_last.h). limit: breaking limits. */
+ * the remaining bonds are means of those with and without the breaking bonds (state_last.h). limit: breaking limits.
+ * model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {
@@ -255,11 +257,12 @@ struct state_sums {
     lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
 };
 
-/* Adds the forces of the eight bonds of a column (one bond of each of eight particles) to the sums of these particles.
- * In models without rotations the force of a bond is w [P + (g - P) q] times Y, with pressure P, spring stiffness g and
- * q = (|Y| - r)/|Y|: two products fewer than with the stretch. In models with rotations the effective displacement Y -
- * R xi is computed as (Y - xi) - (R - 1) xi, which is exactly 0 where nothing has moved; the part of the rotations of
- * the row block's own particles is added in force_row_block. */
+/* Adds the forces of the eight bonds of a column (one bond of each of eight particles) to *sum, the sums of these
+ * particles. In models without rotations the force of a bond is w [P + (g - P) q] times Y, with pressure P, spring
+ * stiffness g and q = (|Y| - r)/|Y|: two products fewer than with the stretch. In models with rotations the effective
+ * displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is exactly 0 where nothing has moved; the part of
+ * the rotations of the row block's own particles is added in force_row_block. model: state-based model, a compile-time
+ * constant. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {
@@ -292,7 +295,8 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
 }
 
 /* Computes the forces of all bonds on the eight particles of row block g into p->f, without repulsive cores, from the
- * states of the families in b->state (pressure, spring stiffness and rotation). */
+ * states of the families in b->state (pressure, spring stiffness and rotation). model: state-based model, a
+ * compile-time constant. */
 static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                           const enum pd_model model)
 {
@@ -319,7 +323,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
 
 /* Computes the forces of the bonds on the eight particles of row block g into p->f, repulsive cores included, and
  * breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its two
- * rows. */
+ * rows. limit: breaking limits; model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

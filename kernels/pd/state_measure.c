@@ -69,7 +69,7 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
 
 /* Returns the elastic energy of the families of the eight particles of row block g, repulsive cores included [J]; 0 if
  * the row block is inactive (at rest). row_energy: [b->rows] the energy of each family is added to it [J]; NULL if it
- * is not wanted. */
+ * is not wanted. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                            real *row_energy, const int dim, const enum pd_model model)
 {
@@ -87,7 +87,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
 
 /* Adds the symmetric part of T (x) y of the eight bonds of a column (one bond of each of eight particles) to
  * sum[component], one lane per particle: T is the force due to the state of the row's particle alone [N], y the bond
- * vector [m]. s: positions and states of the particles. */
+ * vector [m]. s: positions and states of the particles. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
@@ -99,7 +99,8 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
 }
 
 /* Computes the stress of those of the eight particles of row block g that are peridynamic, into p->stress [Pa], from
- * the states of their families (pressure, spring stiffness and rotation). */
+ * the states of their families (pressure, spring stiffness and rotation). model: state-based model, a compile-time
+ * constant. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {

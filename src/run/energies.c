@@ -65,7 +65,7 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
 }
 
 /* Adds sums over the particles or nodes first .. end - 1 of m to *to, by add_motion with the dimension of m as a
- * constant. Adds nothing if all of them are particles that the nodes of a mesh move. */
+ * constant. wanted: selects the sums. Adds nothing if all of them are particles that the nodes of a mesh move. */
 static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                        const enum motion_sums wanted)
 {
@@ -131,10 +131,10 @@ struct kick {
     real dt;
 };
 
-/* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 [J], where dv is the change of velocity in the
- * step. This is the difference between two energies: the mean of the kinetic energies before and after the step, and m
- * v_before . v_after/2, the kinetic part of the energy that leap-frog conserves. Particles with prescribed motion do
- * not contribute, since their work is computed with their motion. */
+/* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 of k->p [J], where dv is the change of
+ * velocity in the step. This is the difference between two energies: the mean of the kinetic energies before and after
+ * the step, and m v_before . v_after/2, the kinetic part of the energy that leap-frog conserves. Particles with
+ * prescribed motion do not contribute, since their work is computed with their motion. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;
@@ -319,7 +319,8 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
 
 /* Computes the stresses p->stress of peridynamic particles from the bonds b. In state-based models the weighted volumes
  * and dilatations are recomputed first, at the current positions: a step moves particles after its forces, and the
- * stress in a rotating body would otherwise contain the rotation of a step. s: source of the bonds. */
+ * stress in a rotating body would otherwise contain the rotation of a step. s: source of the bonds; kernels: those of
+ * the model. */
 void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                                    const struct kernels *kernels)
 {

@@ -4,8 +4,8 @@
 
 #include "run/make.h"
 
-/* Returns the number of a boundary condition `mirror` (plane of symmetry) whose plane is between the positions X and Y
- * [m] along `axis`, or -1 if there is none. */
+/* Returns the number in `loads` of a boundary condition `mirror` (plane of symmetry) whose plane is between the
+ * positions X and Y [m] along `axis`, or -1 if there is none. */
 static int mirror_between(const struct loads *loads, const real *X, const real *Y, int axis)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -43,7 +43,7 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
 }
 
 /* Returns REFUSED, with the message that the distance of particles i and j along an axis is not a whole number of
- * spacings. i must be below p->n; j may be a mirror image. */
+ * spacings. i must be below p->n; j may be the mirror image of a particle in a mirror of `loads`. */
 static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
                            int64_t j)
 {

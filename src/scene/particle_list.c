@@ -181,8 +181,8 @@ static bool ends_with(const char *path, const char *ending)
 
 enum { NO_LIST, LIST_CSV, LIST_HDF5, LIST_EXODUS };
 
-/* Returns the format of a particle list (LIST_CSV, LIST_HDF5, LIST_EXODUS) from its file name extension; NO_LIST for
- * any other extension. */
+/* Returns the format of the particle list in the file `path` (LIST_CSV, LIST_HDF5, LIST_EXODUS) from its file name
+ * extension; NO_LIST for any other extension. */
 static int list_format(const char *path)
 {
     static const char *const endings[] = {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".hdf"};

@@ -31,8 +31,8 @@ static int component_named(const char *name, const char *vector)
     return name[length + 1] >= '0' && name[length + 1] < '0' + DIM_MAX ? name[length + 1] - '0' : -1;
 }
 
-/* Returns true for the column names of mesh blocks in Peridigm and PeriLab, which number blocks from 1. A block is read
- * as a material, not as a body, because bonds join blocks but not bodies. */
+/* Returns true if `name` is a column name of mesh blocks in Peridigm and PeriLab, which number blocks from 1. A block
+ * is read as a material, not as a body, because bonds join blocks but not bodies. */
 static bool names_block(const char *name)
 {
     return strcasecmp(name, "block_id") == 0 || strcasecmp(name, "block") == 0;
@@ -143,7 +143,7 @@ static void header_bare(char *text)
     for (text += sizeof word - 1; *text == '\t' || *text == ' '; text++) *text = ' ';
 }
 
-/* Returns true if a line has neither commas nor semicolons, so that tabs or blanks separate its fields. */
+/* Returns true if the line `text` has neither commas nor semicolons, so that tabs or blanks separate its fields. */
 static bool line_of_blanks(const char *text) { return !strpbrk(text, ",;"); }
 
 static void tabs_to_blanks(char *text)
@@ -251,10 +251,10 @@ static status header_of_tabs(struct csv *c, struct particle_list *l)
     return header_read(c, l);
 }
 
-/* Reads the column names of a CSV file. They are in the first line that is not a comment or, if this line has numbers,
- * in the first comment before it that names all coordinates. Without names, a line of five numbers is read as a
- * Peridigm text mesh. Returns REFUSED, with a message, for an empty file, and if there are neither names nor such a
- * line. */
+/* Reads the column names of the CSV file c, for the list l. They are in the first line that is not a comment or, if
+ * this line has numbers, in the first comment before it that names all coordinates. Without names, a line of five
+ * numbers is read as a Peridigm text mesh. Returns REFUSED, with a message, for an empty file, and if there are neither
+ * names nor such a line. */
 static status csv_header(struct csv *c, struct particle_list *l)
 {
     static const char mesh[] = "x y z block_id volume";
@@ -282,9 +282,9 @@ static status csv_header(struct csv *c, struct particle_list *l)
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
-/* Reads the column names that the scene gives, l->form.columns, in place of those of the file. The first line that is
- * not a comment is the first entry; it shows whether commas, tabs or blanks separate fields. Returns REFUSED for an
- * empty file or invalid names. */
+/* Reads the column names that the scene gives, l->form.columns, in place of those of the file c. The first line that is
+ * not a comment is the first entry; it shows whether commas, tabs or blanks separate fields. Returns REFUSED, with a
+ * message, for an empty file or invalid names. */
 static status csv_header_given(struct csv *c, struct particle_list *l)
 {
     char entry[CSV_LINE_LENGTH];
@@ -319,8 +319,8 @@ static status csv_grow(struct csv *c, struct particle_list *l)
 }
 
 /* Stores the material name `field` in l->name unless it is there, and sets *value to -1 minus its index, so that
- * negative values distinguish names from material numbers. Returns REFUSED, with a message, for too many or too long
- * names. */
+ * negative values distinguish names from material numbers. c: file, for messages. Returns REFUSED, with a message, for
+ * too many or too long names. */
 static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
 {
     int k = 0;
@@ -382,8 +382,8 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Returns REFUSED if the list l has no column names and the numbers in its fourth and in its fifth column are all
- * whole: it is then unknown which column is the block (the material) and which the volume. */
+/* Returns REFUSED, with a message, if the list l of the file c has no column names and the numbers in its fourth and in
+ * its fifth column are all whole: it is then unknown which column is the block (the material) and which the volume. */
 static status unnamed_check(const struct csv *c, const struct particle_list *l)
 {
     if (!l->head.unnamed || !c->whole || l->n == 0) return OK;

@@ -208,8 +208,8 @@ static void write_series(struct writer *w)
     w->indent -= 4;
 }
 
-/* Writes all keys that are directly below the path `group_path` and have a value in the structure `group_values`, with
- * their units as comments. */
+/* Writes all keys to w that are directly below the path `group_path` and have a value in the structure `group_values`,
+ * with their units as comments. */
 void yaml_write_keys_of_group(struct writer *w, const char *group_path, const void *group_values)
 {
     for (int i = 0; i < keys_count; i++) {
@@ -241,7 +241,7 @@ void writer_begin_list_item(struct writer *w)
     w->dash = true;
 }
 
-/* Writes the line `key:` and below it, indented, the keys that are directly below the path `group_path` and have a
+/* Writes to w the line `key:` and below it, indented, the keys that are directly below the path `group_path` and have a
  * value in the structure `group_values`. */
 void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *group_path, const void *group_values)
 {
@@ -320,7 +320,7 @@ static void write_materials(struct writer *w)
     }
 }
 
-/* Writes the line `key: "file"` with the absolute path of the file, so that scene.yaml can be run from any folder.
+/* Writes to w the line `key: "file"` with the absolute path of the file, so that scene.yaml can be run from any folder.
  * contents_hash: hash of the file, written as a comment, since a run resumes only with identical contents; 0: the file
  * has not been read, and its name is written as it is. */
 void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents_hash)
@@ -334,8 +334,8 @@ void yaml_write_file_name(struct writer *w, const char *key, const char *file, u
     free(whole);
 }
 
-/* Writes the key `particles` of the body b: the file of its particle list, with scale and columns if the scene gives
- * them. */
+/* Writes the key `particles` of the body b to w: the file of its particle list, with scale and columns if the scene
+ * gives them. */
 static void write_particle_list(struct writer *w, const struct scene_body *b)
 {
     const bool formed = b->form.scale > 0 || b->form.columns;

@@ -35,7 +35,7 @@ bool key_is_merged_with_included_scene(const char *path)
 
 static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
 
-/* Returns REFUSED, with a message, for a mapping with two equal keys, one of which would be lost, or with more than
+/* Returns REFUSED, with a message, if the mapping `map` has two equal keys, one of which would be lost, or more than
  * KEYS_MOST keys. */
 static status check_twins(const struct reader *r, const struct yaml_node *map)
 {

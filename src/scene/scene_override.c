@@ -149,9 +149,10 @@ static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, co
     return item->first;
 }
 
-/* Finds *out, the node that one part of a path addresses: in a mapping the entry `key` (of `length` characters),
- * created if it is missing; in a list the item with this index or name. origin: number of the override, for
- * messages. Returns REFUSED for a list without such an item, and for nodes without keys. */
+/* Finds *out, the node that one part of a path addresses: if `map` is a mapping, the entry `key` (of `length`
+ * characters), created if it is missing; if it is a list, the item with this index or name. origin: number of the
+ * override, for messages. Returns REFUSED, with a message, for a list without such an item, and for nodes without
+ * keys. */
 static status scene_override_entry_of(struct reader *r, struct yaml_node *map, const char *key, size_t length,
                                       int origin, struct yaml_node **out)
 {
@@ -198,9 +199,9 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
     for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
-/* Applies override number `origin` (from 0) to the tree of the scene. Sets the value at its path; appends the value to
- * a list if the path ends in the index after the last item; removes the key if the value is empty. Returns REFUSED,
- * with a message, for a malformed path, and if the key to be removed is missing. */
+/* Applies override number `origin` (from 0) to `root`, the tree of the scene. Sets the value at its path; appends the
+ * value to a list if the path ends in the index after the last item; removes the key if the value is empty. Returns
+ * REFUSED, with a message, for a malformed path, and if the key to be removed is missing. */
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];

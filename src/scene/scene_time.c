@@ -87,8 +87,9 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     return OK;
 }
 
-/* Finds the columns of time and value from the header of the file, its first line of data. wanted: name of the column
- * of values; "": the only one beside the time. Returns REFUSED if a column is missing or ambiguous. */
+/* Finds the columns of time and value in the CSV file c from its header, the first line that is no comment. wanted:
+ * name of the column of values; "": the only one beside the time. Returns REFUSED, with a message, if a column is
+ * missing or ambiguous. */
 static status time_columns_find(struct time_columns *c, const char *wanted)
 {
     bool more;

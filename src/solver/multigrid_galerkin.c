@@ -40,7 +40,7 @@ struct product {
 
 /* ---- patterns ---------------------------------------------------------------------------------------------------- */
 
-/* Compares two column numbers, for sorting. */
+/* Compares the column numbers *a and *b, for sorting: returns -1, 0 or 1. */
 static int compare_columns(const void *a, const void *b)
 {
     const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;

@@ -62,9 +62,9 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* Computes the residual b - K u from the displacements u, with the applied forces b, and stores it in p->f [N]. Unlike
- * the residual that the iteration updates it contains no accumulated round-off. Stores the norm of the reactions on
- * constrained components, then sets these components to 0. */
+/* Computes the residual b - K u of `body` from the displacements u, with the applied forces b, and stores it in p->f
+ * [N]. Unlike the residual that the iteration updates it contains no accumulated round-off. Stores the norm of the
+ * reactions on constrained components, then sets these components to 0. */
 static void true_residual(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -93,8 +93,8 @@ static void restart(struct static_solver *s, const struct particles *p)
     s->rz = sum[0];
 }
 
-/* Starts conjugate gradients: computes the initial displacements, their residual and the first search direction in
- * s. */
+/* Starts conjugate gradients for `body`: computes the initial displacements, their residual and the first search
+ * direction in s. */
 static void solver_cg_start(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -128,8 +128,8 @@ static real solver_cg_advance(struct static_solver *s, real alpha)
     return sum[1];
 }
 
-/* Sets the positions of the particles to x = X + u, with the reference positions X and the displacements u, and
- * computes the bond forces there. Energies and stresses of state-based models follow from these. */
+/* Sets the positions of the particles of `body` to x = X + u, with the reference positions X and the displacements u,
+ * and computes the bond forces there. Energies and stresses of state-based models follow from these forces. */
 static void solver_cg_displace(const struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -138,10 +138,10 @@ static void solver_cg_displace(const struct static_solver *s, const struct stati
     static_body_compute_bond_forces(body);
 }
 
-/* Computes the residual from the displacements, and sets *done to true if it is at most the tolerance, else to false.
- * Restarts the iteration if, by round-off, the residual exceeds twice by_recurrence, the value that the iteration
- * itself has updated [N]. step: number of the iteration. Returns FAILED, with a message, after STALLS_MOST restarts
- * without progress. */
+/* Computes the residual of `body` from the displacements, and sets *done to true if it is at most body->tolerance, else
+ * to false. Restarts the iteration if, by round-off, the residual exceeds twice by_recurrence, the value that the
+ * iteration itself has updated [N]. step: number of the iteration. Returns FAILED, with a message, after STALLS_MOST
+ * restarts without progress. */
 static status check(struct static_solver *s, const struct static_body *body, int64_t step, real by_recurrence,
                     bool *done)
 {

@@ -48,8 +48,8 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 
 #define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
-/* Computes s->diagonal, the diagonal matrix Lambda of fictitious masses for dynamic relaxation. A unit time step is
- * stable if Lambda_i >= 1/4 sum_j |K_ij| (Kilic & Madenci 2010), with the stiffness K of the bonds as springs.
+/* Computes s->diagonal, the diagonal matrix Lambda of fictitious masses for dynamic relaxation of `body`. A unit time
+ * step is stable if Lambda_i >= 1/4 sum_j |K_ij| (Kilic & Madenci 2010), with the stiffness K of the bonds as springs.
  * State-based models can be stiffer than these springs; Lambda is then multiplied by the largest eigenvalue of
  * Lambda^-1 K/4, which is computed from the forces of the model. */
 static void make_diagonal(struct static_solver *s, const struct static_body *body)
@@ -138,8 +138,8 @@ static bool component_constrained(const struct loads *l, int d)
     return false;
 }
 
-/* Returns OK if the applied forces along axis d are balanced, or if supports or planes of symmetry constrain the body
- * along d. Returns REFUSED, with a message, if not. */
+/* Returns OK if the applied forces of `loads` along axis d are balanced, or if supports or planes of symmetry constrain
+ * the body along d. Returns REFUSED, with a message, if not. */
 static status force_balanced(const struct loads *loads, int d)
 {
     real sum = 0, size = 0;

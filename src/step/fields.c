@@ -57,7 +57,7 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
         }
 }
 
-/* Computes the displacement gradient of peridynamic particle i from its intact bonds, and stores it in H[dim
+/* Computes the displacement gradient of peridynamic particle i of `part` from its intact bonds, and stores it in H[dim
  * dim][i]. */
 static void gradient_of_bonds(const struct bonds *bonds, const struct particles *part, int64_t i, real *const *H)
 {
@@ -184,8 +184,8 @@ static real *point_shares_make(const struct particles *shown, const struct scene
     return share;
 }
 
-/* Returns the coarsening level (0: finest) of the mesh cell of every particle, an array [part->n]; 0 for particles
- * outside meshes. The caller frees it with memory_free. */
+/* Returns the coarsening level (0: finest) of the cell in the mesh of `frame` of every particle, an array [part->n]; 0
+ * for particles outside meshes. The caller frees it with memory_free. */
 static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
 {
     const struct mesh *mesh = &frame->mesh;
@@ -195,8 +195,9 @@ static uint8_t *cell_levels_make(const struct reference_frame *frame, const stru
     return level;
 }
 
-/* Returns the coarsening level of every point that represents a coarse cell in frames, one entry per point. The spacing
- * doubles from level to level; level 0 has the spacing of the scene. The caller frees the array with memory_free. */
+/* Returns the coarsening level of every point that represents a coarse cell of `frame` in output, one entry per point.
+ * The spacing doubles from level to level; level 0 has the spacing of the scene. The caller frees the array with
+ * memory_free. */
 static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
 {
     uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);

@@ -100,9 +100,9 @@ struct pair_counts {
     struct stretched_pair farthest;
 };
 
-/* Computes the ratio of the present to the reference distance of two material points [1] and the position midway
- * between them [m] in *stretched. *axis: receives the axis along which they are farthest apart. Returns false, and
- * stores nothing, if the ratio is below PARTED_LEAST. */
+/* Computes the ratio of the present to the reference distance of the two material points of `pair` [1] and the position
+ * midway between them [m] in *stretched. *axis: receives the axis along which they are farthest apart. Returns false,
+ * and stores nothing, if the ratio is below PARTED_LEAST. */
 static bool pair_is_stretched(const struct particles *p, const struct point_pair *pair,
                               struct stretched_pair *stretched, int *axis)
 {
@@ -119,9 +119,9 @@ static bool pair_is_stretched(const struct particles *p, const struct point_pair
     return true;
 }
 
-/* Returns true if the shape functions of two material points have at most one layer of nodes in common across `axis`:
- * if the distance of the points along the axis is greater than a cell plus the extent of the functions beyond the cells
- * of the points. s: scene, for cell and shape functions. */
+/* Returns true if the shape functions of the two material points of `pair` have at most one layer of nodes in common
+ * across `axis`: if the distance of the points along the axis is greater than a cell plus the extent of the functions
+ * beyond the cells of the points. s: scene, for cell and shape functions. */
 static bool pair_shares_few_nodes(const struct particles *p, const struct point_pair *pair, int axis,
                                   const struct scene *s)
 {
@@ -132,8 +132,8 @@ static bool pair_shares_few_nodes(const struct particles *p, const struct point_
     return fabs(p->x[axis][pair->b] - p->x[axis][pair->a]) > shared;
 }
 
-/* Returns true if the grid cell at position X[dim] [m] contains no points, nor do the cells next to it along the axes
- * other than `axis`. A single empty cell is no gap, since flowing points fill it again. */
+/* Returns true if the grid cell at position X[dim] [m] contains no points according to the table h, nor do the cells
+ * next to it along the axes other than `axis`. A single empty cell is no gap, since flowing points fill it again. */
 static bool cells_are_empty(const struct held_cells *h, const real *X, int axis)
 {
     real at[DIM_MAX];

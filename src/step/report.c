@@ -35,7 +35,8 @@ static int64_t common_step(const struct run_clock *clock, int64_t step)
 }
 
 /* Returns the step after which event k (from 0) of n events spread evenly over the run is due: k steps/n, rounded. The
- * product k steps is avoided, since it can exceed 64 bits. Returns the last step if n <= 0. */
+ * product k steps is avoided, since it can exceed 64 bits. Returns the last step if n <= 0. clock: number of steps of
+ * the run. */
 static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 {
     if (n <= 0) return clock->steps;
@@ -50,7 +51,8 @@ int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock 
 
 /* Returns the step after which frame k (from 0) of the whole body is written. It is the step nearest to the time that
  * the scene s gives for the frame, or one of evenly spread steps if the scene gives no times. If frames are closer
- * together than the steps, some are written at later or earlier steps, so that each frame has a step of its own. */
+ * together than the steps, some are written at later or earlier steps, so that each frame has a step of its own. clock:
+ * number and length of steps. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
@@ -70,8 +72,8 @@ bool report_sample_is_due(const struct scene *s, const struct run_clock *clock)
 
 /* ---- frames and checkpoints -------------------------------------------------------------------------------------- */
 
-/* Returns FAILED, with a message, if stress, position or velocity of a particle is not finite. Positions and speeds are
- * also checked in every step, and energies at samples; this check adds the stresses. */
+/* Returns FAILED, with a message, if stress, position or velocity of a particle is not finite. clock: for the message.
+ * Positions and speeds are also checked in every step, and energies at samples; this check adds the stresses. */
 static status frame_sound(const struct run_clock *clock, const struct particles *p)
 {
     int64_t first = p->n;
@@ -99,7 +101,8 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
     return s;
 }
 
-/* Returns true if frame number `frames` (from 0) of the whole body is due after `step` steps. */
+/* Returns true if frame number `frames` (from 0) of the whole body is due after `step` steps. clock: number and length
+ * of steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
     return frames <= report_frame_count_of_run(s, clock) && step >= report_step_number_of_frame(s, clock, frames);
@@ -107,7 +110,7 @@ static bool body_frame_due(const struct scene *s, const struct run_clock *clock,
 
 /* Returns true if frame number `frames` (from 0) of a region is due after `step` steps. Frames are written every
  * `every` [s] and at the end of the run; of several frames that are due in one step only one is written. duration:
- * duration of the run [s]. */
+ * duration of the run [s]. clock: number and length of steps. */
 static bool region_frame_due(const struct run_clock *clock, real every, real duration, int frames, int64_t step)
 {
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
@@ -200,8 +203,9 @@ static bool checkpoint_due(const struct run_report *r, const struct scene *s)
     return cheap && (in_steps || since > CHECKPOINT_SECONDS);
 }
 
-/* Returns true if the run has to stop because of the wall-clock time that the scene allows: the time that remains is
- * less than twice that of the longest checkpoint so far, which must still be written. */
+/* Returns true if the run with the report `report` has to stop because of the wall-clock time that the scene allows:
+ * the time that remains is less than twice the duration of the longest checkpoint so far, which must still be
+ * written. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
 {
     return wall_clock_seconds() - report->began + 2 * report->checkpoint_seconds >= s->wall;

@@ -174,7 +174,7 @@ static bool wants_motion(const struct scene *s)
     return motion;
 }
 
-/* Returns the present kinetic energy of particles and mesh nodes [J]. */
+/* Returns the present kinetic energy of particles and of mesh nodes of `reference` [J]. */
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
     return particles_kinetic_energy(p) + reference_frame_kinetic_energy(reference);
@@ -190,7 +190,7 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
     return 1 + levels->n;
 }
 
-/* Computes the present momentum of all particles and mesh nodes, momentum[dim] [kg m/s]. */
+/* Computes the present momentum of all particles and of mesh nodes of `frame`, momentum[dim] [kg m/s]. */
 static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];

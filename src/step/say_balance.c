@@ -24,7 +24,7 @@
     0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
 
 /* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
- * largest energy. */
+ * largest energy. w: energies of the run; to: list of warnings. */
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
@@ -100,8 +100,8 @@ static void say_spin(const struct diagnostics *w, bool apic, real spacing, struc
     warnings_add_and_print(to, text);
 }
 
-/* Returns true if interface damping is the only damping of the dynamic scene s, and material points are in the zone at
- * the interface of bonds and points in which it acts. */
+/* Returns true if interface damping is the only damping of the dynamic scene s, and the zone of `coupling` in which it
+ * acts, at the interface of bonds and points, contains material points. */
 static bool zone_damps(const struct scene *s, const struct coupling_state *coupling)
 {
     return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_is_dynamic(s);

@@ -61,7 +61,8 @@ static void factors(const struct time_function *f, real from, real to, real *mos
 }
 
 /* Returns the speed to which `load` alone accelerates the fastest of its particles within the last `steps` time steps
- * [m/s]. For a prescribed motion returns the largest prescribed speed, for mirrors and absorbing boundaries 0. */
+ * [m/s]. For a prescribed motion returns the largest prescribed speed, for mirrors and absorbing boundaries 0. clock:
+ * present time and time step. */
 static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
@@ -82,7 +83,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
 
 /* Returns true if the loads explain the motion of a run that has diverged, so that no instability has to be assumed: if
  * `given`, the energy at the start plus the work of the loads [J], is at least LOAD_SHARE_LEAST times the kinetic
- * energy, or if this is not finite. */
+ * energy, or if this is not finite. frame: mesh whose nodes move, too. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = particles_kinetic_energy(p) + reference_frame_kinetic_energy(frame);
@@ -152,7 +153,8 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
 
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the advice to choose a smaller time step to text[capacity]. Returns the length of this text. */
+/* Writes the advice to choose a smaller time step to text[capacity]. Returns the length of this text. clock: present
+ * time step and critical one. */
 static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t capacity)
 {
     return snprintf(text, capacity, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
@@ -170,7 +172,7 @@ static bool holds_images(const struct scene *s)
 }
 
 /* Writes alternatives for a scene s that gains energy to text[capacity]: for each option that the scene can do without,
- * another choice such as `method: pd`. coupling: coupling method of the run. */
+ * another choice such as `method: pd`. reference: mesh of the run; coupling: coupling method. */
 static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
                        char *text, size_t capacity)
 {
@@ -283,8 +285,9 @@ status divergence_check_particles(const struct run *e, bool check_peridynamic, b
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
-/* Returns FAILED, with a message, if a cell of the mesh is inverted. Tests only every INVERSION_STEPS steps and at the
- * end. An inverted cell resists deformation like an intact one, so that neither energy nor speed reveals it. */
+/* Returns FAILED, with a message, if a cell of the mesh of `reference` is inverted. Tests only every INVERSION_STEPS
+ * steps and at the end. An inverted cell resists deformation like an intact one, so that neither energy nor speed
+ * reveals it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
@@ -344,9 +347,9 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-/* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance in w
- * exceeds ENERGY_FROM_NOWHERE, or breaking bonds released too much energy beyond what they had stored. The error is not
- * tested in the first ENERGY_STEPS steps, in which half a step of a load is a large share of the energy, unless the
+/* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance w of the
+ * run exceeds ENERGY_FROM_NOWHERE, or breaking bonds released too much energy beyond what they had stored. The error is
+ * not tested in the first ENERGY_STEPS steps, in which half a step of a load is a large share of the energy, unless the
  * time step is above the critical one. */
 static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
@@ -355,15 +358,15 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
            diagnostics_energy_released_beyond_stored(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
-/* Returns true if the time step is above the critical one and velocities change sign in every step: kinetic energy <
- * KINETIC_LEAST times strain energy. */
+/* Returns true if the time step of `clock` is above the critical one and velocities change sign in every step: kinetic
+ * `energy` < KINETIC_LEAST times strain energy. */
 static bool swings(const struct run_clock *clock, const struct energy *energy)
 {
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
-/* Sets the error message that the run is unstable, with step, time and the position of the fastest particle, and
- * returns FAILED. what: text after "the fastest one of a body", such as "whose velocities change sign in every step";
+/* Returns FAILED, with the message that the run is unstable, step and time of `clock`, and the position of the fastest
+ * particle of p. what: text after "the fastest one of a body", such as "whose velocities change sign in every step";
  * remedy: advice at the end of the message. */
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {

@@ -126,8 +126,8 @@ static void push_bonds(struct run *e, struct step *now)
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);
 }
 
-/* Computes the contact forces on particles. Records them for output, too, if a frame (a file with the fields of all
- * particles) is written at the end of this step. */
+/* Computes the contact forces of c on particles. Records these forces for output, too, if a frame (a file with the
+ * fields of all particles) is due at the end of this step. report, clock: for this decision. */
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {
@@ -149,7 +149,7 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
 }
 
 /* Moves the grids and their material points. Numbers in the code are the steps of the algorithm listed at the function
- * `step`. Returns FAILED, with a message, if a grid would need too many nodes. */
+ * `step`. Returns FAILED, with a message, if a grid would need too many nodes. now: quantities of this step. */
 static status move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -166,7 +166,7 @@ static status move_grid(struct run *e, const struct step *now)
 }
 
 /* Computes the forces on nodes of bodies in the reference frame and moves these nodes. Does nothing without such
- * bodies. */
+ * bodies. now: quantities of this step. */
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;
@@ -177,7 +177,7 @@ static void move_frame(struct run *e, const struct step *now)
 }
 
 /* Adds the reactions at nodes with prescribed velocity to their supports. Then sets velocities and positions of
- * particles with prescribed motion to their values at the end of the step. */
+ * particles with prescribed motion to their values at the end of the step. now: quantities of this step. */
 static void step_hold(struct run *e, const struct step *now)
 {
     for (int k = 0; k < e->grid->fields; k++)
@@ -188,7 +188,7 @@ static void step_hold(struct run *e, const struct step *now)
 }
 
 /* Completes the sample of the start of the step, applies bulk damping and adds its energy loss to e->damped, and
- * advances time and step number. */
+ * advances time and step number. now: quantities of this step. */
 static void finish(struct run *e, const struct step *now)
 {
     const bool damps = now->decay > 0;

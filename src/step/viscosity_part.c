@@ -48,7 +48,8 @@ static real taken_by(const void *work, int64_t i) { return ((const real *)work)[
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
 /* Adds the viscous force of `bond` to f[dim], the force on its particle i [N]. It acts in compression only. A bond
- * between two materials has the mean of their coefficients. stiffness: member of struct bonds. */
+ * between two materials has the mean of their coefficients. material: all materials; stiffness: member of struct
+ * bonds. */
 static void bond_push(const struct material *material, const struct particles *p, int64_t i, const struct bond *bond,
                       real stiffness, real *f)
 {
@@ -108,8 +109,8 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
     v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
 
-/* Returns half of the time step [s], the weight of the forces at both ends of a step in the work over this step
- * (trapezoidal rule); 0 in the first step, which has no previous forces. */
+/* Returns half of the time step of `clock` [s], the weight of the forces at both ends of a step in the work over this
+ * step (trapezoidal rule); 0 in the first step, which has no previous forces. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
 void viscosity_add_bond_forces_and_pressure(struct run *e)
@@ -161,8 +162,8 @@ static real invert_gradient(const real *F, int dim, real *inverse)
 
 /* Replaces the displacement gradient H[dim dim][i] of point i of a mesh by volume0 J q F^-T [N m], with the viscous
  * pressure q and the determinant J of F = 1 + H. Multiplied by the gradients of the shape functions, this tensor gives
- * the viscous forces on nodes. partial: shares of the stress of points that bonds carry; G: velocity gradients, [dim
- * dim][points] [1/s]. */
+ * the viscous forces on nodes. v: materials and cell edge; partial: shares of the stress of points that bonds carry; G:
+ * velocity gradients, [dim dim][points] [1/s]. */
 static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                            int64_t i, real *const *H, real *const *G)
 {

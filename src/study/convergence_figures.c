@@ -142,7 +142,7 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     return false;
 }
 
-/* Returns by the name of a number in summary.json in which part of the output it is listed: 0 for numbers of cracks, 1
+/* Returns in which part of the output the number of summary.json called `name` is listed: 0 for numbers of cracks, 1
  * for others such as those of probes, 2 for energies. */
 static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
 
@@ -197,7 +197,7 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
 
 /* ---- converge.csv ------------------------------------------------------------------------------------------------ */
 
-/* Writes a comma and a number as the next cell of a CSV table to the stream `to`; the cell is empty if the number is
+/* Writes a comma and the number `value` as the next cell of a CSV table to the stream `to`; the cell is empty if it is
  * not finite. */
 static void print_cell(FILE *to, double value)
 {

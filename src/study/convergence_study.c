@@ -157,10 +157,10 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* Makes the first run of the study, at the coarsest spacing level, and stores its duration in s->spent. The durations
- * of the other runs are predicted from it. Sets *refused to true if the scene is invalid at this spacing, for example
- * because the integration rings of probes become too narrow. Returns REFUSED if the run exceeds the budget, FAILED if
- * it fails. */
+/* Makes the first run of the study s that the request w demands, at the coarsest spacing level, and stores its duration
+ * in s->spent. The durations of the other runs are predicted from it. Sets *refused to true if the scene is invalid at
+ * this spacing, for example because the integration rings of probes become too narrow. Returns REFUSED if the run
+ * exceeds the budget, FAILED if it fails. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -185,8 +185,8 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
-/* Prints a warning for each requested figure (a number in summary.json) that the first run lacks, because its name may
- * be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
+/* Prints a warning for each figure that w requests (a number in summary.json) and the first run lacks, because its name
+ * may be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
     const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);
@@ -199,9 +199,9 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
                 w->wanted[k], printable_name(folder.text).text);
 }
 
-/* Makes the first run of a study at the coarsest spacing level (first_run). If the scene is invalid at that spacing,
- * refines all levels and tries again, at most FINER_MOST times. Stores the largest spacing that was invalid in
- * s->refused, INFINITY if none was. Returns the status of the last try. */
+/* Makes the first run of the study s, which the request w demands, at the coarsest spacing level (first_run). If the
+ * scene is invalid at that spacing, refines all levels and tries again, at most FINER_MOST times. Stores the largest
+ * spacing that was invalid in s->refused, INFINITY if none was. Returns the status of the last try. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;
