@@ -10,18 +10,20 @@
 
 #include "flows.h"
 
-/* Number of passes of a load step, without and with recall of the back stress. Each pass linearises the flow law at the
- * plastic strain of the pass before. The flow law is concave, so that the plastic strains of the passes increase to the
- * solution, quadratically; one pass is enough for linear hardening. The recall of the back stress follows from the
- * plastic strain of the last pass; its error shrinks by about C/3G a pass (C: kinematic modulus, G: shear modulus). */
+/* Number of iterations ("passes") of the return mapping in a load step, without and with recall of the back stress.
+ * Each pass linearises the flow law at the plastic strain of the pass before. The flow law is concave, so that the
+ * plastic strains of the passes increase to the solution, quadratically; one pass is enough for linear hardening. The
+ * recall of the back stress follows from the plastic strain of the last pass; its error falls to about C/3G of it in
+ * each pass (C: kinematic modulus, G: shear modulus). */
 enum { PASSES = 10, PASSES_RECALL = 48 };
-/* Number of Newton steps for t in plane stress, from t = 0, for the equation 1 - slope t - bound/q(t) = 0. Its left
- * side is decreasing and convex (1/q is a power mean of two linear functions, which is concave), so that the steps
- * increase to the root. For trial stresses from 1e-4 to 1e5 yield stresses beyond the yield surface two to four steps
- * reach round-off, up to eight at a Poisson's ratio of -0.9. In other spaces one step is exact. */
+/* Number of Newton steps for t (increment of plastic strain, divided by the equivalent stress q) in plane stress, from
+ * t = 0, for the equation 1 - slope t - bound/q(t) = 0. Its left side is decreasing and convex (1/q is a power mean of
+ * two linear functions, which is concave), so that the steps increase to the root. For trial stresses from 1e-4 to 1e5
+ * yield stresses beyond the yield surface two to four steps reach round-off, up to eight at a Poisson's ratio of -0.9.
+ * In other spaces one step is exact. */
 enum { STEPS_PLANE_STRESS = 8 };
-/* Least yield stress over Young's modulus [1]: keeps quotients by the yield stress finite at molten points, whose
- * strength is 0. */
+/* Least ratio of the yield stress to Young's modulus [1]. Keeps quotients by the yield stress finite at molten points,
+ * whose strength is 0. */
 #define LEAST_YIELD 1e-10
 
 /* Returns the number of components of the relative stress (stress less back stress) that relative_stress computes in
@@ -163,9 +165,9 @@ struct flow_recall {
     lanes left, added;
 };
 
-/* Returns for eight points how the back stress changes over an increment `more` of plastic strain [1] by the
- * Armstrong-Frederick law: left = exp(-x), the factor on the previous back stress, and added = (1 - exp(-x))/x, the
- * factor on the new part, with x = recall more. Below x = 1e-4 `added` is computed by its series. recall: constant
+/* Returns for eight points the factors of the change of the back stress over an increment `more` of plastic strain [1]
+ * by the Armstrong-Frederick law: left = exp(-x), the factor on the previous back stress, and added = (1 - exp(-x))/x,
+ * the factor on the new part, with x = recall more. Below x = 1e-4 `added` is computed by its series. recall: constant
  * gamma of the law, > 0 [1]. */
 static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
 {

@@ -88,7 +88,7 @@ struct strain_sum {
     bool finite;
 };
 
-/* Returns the sum of the eight entries of a vector. */
+/* Returns the sum of the eight entries of the vector a. */
 static ALWAYS_INLINE real lanes_sum(lanes a)
 {
     real all = 0;

@@ -19,8 +19,8 @@ static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
-/* Defines cells_flow_1, _2 and _3, which call cells_return_mapping for dimension D. They are not inlined, because
- * return mapping point by point (mesh_flow.h) would use registers that the code for elastic cells needs. */
+/* Defines cells_flow_1, _2 and _3, which call cells_return_mapping for dimension D. The functions are not inlined,
+ * because return mapping point by point (mesh_flow.h) would use registers that the code for elastic cells needs. */
 #define FLOW(D)                                                                                                        \
     static NEVER_INLINE void cells_flow_##D(const struct mesh *mesh, const struct particles *p,                        \
                                             const struct elastic *m, const int32_t *cell, struct mesh_cell *s)         \

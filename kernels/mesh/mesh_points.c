@@ -391,7 +391,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     }
 DIMENSIONS(TENSION)
 
-/* Returns places_tension of eight cells [Pa], by a function for one `dim` that is not inlined. */
+/* Returns places_tension(m, s, there, dim) of eight cells [Pa], by a function for one `dim` that is not inlined. */
 static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                          const int dim)
 {
@@ -438,7 +438,7 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
 }
 
 /* Sets mark[cell] = 1 for the cells of `run` (a row of consecutive cells) in which the principal stress of a point may
- * exceed `share` times [1] the conversion stress. mark: [grid.n]. */
+ * exceed the conversion stress times `share` [1]. mark: [grid.n]; m: elastic constants [material]. */
 static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                          real share, uint8_t *mark, const int dim, const bool finite)
 {

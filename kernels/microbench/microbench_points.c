@@ -122,8 +122,8 @@ static void cell_gather(struct microbench_points *p, int cx, int cy)
     }
 }
 
-/* Defines map_NAME, which calls cell_NAME for all cells, first in even, then in odd rows of cells, since rows of one
- * parity share no node. */
+/* Defines map_NAME, which calls cell_NAME (one map between points and nodes) for all cells, first in even, then in odd
+ * rows of cells, since rows of one parity share no node. */
 #define MAP(NAME)                                                                                                      \
     static void map_##NAME(struct microbench_points *p)                                                                \
     {                                                                                                                  \

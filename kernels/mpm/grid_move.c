@@ -119,8 +119,8 @@ static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, rea
 
 enum { HELD = 128 }; /* in g->held: a node that prescribed motion holds */
 
-/* Returns the mass that node I has in the whole body, of which the grid has the part between planes of symmetry [kg].
- * g->held must contain the planes on which the node lies: bit d for a plane with normal d. */
+/* Returns the mass [kg] that node I has in the whole body; the grid has only the part of the body on one side of its
+ * planes of symmetry. g->held must contain the planes on which the node lies: bit d for a plane with normal d. */
 static real whole_mass(const struct grid *g, int64_t I)
 {
     return g->mass[I] * (real)(1 << __builtin_popcount(g->held[I] & (HELD - 1)));

@@ -30,7 +30,7 @@ static ALWAYS_INLINE uint8_t run_on_grid(const struct particles *p, const struct
     return bits;
 }
 
-/* Returns the sum of the eight entries of a. */
+/* Returns the sum of the eight entries of the vector a, in a fixed order. */
 static ALWAYS_INLINE real run_total(lanes a)
 {
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
@@ -156,9 +156,9 @@ static int32_t group_root(const struct rotation_groups *t, int32_t g)
  * corner. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
-/* Joins each group of fewer than TURNING_FEW points to the neighbouring group with the most points, so that both rotate
- * together. Among neighbours with equally many points, those across a face precede those across an edge or a corner;
- * among these, the one nearest to the middle of the body is chosen. */
+/* Joins each group of t (points that rotate together) of fewer than TURNING_FEW points to the neighbouring group with
+ * the most points, so that both rotate together. Among neighbours with equally many points, those across a face precede
+ * those across an edge or a corner; among these, the one nearest to the middle of the body is chosen. */
 static void few_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
@@ -272,8 +272,9 @@ static void centres_find(struct rotation_groups *t)
         for (int d = 0; d < DIM_MAX && t->group[g].joined > 0; d++) t->group[g].moment[d] /= t->group[g].joined;
 }
 
-/* Converts the angular momentum g->sum and the second moments of each group of points from the position g->about to the
- * centre of mass of its root, the group that it has joined. Computes the inertia g->inertia about this centre. */
+/* Converts the angular momentum g->sum and the second moments of each group of t (points that rotate together) from the
+ * position g->about to the centre of mass of its root, the group that it has joined. Also computes the inertia
+ * g->inertia about this centre. */
 static void moments_shift(struct rotation_groups *t)
 {
     for (int32_t k = 0; k < t->groups; k++) {
@@ -312,8 +313,8 @@ static void inertias_find(struct rotation_groups *t, real spacing, int dim)
     }
 }
 
-/* EACH_GROUP(SUM, t, p) calls SUM(t, group, p, dim) for each group of t, in parallel, with the number of dimensions as
- * a constant. */
+/* EACH_GROUP(SUM, t, p) calls the function SUM(t, group, p, dim) for each group of t (points that rotate together), in
+ * parallel, with the number of dimensions as a constant. */
 #define EACH_GROUP_OF(SUM, t, p, dim)                                                                                  \
     TEAM_LOOP((t)->groups > 16, for (int32_t g = 0; g < (t)->groups; g++) SUM(t, &(t)->group[g], p, dim);)
 #define EACH_GROUP(SUM, t, p)                                                                                          \

@@ -220,9 +220,9 @@ static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, 
     return c->stretch > c->range.onset;
 }
 
-/* Starts the softening of the bond with index q of row `row`, described by candidate *c. The bond loses some energy at
- * once, which the closed form of its dissipation does not include. Half of it is added to the fracture energy of the
- * row, except in load steps and state-based models. dt: time step [s]. */
+/* Starts the softening of the bond with index q of row `row` (bonds of one particle), described by candidate *c. It
+ * loses some energy at once, which the closed form of its dissipation does not include. Half of it is added to the
+ * fracture energy of the row, except in load steps and state-based models. dt: time step [s]. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {

@@ -58,9 +58,9 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Corrects p->f for a bond of particle i that breaks in this step. Subtracts the whole force that the force kernel has
- * added for this bond, and adds `share` times the force that follows from the states of both families before bonds
- * broke. share: fraction of the force that acts in this step [1]. */
+/* Corrects the force p->f on particle i for a bond of particle i that breaks in this step. Subtracts the whole force
+ * that the force kernel has added for this bond, and adds `share` times the force that follows from the states of both
+ * families before bonds broke. share: fraction of the force that acts in this step [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -261,8 +261,8 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
     return largest;
 }
 
-/* Returns the mask of those rows of row block g (bonds of eight particles) that have a bond with a stretch above
- * `least` [1], up to round-off. least: a value for each row. */
+/* Returns the mask of those rows of row block g (bonds of eight particles) that have a bond with a stretch above the
+ * row's entry of `least` [1], up to round-off. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {

@@ -152,7 +152,8 @@ real bond_row_plastic_path(const struct bonds *b, int64_t row)
     return all > 0 ? sum / all : 0;
 }
 
-/* Returns the plastic work of the bonds of a row [J], as a term for reproducible_sum. context: the bonds. */
+/* Returns the plastic work of the bonds of row `row` [J] (of one particle), as a term for reproducible_sum. context:
+ * the bonds. */
 static real bond_measure_plastic_term(const void *context, int64_t row) { return bond_row_plastic_work(context, row); }
 
 real bond_plastic_work(const struct bonds *b)
@@ -160,8 +161,8 @@ real bond_plastic_work(const struct bonds *b)
     return b->plastic_path ? reproducible_sum(b->rows, bond_measure_plastic_term, b) : 0;
 }
 
-/* Row blocks are summed in blocks of ROW_BLOCK_PER_BLOCK, and these sums in order, so that results have equal bits on
- * any number of threads. */
+/* Sums of energies: row blocks (bonds of eight particles) are summed in blocks of ROW_BLOCK_PER_BLOCK, BLOCKS_AT_ONCE
+ * of these in parallel, and their sums in order, so that results have equal bits on any number of threads. */
 enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
 
 #define INSTANCE(D, M)                                                                                                 \

@@ -20,7 +20,7 @@
 
 enum { MANY = 4096 }; /* number of bonds above which a thread team is faster than one thread; empirical */
 
-/* Eight bonds to mirror images in clamped planes: vector y from particle to image [m], weight w [1], inverse_length
+/* Eight bonds to mirror images beyond clamped planes: vector y from particle to image [m], weight w [1], inverse_length
  * 1/|xi|, inverse 1/|y| [1/m], and stretch [1]. */
 struct across {
     lanes y[DIM_MAX], w, inverse_length, inverse, stretch;
@@ -108,7 +108,7 @@ static void clamp_force_give(const struct clamped *c, struct particles *p, int64
 }
 
 /* Copies the weights of the bonds to mirror images in clamped planes from the bond arrays to the list b->clamped, after
- * some have changed. */
+ * some weights have changed. */
 static void weights_follow(struct bonds *b)
 {
     struct clamped *c = &b->clamped;

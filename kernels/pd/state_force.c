@@ -17,8 +17,8 @@
 /* ---- first sweep: states of families ----------------------------------------------------------------------------- */
 
 /* Sums over the families of the eight particles of a row block: extension, sum w r e; moment, sum w Y (x) xi; largest
- * (stretch) and smallest (press) stretch of the bonds [1]; moved, nonzero where a bond vector differs from its
- * reference, so that an undeformed family has exactly no rotation. */
+ * (stretch) and smallest (press) stretch of the bonds [1]; moved: nonzero in a lane where a bond vector differs from
+ * its reference, so that an undeformed family has exactly no rotation. */
 struct family_sums {
     lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX];
     lanes_mask moved;
@@ -59,8 +59,8 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     rotation_encode(rotation, R, spring, dim);
 }
 
-/* Moduli and weighted volumes Q = sum w |xi|^2 of the families (all bonds) of eight particles; inverse and share are 0
- * for families without bonds. */
+/* Moduli and weighted volumes Q = sum w |xi|^2 of the families (all bonds) of eight particles. Members inverse and
+ * share are 0 for families without bonds. */
 struct own_family {
     lanes A, B;    /* moduli [Pa] */
     lanes inverse; /* 1/Q [1/m^2] */
@@ -84,7 +84,8 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     return f;
 }
 
-/* Pressure P, spring stiffness g and stored rotation (rotation.h) of the families of eight particles. */
+/* States of the families (all bonds of one particle) of eight particles: pressure P, spring stiffness g and stored
+ * rotation (rotation.h) of each. */
 struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
@@ -133,8 +134,8 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
 
 /* Stores in particles.end_moment the moments that bonds exert on eight material points [N m], for the points in the
  * mask `end`; 0 for the others. The moment is the axial vector of g R^T M, with M = sum w Y (x) xi over the bonds of
- * the point and the rotation R of its cell: component k is entry ji less entry ij. row: numbers of the points, of which
- * the first `rows` exist; own: number of the first point if they are consecutive, else -1; sum: sums over the bonds;
+ * the point and the rotation R of its cell: component k is entry ji less entry ij. row: indices of the points, of which
+ * the first `rows` exist; own: index of the first point if they are consecutive, else -1; sum: sums over the bonds;
  * spring: spring stiffness g [N/m]. */
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)

@@ -116,7 +116,8 @@ static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particl
             p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];
 }
 
-/* Arguments of the functions that compute the energy of one row block for reproducible_sum. */
+/* Arguments of the functions that compute the energy of one row block (bonds of eight particles) for
+ * reproducible_sum. */
 struct row_block_sum {
     const struct bonds *b;
     const struct particles *p;

@@ -20,7 +20,7 @@ static status position_dependent_on_grid(const struct boundary *b, const struct 
 #define DISPLACEMENT_TOLERANCE 1e-9 /* tolerance of displacements at the start [spacings] */
 
 /* Returns REFUSED, with a message, if a particle with prescribed displacement does not start at its reference position.
- * l: the load of boundary b; spacing: lattice spacing [m]. */
+ * l: the load of the boundary condition b; spacing: lattice spacing [m]. */
 static status starts_at_reference(const struct boundary *b, const struct particles *p, const struct load *l,
                                   real spacing)
 {

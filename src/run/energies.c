@@ -35,7 +35,7 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
  * SUM_SIZES: also the sum of |m v|, which takes square roots. */
 enum motion_sums { SUM_ENERGY, SUM_MOMENTUM, SUM_SIZES };
 
-/* Sums over particles or nodes: kinetic energy [J], momentum by component, and sum of |m v| [kg m/s]. */
+/* Sums over particles or nodes: kinetic energy [J], momentum of each axis, and sum of |m v| [kg m/s]. */
 struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };

@@ -90,7 +90,7 @@ static char *csv_behind_quotes(char *field)
 }
 
 /* Cuts the next field off a line whose fields are separated by any number of blanks. field: the text that has not been
- * read yet. *rest: receives the text behind the field, or NULL if the line ends there. Returns the field without blanks
+ * read yet. *rest: receives the text after the field, or NULL if the line ends there. Returns the field without blanks
  * and quotes, terminated in place. */
 static char *csv_word(char *field, char **rest)
 {

@@ -289,7 +289,7 @@ static status check_values(const struct particles *p, const struct particle_draf
 
 /* Returns REFUSED if the initial state (`initial` of the scene) moves a particle farther than FILL_FARTHEST spacings
  * from the origin, makes its volume 0 or negative, or gives it a velocity or stress that is not finite. d: list from
- * which p was created, for the name of the body in the message; spacing: of the particles [m]. */
+ * which p was created, for the name of the body in the message; spacing: distance of particles [m]. */
 static status check_start(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -309,7 +309,7 @@ static status check_start(const struct particles *p, const struct particle_draft
 
 /* Returns REFUSED if two particles are closer than too_close spacings. The message names the pair with the smallest
  * index of its first particle, so that it does not depend on the number of threads. d: list from which p was created,
- * for the name of the body in the message; spacing: of the particles [m]. */
+ * for the name of the body in the message; spacing: distance of particles [m]. */
 static status check_distances(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     struct cells cells;
@@ -378,8 +378,8 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
 }
 
 /* Sets position, stress and volume of particle i for the uniform displacement gradient H of the initial state s (small
- * strain): x = X + H arm, stress = C : sym H, volume = volume0 (1 + tr H). m: material, for the stiffness C. arm[dim]:
- * X minus the centre of s [m]. */
+ * strain): x = X + H arm, stress = C : sym H, volume = volume0 (1 + tr H). m: material of the particle, for the
+ * stiffness C; arm[dim]: its reference position X minus the centre of s [m]. */
 static void fill_start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
                               const real *arm)
 {
@@ -469,8 +469,8 @@ static void start_at_rest(struct particles *p, int64_t i)
 }
 
 /* Creates the particles p from d, the list of particles to be created, applies the initial states, checks values and
- * distances, and sorts the particles. optional: optional arrays to create (WITH_*). Returns REFUSED for invalid values,
- * lists or positions. */
+ * distances, and sorts the particles. optional: optional arrays to create (WITH_*). Returns REFUSED, with a message,
+ * for invalid values, lists or positions. */
 static status fill_made(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;

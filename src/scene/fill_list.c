@@ -70,7 +70,8 @@ static status entry_material(const struct scene *s, const struct particle_list *
 }
 
 /* Adds entry i of the particle list l to d, the list of particles to be created. body: index of its body in the scene;
- * volume: volume of the particle if l has no volumes [m^3]. Returns REFUSED for an unknown material. */
+ * volume: volume of the particle if l has no volumes [m^3]. Returns REFUSED, with a message, for an unknown
+ * material. */
 static status take_entry(struct particle_draft *d, int body, const struct particle_list *l, int64_t i, real volume)
 {
     const struct scene *s = d->scene;
@@ -90,8 +91,8 @@ static status take_entry(struct particle_draft *d, int body, const struct partic
 }
 
 /* Adds the entries of the particle list l that belong to the body with the index `body` to d, the list of particles to
- * be created. These are the entries that name the body, or all if l has no column of bodies. Returns REFUSED if an
- * entry names a body with another file, or if neither l gives volumes nor the scene a spacing. */
+ * be created. These are the entries that name the body, or all if l has no column of bodies. Returns REFUSED, with a
+ * message, if an entry names a body with another file, or if neither l gives volumes nor the scene a spacing. */
 static status take_list(struct particle_draft *d, int body, const struct particle_list *l)
 {
     const struct scene *s = d->scene;

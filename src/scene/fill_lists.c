@@ -16,10 +16,11 @@ enum { FEW = 7 };
 /* Number of particles sampled per body. Each is compared with all particles of the body. Shares that are estimated
  * from the sample are accurate to 4 %, whatever the shape of the body. */
 enum { LOOKED_AT = 128 };
-/* Largest share of the sample that may have no neighbour [1]; a list with more is refused. In a wrong unit nearly all
- * particles have none. Correct lists have fewer: grains of several particles have neighbours of their own grain, chips
- * of one particle are fewer than the particles of the fragments they broke off, and particles placed at random at the
- * density of the spacing leave 2 % without a neighbour on a line, and one in 1e5 in 2D and 3D. */
+/* Largest share of the sampled particles of a list that may have no neighbour [1]; a list with a larger share is
+ * refused. In a wrong unit nearly all particles have none. Correct lists have fewer such particles: grains of several
+ * particles have neighbours of their own grain, chips of one particle are fewer than the particles of the fragments
+ * they broke off, and particles placed at random at the density of the spacing leave 2 % without a neighbour on a line,
+ * and one in 1e5 in 2D and 3D. */
 #define LONE_MOST 0.5
 /* Least median distance of nearest neighbours in a particle list [spacings]; a list with a smaller distance is refused.
  * Units differ by factors of 10 and more, the finest and the coarsest parts of a graded body rarely by more than 4. */

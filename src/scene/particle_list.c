@@ -44,8 +44,8 @@ static bool table_shape(hid_t set, struct table *t)
     return good;
 }
 
-/* Largest number of rows per byte of an HDF5 file [1]: gzip does not compress equal numbers further. It bounds the
- * memory that a small file can claim. */
+/* Largest number of rows per byte of an HDF5 file [1]: gzip does not compress equal numbers further. The limit bounds
+ * the memory that a small file can claim. */
 enum { ROWS_PER_BYTE_MOST = 1024 };
 
 /* Checks that the dataset `name` of the file `path` claims no more rows, t->rows, than a file of its size can contain

@@ -108,8 +108,8 @@ static void header_separate(struct csv *c)
     *to = '\0';
 }
 
-/* Reads the column names from the current line of c, and notes in l->head which columns the list has. Returns REFUSED
- * if a coordinate is missing, if a column is named twice or if both mass and density are given. */
+/* Reads the column names from the current line of c, and notes in l->head which columns the list has. Returns REFUSED,
+ * with a message, if a coordinate is missing, if a column is named twice or if both mass and density are given. */
 static status header_read(struct csv *c, struct particle_list *l)
 {
     bool has[COLUMNS] = {false};
@@ -219,8 +219,8 @@ static bool line_of_mesh(const char *text)
 }
 
 /* Reads the column names from the text `names`, which is line number `line` of the file. The current line of c is the
- * first entry of the list; it remains the current line, so that it can be read next. Returns REFUSED for invalid
- * names. */
+ * first entry of the list; it remains the current line, so that it can be read next. Returns REFUSED, with a message,
+ * for invalid names. */
 static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
 {
     char entry[CSV_LINE_LENGTH];
@@ -334,7 +334,8 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
 }
 
 /* Reads the text `field`, field number k of the current line of c, converts its value to SI units and stores it as
- * entry l->n of the list column to which this field belongs. Returns REFUSED if the text is no valid value. */
+ * entry l->n of the list column to which this field belongs. Returns REFUSED, with a message, if the text is no valid
+ * value. */
 static status csv_value(struct csv *c, struct particle_list *l, int k, const char *field)
 {
     const int column = c->column[k];
@@ -362,8 +363,8 @@ static status csv_value(struct csv *c, struct particle_list *l, int k, const cha
     return OK;
 }
 
-/* Appends one particle to the list l from the current line of c. Returns REFUSED for too few or too many values, or an
- * invalid one. */
+/* Appends one particle to the list l from the current line of c. Returns REFUSED, with a message, for too few or too
+ * many values, or an invalid one. */
 static status csv_entry(struct csv *c, struct particle_list *l)
 {
     char *rest = c->in.text;

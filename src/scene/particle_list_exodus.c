@@ -28,8 +28,8 @@ static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_
     return !named && n == 2 ? 1 : -1;
 }
 
-/* Stores `value` as entry number `entry` of column `column` (COLUMN_*) of the list x->l. Returns REFUSED for a value
- * that is invalid in this column. */
+/* Stores `value` as entry number `entry` of column `column` (COLUMN_*) of the list x->l. Returns REFUSED, with a
+ * message, for a value that is invalid in this column. */
 static status value_take(struct exodus_list *x, int column, int64_t entry, real value)
 {
     const char *fault = particle_list_reason_value_is_invalid(column, value);
@@ -83,8 +83,8 @@ static status block_read(struct exodus_list *x, int64_t number)
     return s;
 }
 
-/* Reads the nodes and all blocks of the file into the list x->l. Returns REFUSED if the file has fewer coordinates than
- * the space, or for an invalid block. */
+/* Reads the nodes and all blocks of the file into the list x->l. Returns REFUSED, with a message, if the file has fewer
+ * coordinates than the space, or for an invalid block. */
 static status blocks_read(struct exodus_list *x)
 {
     bool has[COLUMNS] = {false};

@@ -197,9 +197,9 @@ void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml
         s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* Sets the default of contact.between: contact exists if the scene has several bodies, rigid bodies or cracks, but
- * not with static solvers or if bonds soften in load steps. root: tree of the scene. Returns REFUSED for contact
- * settings that contradict the solver or the model. */
+/* Sets the default of contact.between: contact exists if the scene has several bodies, rigid bodies or cracks, but not
+ * with static solvers or if bonds soften in load steps. root: tree of the scene. Returns REFUSED, with a message, for
+ * contact settings that contradict the solver or the model. */
 status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -409,8 +409,8 @@ static status check_times(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if the scene gives the key accuracy, which only `method: auto` uses (scene_wish.c). root: tree of the
- * scene. */
+/* Returns REFUSED, with a message, if the scene gives the key accuracy, which only `method: auto` uses (scene_wish.c).
+ * root: tree of the scene. */
 static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *n = yaml_node_find(root, "accuracy");

@@ -68,10 +68,10 @@ struct operand *compile_operand_from_top(struct compile *c, int entries_below_to
     return &c->operand[c->operands - 1 - entries_below_top];
 }
 
-/* Applies the operation `operation` to the topmost operand, or to two of them for a binary operation: replaces them by
- * the result and appends a step to the expression. result_unit: unit of the result, which the caller derives. If the
- * operands are constant, evaluates the operation now and appends its value as a number instead. Returns false, with a
- * message in c, if the value is not finite or the expression is too long. */
+/* Applies the operation `operation` to the topmost operand, or to two of them for a binary operation: replaces these
+ * operands by the result and appends a step to the expression. result_unit: unit of the result, which the caller
+ * derives. If the operands are constant, evaluates the operation now and appends its value as a number instead. Returns
+ * false, with a message in c, if the value is not finite or the expression is too long. */
 bool compile_append_operation(struct compile *c, enum expression_op operation, const struct quantity *result_unit)
 {
     const bool two = expression_op_is_binary(operation);

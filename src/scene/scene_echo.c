@@ -178,9 +178,9 @@ const void *key_value_address(const struct key *k, const void *group_values)
     return k->place ? (const char *)group_values + (k->place - 1) : NULL;
 }
 
-/* Returns true if key k of `bodies` has no meaning for the body `base`. For a rigid body these are material and
- * frame; with a mass (it moves freely) also ramp; without one (it is driven) mass and force, and ramp if it is 0.
- * For any other body they are mass, force, ramp and rigid. group: path of the key's group. */
+/* Returns true if key k of `bodies` has no meaning for the body `base`. For a rigid body such keys are material and
+ * frame; with a mass (it moves freely) also ramp; without one (it is driven) mass and force, and ramp if it is 0. For
+ * any other body such keys are mass, force, ramp and rigid. group: path of the key's group. */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
     static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};

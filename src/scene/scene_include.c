@@ -103,8 +103,8 @@ static char *path_from(struct reader *r, const struct yaml_node *n)
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain);
 
 /* Reads the scene in the file that node n names, and the scenes that it includes, into the tree *root. chain: files
- * that are being read, to find a file that includes itself. Returns REFUSED if the file cannot be read, is no scene or
- * includes itself. */
+ * that are being read, to find a file that includes itself. Returns REFUSED, with a message, if the file cannot be
+ * read, is no scene or includes itself. */
 static status include_file(struct reader *r, const struct yaml_node *n, const struct chain *chain,
                            struct yaml_node **root)
 {
@@ -139,9 +139,9 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
 }
 
-/* Reads the files in the list `include` of the scene in order, and merges each over the previous ones, then the
- * scene itself over all of them. root: tree of the scene, replaced by the merged tree; chain: files that are being
- * read. Returns REFUSED for an invalid list or file. */
+/* Reads the files in the list `include` of the scene in order, and merges each over the previous ones, then the scene
+ * itself over all of them. root: tree of the scene, replaced by the merged tree; chain: files that are being read.
+ * Returns REFUSED, with a message, for an invalid list or file. */
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain)
 {
     struct yaml_node *list = yaml_node_find(root, "include"), *file;

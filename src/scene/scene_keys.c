@@ -38,8 +38,8 @@
         __VA_ARGS__                                                                                                    \
     }
 
-/* Table of all keys: path, type, unit, position of the value in the structure of its group, range, default, help; then
- * fields that only some keys have. */
+/* Table of all keys of scenes: path, type, unit, position of the value in the structure of its group, range, default,
+ * help; then fields that only some keys have. */
 const struct key keys[] = {
     KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)", "names the run and its results folder"),
     KEY("include", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(1, 64), NONE,

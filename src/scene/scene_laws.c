@@ -39,8 +39,8 @@ static status check_curve(struct reader *r, const struct yaml_node *n, const str
     return OK;
 }
 
-/* Reads the list n of pairs of plastic strain [1] and stress [Pa] into the hardening curve c. Returns REFUSED for
- * invalid points, or if the return mapping cannot solve its equation with this curve (check_curve). */
+/* Reads the list n of pairs of plastic strain [1] and stress [Pa] into the hardening curve c. Returns REFUSED, with a
+ * message, for invalid points, or if the return mapping cannot solve its equation with this curve (check_curve). */
 static status read_curve(struct reader *r, const struct yaml_node *n, struct flow_curve *c)
 {
     const struct key strain = {
@@ -73,7 +73,7 @@ static status fault_no_law(struct reader *r, const struct yaml_node *n)
 }
 
 /* Reads the flow law in the mapping `hardening` into `law`. material: node of the material; n: node of `hardening`.
- * Returns REFUSED if there are no or several laws, or if yield_hardening is given too. */
+ * Returns REFUSED, with a message, if there are no or several laws, or if yield_hardening is given too. */
 static status read_hardening_law(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
                                  struct law *law)
 {
@@ -111,8 +111,8 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
 }
 
 /* Completes the heating of a material by plastic work in `law`: sets the fraction of the work that becomes heat to 0.9
- * unless it is given. material: node of the material. Returns REFUSED if this fraction is given without specific heat,
- * or specific heat without a flow law that depends on temperature. */
+ * unless it is given. material: node of the material. Returns REFUSED, with a message, if this fraction is given
+ * without specific heat, or specific heat without a flow law that depends on temperature. */
 static status read_heat(struct reader *r, const struct yaml_node *material, struct law *law)
 {
     const struct yaml_node *heat = yaml_node_find(material, "specific_heat"),
@@ -126,8 +126,9 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
     return OK;
 }
 
-/* Returns REFUSED if the material m has a yield stress or yield tangent although its flow law replaces them, or if
- * its law needs a yield stress and none is given. material: node of the material; law_node: node of the law. */
+/* Returns REFUSED, with a message, if the material m has a yield stress or yield tangent although its flow law replaces
+ * them, or if its law needs a yield stress and none is given. material: node of the material; law_node: node of the
+ * law. */
 static status check_first_yield(struct reader *r, const struct yaml_node *material, const struct yaml_node *law_node,
                                 const struct material *m)
 {

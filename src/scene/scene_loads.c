@@ -162,8 +162,8 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
     return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; give an axis such as [0, 0, 1]");
 }
 
-/* Reads the prescribed rotation of boundary b from the mapping n: rate, centre and axis. Returns REFUSED for invalid
- * values. */
+/* Reads the prescribed rotation of the boundary condition b from the mapping n: rate, centre and axis. Returns REFUSED,
+ * with a message, for invalid values. */
 static status read_rotation(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_keys_of_group(r, n, n, "boundary.rotation", b));
@@ -174,8 +174,8 @@ static status read_rotation(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Reads a plane of symmetry into boundary b. map: node of the boundary; n: node of its `mirror`. Returns REFUSED for an
- * invalid axis, and if region, body or time are given, which have no meaning here. */
+/* Reads a plane of symmetry into the boundary condition b. map: node of the condition; n: node of its `mirror`. Returns
+ * REFUSED, with a message, for an invalid axis, and if region, body or time are given, which have no meaning here. */
 static status read_mirror(struct reader *r, const struct yaml_node *map, const struct yaml_node *n, struct boundary *b)
 {
     const char *const senseless[] = {"region", "body", "time"};
@@ -189,8 +189,8 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
     return read_axis(r, at, at->text, &axis);
 }
 
-/* Checks the entry `absorbing` of a boundary condition. map: node of the boundary; n: node of the entry. Returns
- * REFUSED if a time is given, and for another value than true. */
+/* Checks the entry `absorbing` of a boundary condition. map: node of the condition; n: node of the entry. Returns
+ * REFUSED, with a message, if a time is given, and for another value than true. */
 static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
     const struct yaml_node *time = yaml_node_find(map, "time");
@@ -234,8 +234,8 @@ static status read_layer(struct reader *r, const struct yaml_node *map, struct b
     return read_face(r, map, b);
 }
 
-/* Finds *kind, the entry of a boundary condition that determines its kind, such as velocity or pressure. map: node
- * of the boundary. Returns REFUSED if there is none or more than one. */
+/* Finds *kind, the entry of a boundary condition that determines its kind, such as velocity or pressure. map: node of
+ * the condition. Returns REFUSED, with a message, if there is no such entry or more than one. */
 static status kind_of_boundary(struct reader *r, const struct yaml_node *map, const struct yaml_node **kind)
 {
     const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
@@ -282,8 +282,9 @@ static status check_time_unit(struct reader *r, const struct yaml_node *kind, co
                  node_text(r, kind));
 }
 
-/* Reads the value of boundary b by its kind. n: node of the boundary; kind: its entry that gives the kind, such as
- * velocity. Returns REFUSED for invalid values and for keys that have no meaning with this kind. */
+/* Reads the value of the boundary condition b by its kind. n: node of the condition; kind: its entry that gives the
+ * kind, such as velocity. Returns REFUSED, with a message, for invalid values and for keys that have no meaning with
+ * this kind. */
 static status read_kind(struct reader *r, const struct yaml_node *n, const struct yaml_node *kind, struct boundary *b)
 {
     const struct yaml_node *face = NULL, *depth = NULL, *profile = yaml_node_find(n, "profile");

@@ -9,7 +9,7 @@
 
 /* Reads the fracture strength of material m from one of the keys energy_release_rate, critical_stretch and toughness.
  * Toughness K gives the energy release rate K^2/E, or K^2 (1 - nu^2)/E in plane strain and 3D. n: node of the material.
- * Returns REFUSED if more than one of the keys is given. */
+ * Returns REFUSED, with a message, if more than one of the keys is given. */
 static status read_strength(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
@@ -43,9 +43,9 @@ static status check_poisson(struct reader *r, const struct yaml_node *n, const s
     return refuse_bond_based_poisson_ratio(r, poisson);
 }
 
-/* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from the key yield_tangent or
- * the hardening modulus H of the key yield_hardening: E_t = E H/(E + H). n: node of the material. Returns REFUSED if
- * both are given, or unless E_t < E. */
+/* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from the key yield_tangent or the
+ * hardening modulus H of the key yield_hardening: E_t = E H/(E + H). n: node of the material. Returns REFUSED, with a
+ * message, if both are given, or unless E_t < E. */
 static status read_hardening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct yaml_node *tangent = yaml_node_find(n, "yield_tangent"),
@@ -97,7 +97,7 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
 
 /* Reads the viscosity of material m. n: node of `viscosity`, or NULL if there is none. With viscosity all cells have
  * one time step, and regions at rest are computed as well, because viscous forces act between moving regions and
- * regions at rest. Returns REFUSED where viscosity has no effect. */
+ * regions at rest. Returns REFUSED, with a message, where viscosity has no effect. */
 static status read_viscosity(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct scene *s = r->scene;

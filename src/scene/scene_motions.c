@@ -13,8 +13,8 @@ bool node_is_motion_key_of_solid(const struct yaml_node *n)
     return is;
 }
 
-/* Reads the axis of a rotation into m, by default z. n: node of the rotation. Returns REFUSED for an axis without
- * length, for any axis in 2D, and in 1D. */
+/* Reads the axis of a rotation into m, by default z. n: node of the rotation. Returns REFUSED, with a message, for an
+ * axis without length, for any axis in 2D, and in 1D. */
 static status read_turning_axis(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
     const struct yaml_node *axis = yaml_node_find(n, "axis");

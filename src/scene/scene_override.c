@@ -187,8 +187,8 @@ static bool is_new_item(const struct yaml_node *list, const char *key, size_t le
     return next && (value->kind != NODE_SCALAR || (list->key && strcmp(list->key, "probes") == 0));
 }
 
-/* Replaces the value of node n (text, or entries) by that of the node `value`. The key of n and its position in the
- * tree do not change. */
+/* Replaces the value of node n (text, or entries) by the value of the node `value`. The key of n and its position in
+ * the tree do not change. */
 static void replace(struct yaml_node *n, const struct yaml_node *value)
 {
     struct yaml_node whole = *value;

@@ -37,7 +37,8 @@ static status read_list_columns(struct reader *r, const struct yaml_node *n, str
 }
 
 /* Reads the particle list of body b: path and hash of its file, unit and columns if the scene gives them, and the
- * column names in the file. n: node of `particles`, a file name or a mapping. Returns REFUSED for an invalid file. */
+ * column names in the file. n: node of `particles`, a file name or a mapping. Returns REFUSED, with a message, for an
+ * invalid file. */
 static status read_particle_list(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     const bool mapping = n->kind == NODE_MAP;
@@ -164,7 +165,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
 /* ---- initial states ---------------------------------------------------------------------------------------------- */
 
 /* Reads the polarisation of the pulse w, along its direction (default) or across it, and normalises it. n: node of
- * `polarisation`; NULL: not given. Returns REFUSED for any other vector. */
+ * `polarisation`; NULL: not given. Returns REFUSED, with a message, for any other vector. */
 static status read_polarisation(struct reader *r, const struct yaml_node *n, struct wave_pulse *w)
 {
     const int dim = r->dim;
@@ -231,9 +232,9 @@ static status read_initial_velocity(struct reader *r, const struct yaml_node *n,
                                    initial->formula);
 }
 
-/* Reads an initial state from node n into *initial. Returns REFUSED for invalid values, and for initial displacements
- * with relaxation on the grid: there the stress of points is accumulated from a start that counts as unloaded, so that
- * the equilibrium would depend on the initial state. */
+/* Reads an initial state from node n into *initial. Returns REFUSED, with a message, for invalid values, and for
+ * initial displacements with relaxation on the grid: there the stress of points is accumulated from a start that counts
+ * as unloaded, so that the equilibrium would depend on the initial state. */
 static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
@@ -266,7 +267,7 @@ status read_initial_states(struct reader *r, const struct yaml_node *root)
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
 /* Reads the growth rule of node n into g, and normalises its direction. number: index of the rule, for its default
- * name. Returns REFUSED for keys without meaning and for an unknown probe. */
+ * name. Returns REFUSED, with a message, for keys without meaning and for an unknown probe. */
 static status read_growth(struct reader *r, const struct yaml_node *n, struct growth_rule *g, int number)
 {
     real length;
@@ -315,7 +316,7 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
 }
 
 /* Reads the list `growth`, the rules of crack growth, after the probes that they can name. root: tree of the scene.
- * Returns REFUSED for invalid rules, outside plane spaces and with method mpm. */
+ * Returns REFUSED, with a message, for invalid rules, outside plane spaces and with method mpm. */
 status read_crack_growths(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -334,7 +335,8 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root)
 /* ---- frames of regions ------------------------------------------------------------------------------------------- */
 
 /* Reads entry number `number` of `output.regions` from node n into r->scene: a region for which frames are written at
- * intervals of their own. Returns REFUSED for a name whose files are used already, and for too many frames. */
+ * intervals of their own. Returns REFUSED, with a message, for a name whose files are used already, and for too many
+ * frames. */
 static status read_frame_region(struct reader *r, const struct yaml_node *n, int number)
 {
     struct scene *s = r->scene;

@@ -10,8 +10,9 @@
 const char *const probe_names[PROBES] = {"tip",    "break",    "reaction", "patch", "spall", "point",  "line",
                                          "energy", "momentum", "pulse",    "exact", "sif",   "growth", "rigid"};
 
-/* Finds *kind, the kind of a probe, and *map, the mapping of its keys, or NULL if it has none. n: node of the probe
- * in one of the forms `tip`, `tip:` or `tip: {at: [..]}`. Returns REFUSED for an unknown kind or several kinds. */
+/* Finds *kind, the kind of a probe, and *map, the mapping of its keys, or NULL if it has none. n: node of the probe in
+ * one of the forms `tip`, `tip:` or `tip: {at: [..]}`. Returns REFUSED, with a message, for an unknown kind or several
+ * kinds. */
 static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum probe_kind *kind,
                             const struct yaml_node **map)
 {
@@ -54,8 +55,8 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
 }
 
 /* Checks a probe p that compares with a closed-form solution; returns OK for other probes. n: node of the probe; map:
- * mapping of its keys, or NULL. Returns REFUSED outside space line, and if a number of the manufactured solution is
- * missing or is given with another solution. */
+ * mapping of its keys, or NULL. Returns REFUSED, with a message, outside space line, and if a number of the
+ * manufactured solution is missing or is given with another solution. */
 static status check_exact(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
                           const struct probe_request *p)
 {
@@ -81,8 +82,8 @@ static status check_rigid(struct reader *r, const struct yaml_node *n, const str
 }
 
 /* Checks a probe p of stress-intensity factors; returns OK for other probes. Sets its outer radius to its last contour
- * if none is given. n: node of the probe; map: mapping of its keys, or NULL. Returns REFUSED for invalid radii,
- * contours or direction, and outside plane spaces. */
+ * if none is given. n: node of the probe; map: mapping of its keys, or NULL. Returns REFUSED, with a message, for
+ * invalid radii, contours or direction, and outside plane spaces. */
 static status check_sif(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
                         struct probe_request *p)
 {

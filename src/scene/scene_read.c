@@ -81,9 +81,9 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
     return read_scene(&r, text, length, NULL);
 }
 
-/* Reads a scene from the file `path` into s. override[overrides]: values given on the command line. With `method:
- * auto` stores only the request for pilot runs, in *wish. Returns REFUSED for an invalid scene, and for `method:
- * auto` if wish is NULL. */
+/* Reads a scene from the file `path` into s. override[overrides]: values given on the command line. With `method: auto`
+ * stores only the request for pilot runs, in *wish. Returns REFUSED, with a message, for an invalid scene, and for
+ * `method: auto` if wish is NULL. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                               struct pilot_wish *wish)
 {

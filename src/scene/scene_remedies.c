@@ -7,7 +7,7 @@
 
 #include "scene_remedies.h"
 
-/* Features of a scene that not every method and model supports, as bits. */
+/* Features of a scene that not every method and model supports, as bits of a set. */
 enum {
     HAS_RIGID = 1,       /* rigid bodies */
     HAS_RATIO = 2,       /* a Poisson's ratio that bonds do not have */
@@ -18,8 +18,8 @@ enum {
     HAS_INTERFACES = 64, /* bodies that are joined */
 };
 
-/* Features (bits HAS_...) that a scene may have with a method and a model. With method mpm the model has no effect;
- * `bond` stands for all. */
+/* Features (bits HAS_...) that a scene may have with a method and a model. With method mpm the model has no effect; its
+ * row has `bond` for all models. */
 static const struct {
     enum method method;
     enum model model;

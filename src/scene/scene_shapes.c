@@ -39,8 +39,8 @@ static status shape_path_add(struct reader *r, const struct yaml_node *n, struct
 }
 
 /* Adds to f the files that match the pattern with stars in node n, sorted by name with numbers compared by value.
- * Searches the folder of the scene, then the current one. Returns REFUSED if there is no such file, or more than
- * SLICES_MOST. */
+ * Searches the folder of the scene, then the current one. Returns REFUSED, with a message, if there is no such file, or
+ * more than SLICES_MOST. */
 static status pattern_add(struct reader *r, const struct yaml_node *n, struct shape_file *f)
 {
     const char *slash = strrchr(r->name, '/');
@@ -123,9 +123,9 @@ static status read_spacing(struct reader *r, const struct yaml_node *n, real *sp
     return given && k ? read_number(r, k, given, spacing) : OK;
 }
 
-/* Reads the file f of a solid, unless the same file with the same settings has been read already. Takes ownership of
- * f, and frees it if it is not needed or cannot be read. n: node of the solid; *known: receives the file that has
- * been read, which the scene owns. Returns REFUSED if the file is invalid. */
+/* Reads the file f of a solid, unless the same file with the same settings has been read already. Takes ownership of f,
+ * and frees it if it is not needed or cannot be read. n: node of the solid; *known: receives the file that has been
+ * read, which the scene owns. Returns REFUSED, with a message, if the file is invalid. */
 static status shape_take(struct reader *r, const struct yaml_node *n, struct shape_file *f, struct shape_file **known)
 {
     struct shape_file **last = &r->scene->shapes;
@@ -180,7 +180,7 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
 
 /* Sets s->hull to the part of the mesh g of which the solid s consists: the whole mesh, a set of elements, or the
  * points within a distance s->radius [m] of a set of nodes or faces. n: node of the solid; words: its keys. Returns
- * REFUSED for an unknown set, and for a distance that is missing or has no meaning. */
+ * REFUSED, with a message, for an unknown set, and for a distance that is missing or has no meaning. */
 static status read_mesh_set(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                             const struct geometry *g, struct solid *s)
 {
@@ -240,7 +240,7 @@ status read_mesh_solid(struct reader *r, const struct yaml_node *solid_node, str
 /* ---- images ------------------------------------------------------------------------------------------------------ */
 
 /* Reads an image from its keys: files, size of the voxels and position. n: node of the image. *known: receives the
- * image, which the scene owns. Returns REFUSED for invalid keys or files, and in 1D. */
+ * image, which the scene owns. Returns REFUSED, with a message, for invalid keys or files, and in 1D. */
 static status read_voxels(struct reader *r, const struct yaml_node *n, struct shape_file **known)
 {
     const struct yaml_node *file = yaml_node_find(n, "file"), *slice = yaml_node_find(n, "slice");

@@ -34,8 +34,8 @@ static status check_steps_motion(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for boundaries that load steps do not support: loads that follow the surface, and velocities by
- * formula, whose displacement is unknown. root: tree of the scene. */
+/* Returns REFUSED, with a message, for boundaries that load steps do not support: loads that follow the surface, and
+ * velocities by formula, whose displacement is unknown. root: tree of the scene. */
 static status check_steps_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

@@ -9,8 +9,9 @@
 /* Ratio kappa = (critical stretch/onset stretch)^2 [1] of bonds that begin to soften alone, although the strength
  * surface of the material is not yet reached. With a smaller ratio, lattices stop cracks. */
 #define OWN_RATIO 2
-/* Default radius within which strains are averaged for the strength surface, divided by E G_c/sigma_t^2. With this
- * radius, the stress at a crack tip loaded to the toughness K_c is 0.8 of the strength; measured. */
+/* Default radius within which strains are averaged for the strength surface, divided by E G_c/sigma_t^2 [1] (Young's
+ * modulus, energy release rate, tensile strength). With this radius, the stress at a crack tip loaded to the toughness
+ * K_c is 0.8 of the strength; measured. */
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 

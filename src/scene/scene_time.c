@@ -10,7 +10,7 @@
 #include "csv.h"
 
 /* Reads the table n of pairs [time, factor] with ascending times into f->t [s], f->value [1]; f->n receives their
- * number. Returns REFUSED for another form or order. */
+ * number. Returns REFUSED, with a message, for another form or order. */
 static status read_table(struct reader *r, const struct yaml_node *n, struct time_function *f)
 {
     const struct key *k = key_find("boundary.time", "table");
@@ -47,8 +47,8 @@ struct time_columns {
     const char *second;                                               /* name of another column of values; NULL: none */
 };
 
-/* Returns the kind of unit of the value of boundary b. A file column that gives the variation of the value in time
- * may have a unit of this kind. */
+/* Returns the kind of unit of the value of the boundary condition b. A file column that gives the variation of the
+ * value in time may have a unit of this kind. */
 static enum unit unit_of_boundary(const struct boundary *b)
 {
     switch (b->kind) {
@@ -170,8 +170,9 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
                     : status_set(REFUSED, "%s: no line below the header has a time and a value; add some", c->in.path);
 }
 
-/* Reads the factor of time of boundary b from the CSV file that `file: name` gives, with `column: name` for the values.
- * map: node of `time`. Opens no file if r->files is false. Returns REFUSED for invalid keys or files. */
+/* Reads the factor of time of the boundary condition b from the CSV file that `file: name` gives, with `column: name`
+ * for the values. map: node of `time`. Opens no file if r->files is false. Returns REFUSED, with a message, for invalid
+ * keys or files. */
 static status read_time_file(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     struct time_columns c = {.unit = unit_of_boundary(b)};
@@ -193,8 +194,8 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Reads the factor of time of the boundary `boundary`. function_node: node of `time`; NULL or `constant`: the factor is
- * 1. Returns REFUSED for an unknown form or invalid values. */
+/* Reads the factor of time of the boundary condition `boundary`. function_node: node of `time`; NULL or `constant`: the
+ * factor is 1. Returns REFUSED, with a message, for an unknown form or invalid values. */
 status read_time_function(struct reader *r, const struct yaml_node *function_node, struct boundary *boundary)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};

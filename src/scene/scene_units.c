@@ -214,7 +214,7 @@ void unit_write_text(const int twice[3], char *text, size_t capacity)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the length of `[+-] digits [. digits] [e [+-] digits]` at the beginning of c; 0 if there is no number. */
+/* Returns the length of `[+-] digits [. digits] [e [+-] digits]` at the beginning of c; 0 without a number. */
 static size_t number_length(const char *c)
 {
     const char *start = c;

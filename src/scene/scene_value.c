@@ -12,7 +12,8 @@
 
 /* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED, with the expected range, if `value` [SI], read from node n, is outside the range of key k. */
+/* Returns REFUSED, with the expected range in the message, if `value` [SI], read from node n, is outside the range of
+ * key k. */
 static status check_range(struct reader *r, const struct key *k, const struct yaml_node *n, real value)
 {
     const struct range *range = &k->range;
@@ -65,7 +66,8 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
     return fault(r, n, "%s is %g; a whole number is expected", node_text(r, n), number);
 }
 
-/* Reads a whole number from node n into *value. Returns REFUSED for other texts and outside the range of key k. */
+/* Reads a whole number from node n into *value. Returns REFUSED, with a message, for other texts and outside the range
+ * of key k. */
 static status read_int(struct reader *r, const struct key *k, const struct yaml_node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
@@ -135,7 +137,8 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     return nearest;
 }
 
-/* Reads words of key k, `none` or `all` from node n into *bits, one bit per word. Returns REFUSED for other texts. */
+/* Reads words of key k, `none` or `all` from node n into *bits, one bit per word. Returns REFUSED, with a message, for
+ * other texts. */
 static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
     const char *words = words_for_message(r, k->words);
@@ -158,7 +161,8 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
     return OK;
 }
 
-/* Reads any text from node n into name[NAME_MAX_LENGTH]. Returns REFUSED if it is empty or too long. */
+/* Reads any text from node n into name[NAME_MAX_LENGTH]. Returns REFUSED, with a message, if it is empty or too
+ * long. */
 static status read_any_text(struct reader *r, const struct yaml_node *n, char *name)
 {
     const size_t length = strlen(n->text);
@@ -249,7 +253,7 @@ static status fault_reference(struct reader *r, const struct yaml_node *n, const
 }
 
 /* Stores the index of the material that node n names in *index. Returns REFUSED, with the most similar name in the
- * message, if there is no such material. */
+ * message, if no material has this name. */
 static status scene_value_read_material(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;

@@ -26,7 +26,7 @@ static status figure_read(struct reader *r, const struct yaml_node *of, char *fi
 }
 
 /* Reads the key `accuracy`, a number or a mapping {of, within, budget}, into figure, within and budget of w; missing
- * entries get defaults. root: tree of the scene. Returns REFUSED for invalid entries. */
+ * entries get defaults. root: tree of the scene. Returns REFUSED, with a message, for invalid entries. */
 static status accuracy_read(struct reader *r, const struct yaml_node *root, struct pilot_wish *w)
 {
     const struct yaml_node *n = tree_find(root, "accuracy");
@@ -97,7 +97,7 @@ static status provisional_read_any(struct reader *r, const char *text, size_t le
 /* Reads the scene in text[length], which has `method: auto`, into s with a provisional method. If the scene has no
  * spacing (`given` is false), reads it with 1 m, computes from it a coarse spacing that resolves all its lengths, and
  * reads it again with that. *most: receives the largest spacing that suits the strengths of all materials [m]; INFINITY
- * without strengths or if the scene has a spacing. Returns REFUSED if the scene is invalid. */
+ * without strengths or if the scene has a spacing. Returns REFUSED, with a message, if the scene is invalid. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given,
                                 real *most)
 {

@@ -112,7 +112,7 @@ static status read_items(struct parse *p, struct yaml_node *list, int depth)
 
 /* Reads a key and its value, and appends the entry to `map`; line and column of the entry are those of the key.
  * key_event: event of the key, already read, which is deleted; depth: levels of nesting above the mapping. Returns
- * REFUSED for invalid YAML. */
+ * REFUSED, with a message, for invalid YAML. */
 static status read_entry(struct parse *p, struct yaml_node *map, yaml_event_t *key_event, int depth)
 {
     yaml_event_t event;
@@ -146,7 +146,7 @@ static status read_entries(struct parse *p, struct yaml_node *map, int depth)
 }
 
 /* Reads the node that begins with `event` into *out, and deletes the event. depth: levels of nesting above the node.
- * Returns REFUSED for invalid YAML and for YAML that a scene may not contain. */
+ * Returns REFUSED, with a message, for invalid YAML and for YAML that a scene may not contain. */
 static status read_value(struct parse *p, yaml_event_t *event, int depth, struct yaml_node **out)
 {
     const char *refusal = event_refusal(event, depth);
@@ -169,8 +169,8 @@ static status read_value(struct parse *p, yaml_event_t *event, int depth, struct
     return OK;
 }
 
-/* Skips one event that begins or ends the stream or a document, and stores its type in *type. Returns REFUSED if a
- * second document begins. */
+/* Skips one event that begins or ends the stream or a document, and stores its type in *type. Returns REFUSED, with a
+ * message, if a second document begins. */
 static status skip_event(struct parse *p, yaml_event_type_t *type)
 {
     yaml_event_t event;
@@ -183,8 +183,8 @@ static status skip_event(struct parse *p, yaml_event_type_t *type)
                : OK;
 }
 
-/* Reads the only document of p->text into the tree *root, NULL if the text is empty. Returns REFUSED for invalid
- * YAML and for a second document. */
+/* Reads the only document of p->text into the tree *root, NULL if the text is empty. Returns REFUSED, with a message,
+ * for invalid YAML and for a second document. */
 static status read_document(struct parse *p, struct yaml_node **root)
 {
     yaml_event_t event;

@@ -62,7 +62,7 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
     }
 }
 
-/* Relative tolerance for the equality of lengths [1]: scenes give them with few digits. */
+/* Relative tolerance for the equality of lengths [1], because scenes give lengths with few digits. */
 #define DIGITS 1e-6
 
 /* Returns the smallest number of equal parts into which `length` [m] can be divided such that no part is longer than h
@@ -160,7 +160,7 @@ static double crack_spacing(const struct scene *s, const struct crack *c)
 }
 
 /* Returns the largest spacing [m] that resolves the initial pulses, sinusoidal body forces and pulses in time of the
- * scene; INFINITY if there are none. */
+ * scene s; INFINITY if there are none. */
 static double load_spacing(const struct scene *s)
 {
     double least = INFINITY;

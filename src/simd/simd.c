@@ -42,7 +42,7 @@ static inline bool runs_avx512(void)
 }
 #endif
 
-/* All sets of kernels that were built, the fastest first. The Makefile defines KERNELS_NAME for each of them. */
+/* All sets of kernels that were built, the fastest first. The Makefile defines KERNELS_NAME for each set. */
 const struct simd_set simd_sets[] = {
 #ifdef KERNELS_avx512
     {"avx512", "AVX-512 (x86-64-v4), 8 doubles a vector", runs_avx512, &kernel_set_avx512},

@@ -26,8 +26,8 @@ enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line
 #define TURN_MOST 0.1
 
 /* Limits of a correction of the displacements. PUSH_LEFT: a line search ends once the force along the correction is
- * below this share of its initial value. WORK_CURVED: the work is integrated by Simpson's rule if the residual after
- * the correction is above this share of the one before. */
+ * below this share of its initial value [1]. WORK_CURVED: the work is integrated by Simpson's rule if the residual
+ * after the correction is above this share of the residual before [1]. */
 #define PUSH_LEFT 0.8
 #define WORK_CURVED 0.01
 /* Number of intervals of Simpson's rule for forces that are not smooth along the correction (kinks at contact and
@@ -35,7 +35,7 @@ enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line
 enum { WORK_PARTS = 16 };
 
 /* Largest and smallest share of the residual [1] that the conjugate gradient iteration of a correction may leave. The
- * smallest one is the accuracy of one-sided differences of forces. */
+ * smallest share is the accuracy of one-sided differences of forces. */
 #define FORCING_MOST 0.1
 #define FORCING_LEAST 1e-4
 
@@ -152,8 +152,8 @@ static real dot_all(const struct newton_solver *q, const struct field *a, const 
 }
 
 /* Returns the size [m] of the region that moves with the largest component of a displacement increment, estimated from
- * the sum of squares of the increment. Bonds at the border of this region rotate by about this component over this
- * size. most: the largest component [m]. */
+ * the sum of squares of the increment. Bonds at the border of this region rotate by about this component, divided by
+ * the size. most: the largest component [m]. */
 static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);

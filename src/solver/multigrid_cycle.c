@@ -11,9 +11,9 @@ static ALWAYS_INLINE four four_load(const float *from)
     return a;
 }
 
-/* Subtracts row i of the product K x from sum[0], on the finest level in 1D. It is computed from differences of
- * displacements, so that a rigid translation gives exactly no force. l->rest: stiffness of supports, which acts on the
- * displacement itself. */
+/* Subtracts row i of the product K x (matrix of level l times displacements of all nodes) from sum[0], on the finest
+ * level in 1D. It is computed from differences of displacements, so that a rigid translation gives exactly no force.
+ * l->rest: stiffness of supports, which acts on the displacement itself. */
 static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     real force = 0;
@@ -30,9 +30,9 @@ static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, p
     return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
 }
 
-/* Subtracts row i of the product K x, two components of one node, from sum[0 .. 1], on the finest level in 2D. It is
- * computed from differences of displacements, so that a rigid translation gives exactly no force. l->rest: stiffness of
- * supports, which acts on the displacement itself. */
+/* Subtracts row i of the product K x (matrix of level l times displacements of all nodes), two components of one node,
+ * from sum[0 .. 1], on the finest level in 2D. It is computed from differences of displacements, so that a rigid
+ * translation gives exactly no force. l->rest: stiffness of supports, which acts on the displacement itself. */
 static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const int64_t end = l->first[i + 1];
@@ -48,9 +48,9 @@ static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t 
     }
 }
 
-/* Subtracts row i of the product K x, three components of one node, from sum[0 .. 2], on the finest level in 3D. It is
- * computed from differences of displacements, so that a rigid translation gives exactly no force. l->rest: stiffness of
- * supports, which acts on the displacement itself. */
+/* Subtracts row i of the product K x (matrix of level l times displacements of all nodes), three components of one
+ * node, from sum[0 .. 2], on the finest level in 3D. It is computed from differences of displacements, so that a rigid
+ * translation gives exactly no force. l->rest: stiffness of supports, which acts on the displacement itself. */
 static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const pair own = lane_pair_load(x + i * 3);
@@ -95,8 +95,8 @@ static ALWAYS_INLINE void row_times(const struct multigrid_level *l, int64_t i, 
     }
 }
 
-/* Computes row i of the residual l->t = l->b - K l->x. w: components per node; single: true for the finest level, whose
- * matrix is in single precision. Both must be compile-time constants. */
+/* Computes row i (one node) of the residual l->t = l->b - K l->x with the matrix K of level l. w: components per node;
+ * single: true for the finest level, whose matrix is in single precision. Both must be compile-time constants. */
 static ALWAYS_INLINE void row_residual(const struct multigrid_level *l, int64_t i, const int w, const bool single)
 {
     real sum[WIDTH_MOST];

@@ -27,7 +27,8 @@ struct tables {
 static int32_t *table_own(const struct tables *t) { return t->where + omp_get_thread_num() * t->n; }
 
 /* The product of matrix and prolongation (matrix l->down). Its pattern is stored for all rows, its values only for one
- * slab at a time, a set of successive rows. */
+ * slab (set of successive rows) at a time. l, next: this and the coarser level; tables: working memory of the
+ * threads. */
 struct product {
     const struct multigrid_level *l;
     struct multigrid_level *next;

@@ -49,7 +49,7 @@ void multigrid_invert_diagonal_blocks(struct multigrid_level *l)
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if all components of matrix entry q of a coarse level are 0. */
+/* Returns true if all components of matrix entry q of the coarse level l (any but the finest) are 0. */
 static bool entry_is_zero(const struct multigrid_level *l, int64_t q)
 {
     const int size = l->width * l->width;

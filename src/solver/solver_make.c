@@ -78,8 +78,8 @@ static void make_diagonal(struct static_solver *s, const struct static_body *bod
     field_free(&kept);
 }
 
-/* Sets weights and constraints of particles on planes of symmetry: such a particle stays on the plane, and only half of
- * it belongs to the body (weight 1/2 for each plane). All other particles have the weight 1. */
+/* Sets the weights and constraints in s of particles on planes of symmetry: such a particle stays on the plane, and
+ * only half of it belongs to the body (weight 1/2 for each plane). All other particles have the weight 1. */
 static void make_weights(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -158,8 +158,8 @@ static status force_balanced(const struct loads *loads, int d)
                       "xyz"[d], sum);
 }
 
-/* Returns OK if the loads can have an equilibrium, else REFUSED, with a message. Forces are tested along each axis;
- * moments only for a single plane body without supports. */
+/* Returns OK if the loads of `body` can have an equilibrium, else REFUSED, with a message. Forces are tested along each
+ * axis; moments only for a single plane body without supports. */
 static status loads_balanced(const struct static_body *body)
 {
     struct loads *l = body->loads;

@@ -134,8 +134,8 @@ static real *plastic_work_make(const struct particles *p, const struct bonds *b)
 }
 
 /* Returns the equivalent plastic strain of every particle, an array of p->n values [1]: that of material points, and
- * the mean plastic path of the bonds of peridynamic particles. Returns NULL if no bond yields. The caller frees the
- * array with memory_free. */
+ * the mean plastic path of the bonds of peridynamic particles. Returns NULL if no bond can yield; frames then have the
+ * stored strain. The caller frees the array with memory_free. */
 static real *plastic_strain_make(const struct particles *p, const struct bonds *bonds)
 {
     if (!bonds->plastic_path) return NULL;
@@ -150,8 +150,8 @@ static real *plastic_strain_make(const struct particles *p, const struct bonds *
 }
 
 /* Returns the damage of every particle, an array of p->n values [1]: the volume fraction of its broken bonds, plus for
- * softening bonds the fraction of stiffness that they have lost. Returns NULL if no bond softens. The caller frees the
- * array with memory_free. */
+ * softening bonds the fraction of stiffness that they have lost. Returns NULL if no bond can soften; frames then have
+ * the stored damage. The caller frees the array with memory_free. */
 static real *damage_make(const struct particles *p, const struct bonds *bonds)
 {
     if (!bonds->soft.curve) return NULL;

@@ -53,7 +53,7 @@ static void pairs_make(struct point_pairs *pairs, const struct cells *cells, con
     memory_free(near.at);
 }
 
-/* The set of the cells that hold material points, as a hash table with open addressing. */
+/* The set of the grid cells that contain material points, as a hash table with open addressing. */
 struct held_cells {
     struct grid g; /* size of the cells and corner of one of them, as in the grid of the points; no nodes */
     uint64_t mask; /* number of slots, a power of 2, less 1 */
@@ -87,13 +87,14 @@ static void held_cells_make(struct held_cells *h, const struct particles *p, con
     }
 }
 
-/* A pair of points that is stretched: the factor on its distance [1] and the position of its middle [m]. */
+/* A pair of points that is stretched: the ratio of its present to its reference distance [1] and the position of its
+ * middle [m]. */
 struct stretched_pair {
     real stretch, middle[DIM_MAX];
 };
 
-/* Counts of pairs of neighbouring points at one time. parted: pairs with a gap between them; pulled: pairs stretched
- * beyond PULLED under tension; farthest: the most stretched of the parted pairs, or of the pulled ones if none is
+/* Counts of pairs of neighbouring points at one time. parted: pairs with a gap between them; pulled: pairs under
+ * tension stretched beyond a limit; farthest: the most stretched of the parted pairs, or of the pulled pairs if none is
  * parted. */
 struct pair_counts {
     int64_t parted, pulled;

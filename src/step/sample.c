@@ -27,7 +27,7 @@
 
 enum { RECORD_FIXED = 25 };
 
-/* Columns of all runs; the columns left out here are energies (run/ledger.h). */
+/* History columns of all runs: name and unit; gaps are energies (run/ledger.h). */
 static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           {"step", ""},
                                                           [7] = {"balance_error", ""},
@@ -74,7 +74,7 @@ static int spin_columns(const struct scene *s, const struct reference_frame *fra
     return n;
 }
 
-/* Fills e->report->record, one line of history.csv, from the completed sample. */
+/* Fills e->report->record, one line of history.csv, from the completed sample of the run e. */
 static void fill_record(struct run *e)
 {
     const struct energy_balance *l = &e->diagnostics->now;

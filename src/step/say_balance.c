@@ -164,7 +164,8 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
 /* Warns of the error of the energy balance, and advises how to reduce it, in a run with yielding material points on the
  * grid. Warns only if |error| is between FLOW_DOUBTFUL and ENERGY_DOUBTFUL. APIC loses more energy with more time
  * steps; other errors decrease with the time step. (Measured: bars that hit a wall at 190 m/s gain 0.27 to 0.85 % at
- * 0.8 of the critical time step, -0.01 to 0.14 % at 0.5.) error: relative error [1]; dt: time step [s]. */
+ * 0.8 of the critical time step, -0.01 to 0.14 % at 0.5.) error: relative error [1]; dt: time step [s]; to: list of
+ * warnings. */
 static void say_flow_error(const struct particles *p, const struct scene *s, real dt, real error, struct warnings *to)
 {
     char text[360];
@@ -187,7 +188,7 @@ static void say_flow_error(const struct particles *p, const struct scene *s, rea
 /* Warns of the error of the energy balance in a run with load steps. The external work of a load step is computed as
  * the mean force times the displacement, which is inexact if material yields within the step, because the force then
  * does not grow linearly. (Measured: an error of 9.5 % with 4 load steps, 0.9 % with 20, for bars with Voce's law at a
- * strain of 0.03.) error: relative error [1]. */
+ * strain of 0.03.) error: relative error [1]; to: list of warnings. */
 static void say_work_error(real error, struct warnings *to)
 {
     char text[320];

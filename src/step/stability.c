@@ -101,8 +101,9 @@ static real start_strain(const struct scene *s)
     return most;
 }
 
-/* Writes to text[capacity] which load or initial state explains the motion of a diverged run. steps: number of steps in
- * which the squared speed last grew tenfold; INFINITY: unknown. Returns false, without text, if none explains it. */
+/* Writes to text[capacity] which load or initial state explains the motion of the diverged run e. steps: number of
+ * steps in which the squared speed last grew tenfold; INFINITY: unknown. Returns false, without text, if none explains
+ * it. */
 static bool load_explanation(const struct run *e, real steps, char *text, size_t capacity)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};

@@ -17,7 +17,7 @@
 #include "step/checks.h"
 #include "loads/mirrors.h"
 
-/* Quantities that the phases of one step share. */
+/* Quantities that the phases of one time step share. */
 struct step {
     real middle;               /* t + dt/2 [s] */
     real decay, share;         /* c dt of bulk damping, and its factor exp(-c dt/2) of the kick [1] */
@@ -70,9 +70,9 @@ static status sort(struct run *e)
     return lost ? divergence_check_particles(e, true, false) : OK;
 }
 
-/* Damps the velocities of points in the interface zone of the coupling, before the forces of the step are computed.
- * Adds the first half of the energy that this removes to e->damped; the second half is added when the velocities after
- * the step are known. Sets now->damps to true if the scene has such damping. */
+/* Damps the velocities of points in the interface zone (material points near peridynamic particles), before the forces
+ * of the step are computed. Adds the first half of the energy that this removes to e->damped; the second half is added
+ * when the velocities after the step are known. Sets now->damps to true if the scene has such damping. */
 static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;

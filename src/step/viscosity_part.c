@@ -263,8 +263,8 @@ void viscosity_add_nodal_forces(struct run *e)
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
 /* Returns the largest speed [m/s] that load l causes within `duration` [s]: the prescribed speed, or for a traction or
- * pressure of size s the speed s/impedance at which it moves a face. Returns 0 for other loads, and if the speed is not
- * finite. impedance: smallest density times wave speed of the materials [Pa s/m]. */
+ * pressure of size s the speed s/impedance at which the load moves a face. Returns 0 for other loads, and if the speed
+ * is not finite. impedance: smallest density times wave speed of the materials [Pa s/m]. */
 static real speed_of_load(const struct load *l, const struct particles *p, real duration, real impedance)
 {
     const struct boundary *b = l->boundary;

@@ -323,13 +323,14 @@ static void extent_widen(struct extent *e)
     }
 }
 
-/* Width and greatest height of a picture of paths, and the margins of its panel [pixel]. *_NARROW: of a narrow picture,
- * which has the key below the panel; PATHS_SAMPLE: width of an entry of the key without its text. */
+/* Width and greatest height of a picture of crack paths, and the margins of its panel [pixel]. *_NARROW: of a narrow
+ * picture, which has the key (legend) below the panel; PATHS_ENTRY: width of an entry of the key; PATHS_KEY_ROW: height
+ * of a line of the key. */
 enum { PATHS_WIDE = 900, PATHS_LEFT = 90, PATHS_RIGHT = 160, PATHS_ABOVE = 50, PATHS_BELOW = 70, PATHS_HIGH = 900 };
 enum { PATHS_LEFT_NARROW = 74, PATHS_RIGHT_NARROW = 18, PATHS_ABOVE_NARROW = 40, PATHS_BELOW_NARROW = 60 };
 enum { PATHS_KEY_ROW = 20, PATHS_ENTRY = 118 };
 
-/* Margins of the panel of a picture of paths [pixel], and columns and lines of its key. */
+/* Margins of the panel of a picture of crack paths [pixel], and numbers of columns and lines of its key (legend). */
 struct paths_layout {
     double left, right, above, below;
     int key_columns, key_lines;

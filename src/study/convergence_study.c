@@ -134,7 +134,7 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
 
 /* Chooses the largest number of runs of each spacing level, at most `runs`, with which the study takes no longer than
  * `left` [s] if `jobs` runs run at a time. If even RUNS_LEAST runs per level take longer, plans only one run at the
- * finest level. Stores the predicted time in s->expected. Returns false if even this plan takes too long. */
+ * finest level. Stores the predicted time in s->expected. Returns true if the plan fits into `left`. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {
     for (int k = runs; k >= RUNS_LEAST; k--) {
@@ -264,8 +264,9 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
                       s->budget, need + s->spent);
 }
 
-/* Adds all planned runs to the study. The first ones are one run of each spacing level, so that there are results even
- * if the budget ends early. The last run, marked by level -1, has a longer horizon. */
+/* Adds all planned runs to the study s. The first runs are one run of each spacing level, so that there are results
+ * even if the budget ends early. The last run, marked by level -1, has a horizon one spacing longer; it is left out if
+ * the horizon cannot be varied. */
 static void runs_add_all(struct convergence_study *s)
 {
     const int first = s->point[s->first].level;
@@ -295,8 +296,8 @@ static void plan_print(const struct convergence_study *s)
 }
 
 /* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads
- * their figures into s->table. Returns REFUSED or FAILED if the study cannot be planned, its first run fails, or a
- * summary cannot be read. Returns INTERRUPTED after a stop signal. */
+ * their figures into s->table. Returns REFUSED or FAILED, with a message, if the study cannot be planned, its first run
+ * fails, or a summary cannot be read. Returns INTERRUPTED after a stop signal. */
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
     struct study_options options = w->options;

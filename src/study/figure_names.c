@@ -59,7 +59,8 @@ static const struct figure_group {
     " velocity_z" end " stress_xx" end " stress_yy" end " stress_zz" end " stress_xy" end " stress_yz" end             \
     " stress_zx" end " damage" end
 
-/* Names of the numbers that each kind of probe writes to summary.json, separated by blanks. */
+/* Names of the numbers that each kind of probe writes to summary.json, without the name of the probe, separated by
+ * blanks. */
 static const char *const probe_leaves[PROBES] = {
     [PROBE_TIP] = "x y z tied start_time arrest_time length_end angle_deg speed_max speed_mean",
     [PROBE_BREAK] = "x y z tied first_step first_time bonds",

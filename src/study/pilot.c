@@ -89,8 +89,8 @@ static double time_left(const struct pilot_search *p)
     return fmax(p->wish.budget - (wall_clock_seconds() - p->begun), 0);
 }
 
-/* Returns the candidate method with the shortest predicted duration of a run at the spacing that it requires for the
- * requested accuracy. Returns NULL if no method has a prediction. */
+/* Returns the candidate method of p with the shortest predicted duration of a run at the spacing that it requires for
+ * the requested accuracy. Returns NULL if no method has a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
 {
     struct pilot_candidate *best = NULL;
@@ -169,7 +169,8 @@ static const struct pilot_candidate *contradiction(const struct pilot_search *p,
     return NULL;
 }
 
-/* Returns REFUSED with a message that lists the accuracy that each method has reached, or why it failed. */
+/* Returns REFUSED, because no method is accurate enough, with a message that lists the accuracy that each method has
+ * reached, or why it failed. */
 static status search_failed(const struct pilot_search *p)
 {
     char text[900] = "";

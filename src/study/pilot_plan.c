@@ -28,7 +28,7 @@ static void candidate_add(struct pilot_search *p, const char *name, const char *
     p->at[p->n++] = (struct pilot_candidate){.name = name, .method = method, .model = model};
 }
 
-/* Returns true if bonds of the scene may break or its cracks may grow. */
+/* Returns true if bonds of the scene s may break or if it prescribes growing cracks. */
 static bool may_crack(const struct scene *s) { return scene_bonds_break(s) || s->growths > 0; }
 
 /* Lists in p->at the methods that are applicable to the scene: material points unless bonds are required, peridynamics

@@ -274,8 +274,8 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 
 /* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
-/* Reads from its summary how the run in `folder` ended, such as "done" or "failed", into ended[capacity]. Stores "" if
- * the folder contains no finished run, or a run of a scene other than that with the text scene_text. */
+/* Stores how the run in `folder` ended according to its summary, such as "done" or "failed", in ended[capacity]. Stores
+ * "" if the folder contains no finished run, or a run of a scene other than that with the text scene_text. */
 static void ended_as(char *ended, size_t capacity, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) ||
@@ -284,7 +284,7 @@ static void ended_as(char *ended, size_t capacity, const char *folder, const cha
         ended[0] = '\0';
 }
 
-/* Hash table of the scenes of runs with `room` slots. number[room]: index of the run + 1, 0 for an empty slot;
+/* Hash table of the scenes of runs with `room` slots. number[room]: index of a run + 1, 0 for an empty slot;
  * hash[room]: hash of its scene. */
 struct scenes_seen {
     int *number, room;

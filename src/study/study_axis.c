@@ -16,7 +16,7 @@ enum { STEPS_MOST = 4, TICS_UP = 31 };
  * spaced [1]. */
 static const double EVEN = 1e-6;
 
-/* Margin of a logarithmic axis at either end, as a share of its length [1]. */
+/* Margin of a logarithmic axis at either end, as a share of the length of the axis [1]. */
 static const double MARGIN = 0.06;
 
 double study_value_across(const struct study_picture *p, int value_index)

@@ -137,9 +137,9 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 /* First line of the log of a run, by which Cleave recognises it. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* Checks that the files of run c of a study may be written. Returns REFUSED if the folder of the run is a symbolic
- * link, which may lead out of the folder of the study, or if the log of the run would replace a file that Cleave did
- * not write. */
+/* Checks that the files of run c of a study may be written. Returns REFUSED, with a message, if the folder of the run
+ * is a symbolic link, which may lead out of the folder of the study, or if the log of the run would replace a file that
+ * Cleave did not write. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
@@ -244,8 +244,8 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     if (stat(log.text, &info) == 0 && info.st_size < (off_t)sizeof log_mark) unlink(log.text);
 }
 
-/* Finds the child processes that have ended since the last call, and records state and duration of their runs
- * (case_end). Does not wait. */
+/* Finds the child processes of the study of r that have ended since the last call, and records state and duration of
+ * their runs (case_end). Does not wait. */
 static void cases_take(struct runner *r)
 {
     for (int k = 0; k < r->study->n; k++) {
@@ -332,8 +332,8 @@ static struct study_options options_filled(struct study_options how, const struc
 }
 
 /* Writes the scene of the study s into its folder as the file STUDY_SCENE, by which the folder is recognised. Returns
- * REFUSED if the folder contains other files or, unless `overwrite` is true, the study of another scene. Returns FAILED
- * if the file cannot be written. */
+ * REFUSED, with a message, if the folder contains other files or, unless `overwrite` is true, the study of another
+ * scene. Returns FAILED if the file cannot be written. */
 static status scene_put(const struct study *s, bool overwrite)
 {
     TRY(study_folder_mark_as_study(s->folder));

@@ -88,8 +88,7 @@ static void text_swap(char **a, char **b)
     *a = *b, *b = text;
 }
 
-/* Sorts the values of the key k, which must be numbers, in ascending order: the given values together with the shown
- * ones. */
+/* Sorts the values of the key k, which must be numbers, in ascending order: both the given and the shown values. */
 static void values_sort(struct shown_key *k)
 {
     const char *unit;

@@ -84,9 +84,9 @@ struct row {
     char unit[32];
 };
 
-/* Reads a range FROM:TO:STEP, such as 10:30:5 mm, from `text` into *r. Returns false if the text has another form. Sets
- * *s to REFUSED if the text is a range but its units differ, if the step is no number, or if no whole number of
- * steps leads from the first number to the last. k: key of the range, for messages. */
+/* Reads a range FROM:TO:STEP, such as 10:30:5 mm, from `text` into *r. Returns false if the text has another form. *s:
+ * receives REFUSED, with a message, if the text is a range but its units differ, if the step is no number, or if no
+ * whole number of steps leads from the first number to the last; else OK. k: key of the range, for messages. */
 static bool row_read(struct row *r, const struct varied_key *k, const char *text, status *s)
 {
     *r = (struct row){.unit = ""};

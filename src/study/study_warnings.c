@@ -18,7 +18,7 @@ struct warning_kind {
     int runs, last; /* number of runs that have it; index of the last one */
 };
 
-/* Returns true if the texts a and b are equal or differ only in their numbers. */
+/* Returns true if the texts a and b of two warnings are equal or differ only in their numbers. */
 static bool is_alike(const char *a, const char *b)
 {
     static const char number[] = "0123456789.+-e";
