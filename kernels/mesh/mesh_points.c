@@ -9,7 +9,7 @@
 /* Calls X for 1, 2 and 3 dimensions. The parallel region of a function is inside each of its three instances. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
-/* Returns the number of cells that may have points: all cells of the mesh, or those of the list mesh->filled_cell. */
+/* Returns the number of cells that may have points: all cells of the mesh, or the cells in mesh->filled_cell. */
 static ALWAYS_INLINE int64_t cells_of_points(const struct mesh *mesh)
 {
     return mesh->absent ? mesh->filled_cells : mesh->grid.n;

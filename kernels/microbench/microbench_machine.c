@@ -83,8 +83,8 @@ static void find_neighbours(struct microbench_lattice *s)
             }
 }
 
-/* Sets the positions s->x of all particles to those of a lattice with spacing 1 and a small non-uniform strain, so that
- * no operand of the timed loop has a special value. */
+/* Sets the positions s->x of all particles to the sites of a lattice with spacing 1 and a small non-uniform strain, so
+ * that no operand of the timed loop has a special value. */
 static void place_lattice(struct microbench_lattice *s)
 {
     for (int64_t i = 0; i < s->all; i++) {

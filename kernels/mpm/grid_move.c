@@ -149,7 +149,7 @@ static int64_t leader_of(const struct grid *g, int64_t I)
     return leader;
 }
 
-/* Compares two light nodes a and b (struct follower) by their node index, for sorting: -1, 0 or 1. */
+/* Compares two light nodes a and b (struct follower) by their node index, for sorting. Returns -1, 0 or 1. */
 static int by_node(const void *a, const void *b)
 {
     const struct follower *p = a, *q = b;
@@ -289,8 +289,8 @@ void grid_constrain(struct grid *g, enum transfer transfer, real smallest_mass, 
     grid_mirror_nodes_spread(g, transfer, impulse);
 }
 
-/* Divides the momentum of node I by its mass, so that g->momentum holds a velocity; 0 if the node is lighter than
- * smallest_mass [kg]. */
+/* Divides the momentum of node I by its mass, so that g->momentum becomes a velocity; it becomes 0 if the node is
+ * lighter than smallest_mass [kg]. */
 static ALWAYS_INLINE void node_remapped(struct grid *g, int64_t I, real smallest_mass, const int dim)
 {
     const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;

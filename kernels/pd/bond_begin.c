@@ -154,8 +154,8 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
 
 /* Updates the strain rate b->soft.rate[row] of the bonds of one particle [1/s]: the mean rate at which the largest
  * stretch of these bonds grows from half its onset of softening to the onset. The rate is kept until the stretch is
- * below half the onset again. Between half the onset and the onset, the entry holds the negative of the stretch at the
- * first step beyond half the onset [1]. dt: time step [s]. */
+ * below half the onset again. Between half the onset and the onset, the entry is minus the stretch at the first step
+ * beyond half the onset [1]. dt: time step [s]. */
 static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     const real from = b->trigger[row], onset = from / RATE_FROM;

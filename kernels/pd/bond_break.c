@@ -48,8 +48,8 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 }
 
 /* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Does
- * nothing unless the model is state-based and normalises by the present family, the bonds are brittle, and the row
- * holds all bonds of the particle. */
+ * nothing unless the model is state-based and normalises by the present family, the bonds are brittle, and the row has
+ * all bonds of the particle (not a part, as of a material point). */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])

@@ -79,9 +79,9 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
-/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of those of the eight particles of row block g
- * that are peridynamic, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005). model: bond
- * law, a compile-time constant. */
+/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the eight
+ * particles of row block g, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005). model:
+ * bond law, a compile-time constant. */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                 const enum pd_model model)
 {

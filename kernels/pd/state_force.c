@@ -106,7 +106,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns the mask of those of the eight rows of row block g that belong to material points with bonds; the others
+/* Returns the mask of the rows of row block g (eight rows) that belong to material points with bonds; the other rows
  * belong to peridynamic particles. A row has the bonds of one particle. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
@@ -231,7 +231,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     if (b->state.past[g] && !limit->softening) state_blend_breaking_rows(b, p, limit, g);
 }
 
-/* Sets the states (pressure, spring stiffness, rotation) of mirror images to those of their source particles, with
+/* Sets the states (pressure, spring stiffness, rotation) of mirror images to the states of their source particles, with
  * rotations reflected at planes of symmetry. Images in clamped planes have no state: clamp_force.c adds their reaction
  * to the source. rotates: true in models with rotations. */
 static void state_of_images(struct bonds *b, const struct particles *p, int dim, bool rotates)

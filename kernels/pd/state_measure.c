@@ -98,8 +98,8 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-/* Computes the stress of those of the eight particles of row block g that are peridynamic, into p->stress [Pa], from
- * the states of their families (pressure, spring stiffness and rotation). model: state-based model, a compile-time
+/* Computes the stress of the peridynamic ones among the eight particles of row block g, into p->stress [Pa], from the
+ * states of their families (pressure, spring stiffness and rotation). model: state-based model, a compile-time
  * constant. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)

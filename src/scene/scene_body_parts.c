@@ -51,8 +51,8 @@ static bool material_is_used(const struct scene *s, int material)
     return used;
 }
 
-/* Moves material number `unused` behind the materials that count, which are s->materials fewer by one, and renumbers
- * the materials between in all bodies of the scene s. */
+/* Moves material number `unused` of s->material to the end of the used materials and reduces s->materials by 1, so that
+ * it does not count. Renumbers the materials between in all bodies of the scene s. */
 static void material_set_aside(struct scene *s, int unused)
 {
     const struct material own = s->material[unused];

@@ -139,9 +139,9 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
 }
 
-/* Reads the files in the list `include` of the scene in order, and merges each over the previous ones, then the scene
- * itself over all of them. root: tree of the scene, replaced by the merged tree; chain: files that are being read.
- * Returns REFUSED, with a message, for an invalid list or file. */
+/* Reads the files in the list `include` of the scene in order, and merges them: later files replace values of earlier
+ * ones, the scene itself those of all files. root: tree of the scene, replaced by the merged tree; chain: files that
+ * are being read. Returns REFUSED, with a message, for an invalid list or file. */
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain)
 {
     struct yaml_node *list = yaml_node_find(root, "include"), *file;

@@ -146,8 +146,8 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Finds *called, the node of the region whose name is the value of node n; inside an extrusion the node of the
- * section with this name. Returns REFUSED, with the nearest name, if there is none. */
+/* Finds *called, the node of the region whose name is the value of node n; inside an extrusion the node of the section
+ * with this name. Returns REFUSED, with the nearest name in the message, if there is none. */
 static status region_called(struct reader *r, const struct yaml_node *n, const struct yaml_node **called)
 {
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;

@@ -52,7 +52,8 @@ struct provisional_method {
 
 /* Reads the scene in text[length], which has `method: auto`, into s with the method `with` instead. Pilot runs choose
  * method, solver, model and spacing later; here they get provisional values that do not contradict the other keys of
- * the scene. spacing: used if the scene has none [m]. Returns REFUSED, with s freed, if the scene is invalid. */
+ * the scene. spacing: used if the scene has none [m]. Returns REFUSED, with a message and s freed, if the scene is
+ * invalid. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s,
                                const struct provisional_method *with, real spacing)
 {
@@ -84,7 +85,7 @@ static status provisional_read(struct reader *r, const char *text, size_t length
 /* Reads the scene in text[length], which has `method: auto`, into s with a provisional method: the first of three that
  * the scene allows. Tries method adaptive, which is refused for joined bodies; then method pd, which is refused for
  * some Poisson's ratios; then method pd with softening bonds of a state-based model. spacing: used if the scene has
- * none [m]. Returns REFUSED, with s freed, if all are refused. */
+ * none [m]. Returns REFUSED, with a message and s freed, if all are refused. */
 static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
 {
     static const struct provisional_method with[] = {{"adaptive", false}, {"pd", false}, {"pd", true}};

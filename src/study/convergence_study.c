@@ -159,8 +159,8 @@ static const char *study_refusal(const struct scene *s, const struct convergence
 
 /* Makes the first run of the study s that the request w demands, at the coarsest spacing level, and stores its duration
  * in s->spent. The durations of the other runs are predicted from it. Sets *refused to true if the scene is invalid at
- * this spacing, for example because the integration rings of probes become too narrow. Returns REFUSED if the run
- * exceeds the budget, FAILED if it fails. */
+ * this spacing, for example because the integration rings of probes become too narrow. Returns REFUSED, with a message,
+ * if the run exceeds the budget, FAILED if it fails. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -201,7 +201,8 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
 
 /* Makes the first run of the study s, which the request w demands, at the coarsest spacing level (first_run). If the
  * scene is invalid at that spacing, refines all levels and tries again, at most FINER_MOST times. Stores the largest
- * spacing that was invalid in s->refused, INFINITY if none was. Returns the status of the last try. */
+ * spacing that was invalid in s->refused, INFINITY if none was. Returns the status of the last try: OK, REFUSED, FAILED
+ * or INTERRUPTED. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;

@@ -101,8 +101,8 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
 
 /* Makes one convergence study of every candidate method. The studies together take the share PILOT_FIRST_SHARE of the
  * time that is left, in equal parts. If the scene is invalid at the spacing of a study, the study is repeated at finer
- * spacings. Returns OK even if a method fails (its reason is stored), INTERRUPTED after a stop signal, or REFUSED if
- * the runs lack the requested figure. */
+ * spacings. Returns OK even if a method fails (its reason is stored), INTERRUPTED after a stop signal, or REFUSED, with
+ * a message, if the runs lack the requested figure. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -241,7 +241,7 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 
 /* Chooses the overrides *to of a scene with `method: auto`. Reads a stored choice for the same scene if there is one,
  * else makes pilot runs in a folder beside `folder`, the folder of the run (NULL for the default). p: scene, request
- * and state of the choice. Returns REFUSED if no method is suitable, or the error of a pilot run. */
+ * and state of the choice. Returns REFUSED, with a message, if no method is suitable, or the error of a pilot run. */
 static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];

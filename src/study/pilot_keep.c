@@ -65,7 +65,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
 }
 
 /* Stores two files in the folder of the pilot runs (p->folder): the scene with the chosen overrides *to, and the table
- * converge.csv with the error bars of the chosen method *best. Returns FAILED if a file cannot be read or written. */
+ * converge.csv with the error bars of the chosen method *best. Returns FAILED, with a message, if a file cannot be read
+ * or written. */
 static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;

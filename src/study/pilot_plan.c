@@ -47,7 +47,7 @@ static void candidates_find(struct pilot_search *p)
         candidate_add(p, bond ? "adaptive bonds" : "adaptive states", "adaptive", bond ? "bond" : "mospd");
 }
 
-/* Returns true if the boundary condition b moves or loads particles; false if it only holds them at rest. dim:
+/* Returns true if the boundary condition b moves or loads particles; false if it only keeps them at rest. dim:
  * dimension of the space. */
 static bool boundary_acts(const struct boundary *b, int dim)
 {

@@ -53,7 +53,7 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 
 /* Composes the text that identifies a study if its scene cannot be read because it is incomplete without the varied
  * keys. The text is the contents of the scene file `path`, followed by override[overrides] as comments. The caller
- * releases *text with memory_free. Returns FAILED if the file cannot be read. */
+ * releases *text with memory_free. Returns FAILED, with a message, if the file cannot be read. */
 static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
 {
     size_t length, room;
@@ -156,8 +156,8 @@ status study_write_scene_and_options(const char *folder, const char *text, const
     return put;
 }
 
-/* Returns true if the subfolder `name` of `folder`, the folder of a study, holds a run or another study. Runs may have
- * been started individually, with the commands of `--list`. */
+/* Returns true if the subfolder `name` of `folder`, the folder of a study, contains a run or another study. Runs may
+ * have been started individually, with the commands of `--list`. */
 static bool is_run_or_study(const char *folder, const char *name)
 {
     const struct path inner = path_join(folder, name);
@@ -292,8 +292,8 @@ struct scenes_seen {
 };
 
 /* Sets *same to true if the run `other` of the study s has the scene `text`, else to false. The texts of the scenes are
- * compared, since different scenes can have equal hashes. Returns REFUSED or FAILED if the scene of the run cannot be
- * read. */
+ * compared, since different scenes can have equal hashes. Returns REFUSED or FAILED, with a message, if the scene of
+ * the run cannot be read. */
 static status case_same(bool *same, const struct study *s, const struct study_case *other, const char *text)
 {
     struct scene scene;
@@ -305,7 +305,7 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
 
 /* Looks up `text`, the scene of run number `number` of the study, in the hash table `seen` of the scenes of earlier
  * runs. If an earlier run has the same scene, sets the state of the run to CASE_SAME; otherwise enters the scene in the
- * table. Returns REFUSED or FAILED if the scene of an earlier run cannot be read. */
+ * table. Returns REFUSED or FAILED, with a message, if the scene of an earlier run cannot be read. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];
@@ -327,8 +327,8 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
 
 /* Determines the state of run number `number` of the study before any run starts: CASE_SAME if its scene equals that of
  * an earlier run, CASE_DONE_BEFORE if its folder contains its results already. collect: true to mark runs that failed
- * before as failed, false to run them again; seen: scenes of the runs checked before. Returns REFUSED if the scene is
- * invalid. */
+ * before as failed, false to run them again; seen: scenes of the runs checked before. Returns REFUSED, with a message,
+ * if the scene is invalid. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];

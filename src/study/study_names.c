@@ -82,8 +82,8 @@ void study_choose_case_name(const struct study *s, char *name, const char *wante
 
 /* ---- names of combinations --------------------------------------------------------------------------------------- */
 
-/* Returns the part of the scene key `key` after its last dot, such as young of material.young; the whole key if it has
- * no dot. */
+/* Returns a pointer to the part of the scene key `key` after its last dot, such as young of material.young; the whole
+ * key if it has no dot. */
 static const char *key_last(const char *key)
 {
     const char *dot = strrchr(key, '.');

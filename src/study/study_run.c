@@ -287,8 +287,8 @@ static void cases_kill(struct runner *r)
 }
 
 /* Runs all waiting runs of a study, as many at a time as requested, and waits for their ends. After an error, a stop
- * signal or the end of the budget it starts no more runs and stops the running ones. Returns FAILED or REFUSED if a
- * process cannot be started, INTERRUPTED after a stop signal, OK otherwise, even if runs have failed. */
+ * signal or the end of the budget it starts no more runs and stops the running ones. Returns FAILED or REFUSED, with a
+ * message, if a process cannot be started, INTERRUPTED after a stop signal, OK otherwise, even if runs have failed. */
 static status cases_run(struct runner *r)
 {
     const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};
