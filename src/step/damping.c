@@ -52,7 +52,7 @@ static void loss_block(const void *context, int64_t first, int64_t end, real *su
 
 /* Multiplies the velocities of the particles or mesh nodes with the numbers first .. end - 1 by the damping factor.
  * Adds the momentum that they lose to sum[0 .. dim - 1] [N s], and their kinetic energy before the change to
- * sum[DIM_MAX] [J]. context: a struct damped that holds the velocities. Called by reproducible_sums for each block of
+ * sum[DIM_MAX] [J]. context: a struct damped with the velocities. Called by reproducible_sums for each block of
  * numbers. */
 static void slow_block(const void *context, int64_t first, int64_t end, real *sum)
 {
