@@ -260,8 +260,9 @@ static void advise_shocks(const struct scene *s, FILE *out)
     if (shock.share > 0)
         fprintf(out,
                 "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the front of the wave breaks "
-                "or yields one. Behind it stress oscillates by 10 to 30 %%, so bonds may break too early: %s\n",
-                shock.speed, shock.share, shock.remedy);
+                "or yields one. Behind it stress oscillates by 10 to 30 %%, so %s too early: %s\n",
+                shock.speed, shock.share, s->method == METHOD_MPM ? "points may yield" : "bonds may break",
+                shock.remedy);
 }
 
 /* Writes a remark to `out` if the scene of run e prescribes a number of levels of coarse cells (the edge doubles with

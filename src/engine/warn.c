@@ -152,13 +152,21 @@ static void warn_of_lists(const struct scene *s, struct warnings *to)
         if (s->body[b].list.note[0]) warnings_add_if_new(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
 }
 
-/* Adds a warning to *to if plastic strain is requested for frames although no material yields. asked: fields that the
+/* Adds a warning to *to if plastic strain or temperature is requested for frames although no material yields or is
+ * heated; a scene that requests all fields gets no warning. asked: fields that the
  * scene requests for frames (bits ASK_...); p, b: particles and bonds, which have plastic arrays if a material
  * yields. */
 static void warn_of_fields(unsigned asked, const struct particles *p, const struct bonds *b, struct warnings *to)
 {
-    enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
-    if (asked & ASK_PLASTIC_STRAIN && (asked & ASK_OTHERS) != ASK_OTHERS && !p->plastic_strain && !b->plastic_path)
+    enum {
+        ASK_PLASTIC_STRAIN = 1 << 4,
+        ASK_TEMPERATURE = 1 << 21,
+        ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK
+    };
+    if ((asked & ASK_OTHERS) == ASK_OTHERS) return;
+    if (asked & ASK_TEMPERATURE && !p->temperature)
+        warnings_add_if_new(to, "output.fields: no material has a specific_heat, so frames will have no temperature");
+    if (asked & ASK_PLASTIC_STRAIN && !p->plastic_strain && !b->plastic_path)
         warnings_add_if_new(to, "output.fields: no material has a yield_stress, so frames will have no plastic_strain");
 }
 

@@ -10,7 +10,10 @@
 /* Half edge of a cube divided by the spacing; slightly more than 0.5 to close the gaps of a strained lattice. */
 static const double HALF = 0.52;
 
-static const double STRAIGHT = 0.999; /* cosine of the angle to an axis below which a view is along this axis */
+/* Cosines of the angle between the normal of a face and the view: from STRAIGHT on, the brightness is 1; below OBLIQUE
+ * (20 degrees), it is that of the axes; it is linear between, as the faces of a flat side of a deformed body differ by
+ * a few degrees. */
+static const double STRAIGHT = 0.999, OBLIQUE = 0.94;
 
 struct scene_canvas {
     struct colour *pixel;
@@ -79,8 +82,8 @@ static double cube_reach(const struct cube *b, const double *direction)
 }
 
 /* Returns the brightness of a face of a cube, 0..1: the mean of the brightnesses of the three axes, weighted by the
- * squared components of the normal. It is 1 if the view is along the normal. face: axis of the face; towards[3]:
- * direction to the viewer. */
+ * squared components of the normal. It is 1 if the view is along the normal, within 2.6 degrees. face: axis of the
+ * face; towards[3]: direction to the viewer. */
 static double face_brightness(const struct cube *b, int face, const double *towards)
 {
     double length = 0, facing = 0, shade = 0;
@@ -88,7 +91,8 @@ static double face_brightness(const struct cube *b, int face, const double *towa
         const double n = b->inverse[face][d]; /* the normal is along F^-T e_face */
         length += n * n, shade += FACE_BRIGHTNESS[d] * n * n, facing += n * towards[d];
     }
-    return fabs(facing) >= STRAIGHT * sqrt(length) ? 1 : shade / length;
+    const double straight = fmin(fmax((fabs(facing) / sqrt(length) - OBLIQUE) / (STRAIGHT - OBLIQUE), 0), 1);
+    return straight + (1 - straight) * shade / length;
 }
 
 /* Paints the cube of particle i of c in the given colour on those pixels of the canvas v on which the cube is nearer to

@@ -297,7 +297,7 @@ static void warn_closed_faces(struct warnings *to, real K_I, const struct contac
                                    "other; set contact.between: all");
 }
 
-#define FLOW_LARGE 0.1 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
+#define FLOW_LARGE 0.05 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
 
 /* Warns of plastic strains above FLOW_LARGE, too large for additive small strains. Without hardening they are a sign of
  * loads beyond the limit load. */
@@ -311,6 +311,21 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
              "body can carry its loads, or use smaller loads or solver: explicit",
              most);
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
+}
+
+/* Warns if points of a bar (space: line) flow without hardening: the plastic strain of a bar in load steps is then not
+ * unique, and one cell takes the whole of it. m: materials of the scene, one for each index in p->material. */
+static void warn_of_flow_in_one_cell(struct warnings *to, const struct particles *p, const struct material *m)
+{
+    for (int64_t i = 0; i < p->n && p->dim == 1 && p->plastic_correction[0]; i++) {
+        const struct law *law = &m[p->material[i]].law;
+        if (!(p->plastic_strain[i] > 0) || law->flow != FLOW_LINEAR) continue;
+        if (law->hardening > 0 || law->kinematic.modulus > 0) continue;
+        warnings_add_and_print(to,
+                               "a bar that flows without hardening has no unique plastic strain: one cell takes the "
+                               "whole of it; forces are right; set yield_tangent to a thousandth of young");
+        return;
+    }
 }
 
 /* Warns of bodies that have slid by more than SLID_LEAST spacings on others. slid: statics.slid [m]; spacing: of the
@@ -334,6 +349,7 @@ static void warn_at_end(struct run *e)
     sif_leading_tip_compute_intensity_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
+    warn_of_flow_in_one_cell(&e->warnings, &e->part, e->scene->material);
     warn_of_sliding(&e->warnings, e->statics->slid, e->scene->spacing);
     flow_turn_warn_of_inexact_stress(&e->statics->turn, e->part.dim, &e->warnings);
     rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);

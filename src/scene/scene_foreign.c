@@ -252,6 +252,8 @@ static const struct {
      "epsdot0|epsdot_0|eps_dot_0|epsdot|eps_0|epso|e0|edot0|edot|rate0|reference_rate|ref_rate|strain_rate|epsilon0|"
      "rate",
      "here it is `eps0`"},
+    {"material.hardening", "swift|ludwik|hollomon|ramberg_osgood|isotropic|bilinear|multilinear|exponential|saturation",
+     "the laws here are `linear`, `voce`, `power` and `table`"},
     {"material.johnson_cook", "a|A0|sigma0|sigma_0|sigma_y|yield|yield_stress", "here it is `A`"},
     {"material.johnson_cook", "b|K|hardening|hardening_modulus", "here it is `B`"},
     {"material.johnson_cook", "N|hardening_exponent|exponent", "here it is `n`"},

@@ -45,7 +45,7 @@ static status check_poisson(struct reader *r, const struct yaml_node *n, const s
 
 /* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from the key yield_tangent or the
  * hardening modulus H of the key yield_hardening: E_t = E H/(E + H). n: node of the material. Returns REFUSED, with a
- * message, if both are given, or unless E_t < E. */
+ * message, if both are given, if the material has no yield stress, or unless E_t < E. */
 static status read_hardening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct yaml_node *tangent = yaml_node_find(n, "yield_tangent"),
@@ -54,6 +54,8 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
     if (tangent && hardening)
         return fault(r, hardening,
                      "is given together with yield_tangent, but each determines the other; leave one of them out");
+    if ((tangent || hardening) && !yaml_node_find(n, "yield_stress"))
+        return fault(r, tangent ? tangent : hardening, "has no effect without yield_stress: add yield_stress");
     if (hardening) {
         TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
         m->yield_tangent = m->young * H / (m->young + H);

@@ -382,15 +382,15 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
 #define STRETCH_MOST 0.08
 
 /* Warns that a point on the grid has a strain beyond STRETCH_MOST, with a remedy that the scene s allows. strain:
- * strain of the point [1]; t: time [s]; x: first coordinate of the point [m]; to: list of warnings. */
-static void warn_of_stretched(const struct scene *s, real strain, real t, real x, struct warnings *to)
+ * strain of the point [1]; t: time [s]; x: position of the point [m], as text; to: list of warnings. */
+static void warn_of_stretched(const struct scene *s, real strain, real t, const char *x, struct warnings *to)
 {
     char text[560], remedy[200] = "use mpm.frame: reference";
     const char *why = scene_why_reference_frame_is_no_remedy(s);
     if (why)
         snprintf(remedy, sizeof remedy, "use method: pd or lower loads and speeds (mpm.frame: reference: %s)", why);
     snprintf(text, sizeof text,
-             "points in mpm.frame: current are stretched by %.0f %% at t = %.3g s, near x = %.4g m: beyond about 10 %% "
+             "points in mpm.frame: current are stretched by %.0f %% at t = %.3g s, near (%s) m: beyond about 10 %% "
              "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; %s; if this is intended, "
              "add accept: [strain]",
              100 * strain, t, x, remedy);
@@ -404,14 +404,15 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
     const int n = symmetric_component_count(p->dim);
     for (int64_t i = 0; i < p->n && p->n_free > 0 && !scene_silences_warning(s, ACCEPT_STRAIN); i++) {
         const struct material *m = &s->material[p->material[i]];
-        real stress[SYM_MAX], sum = 0;
+        real stress[SYM_MAX], x[DIM_MAX], sum = 0;
         if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
         for (int c = 0; c < n; c++) stress[c] = p->stress[c][i], sum += square(stress[c]);
         /* cheap bound: the sum is at least half the squared principal stress */
         if (2 * sum < square(STRETCH_MOST * m->young)) continue;
         const real strain = stress_largest_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
-        warn_of_stretched(s, strain, t, p->x[0][i], to);
+        for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
+        warn_of_stretched(s, strain, t, position_text(x, p->dim, 4).text, to);
         return true;
     }
     return false;
@@ -430,9 +431,9 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
     for (int64_t i = 0; i < p->n && p->mesh_stress[0]; i++) {
         if (!(p->plastic_strain[i] > FLOW_MOST) || !(p->flag[i] & FLAG_MESHED)) continue;
         snprintf(text, sizeof text,
-                 "points in mpm.frame: reference have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: this "
+                 "points in mpm.frame: reference have a plastic strain of %.2g at t = %.3g s, near (%s) m: this "
                  "frame adds strains up, so shear beyond 0.04 causes a false tension; use mpm.frame: current",
-                 p->plastic_strain[i], t, p->X[0][i]);
+                 p->plastic_strain[i], t, particle_position_text(p, i, 4).text);
         warnings_add_and_print(to, text);
         return true;
     }
@@ -453,10 +454,10 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
         if (!(p->plastic_strain[i] > TURNED_MOST) || p->flag[i] & FLAG_MESHED) continue;
         if (!(s->material[p->material[i]].law.kinematic.modulus > 0)) continue;
         snprintf(text, sizeof text,
-                 "points with kinematic hardening have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: in "
+                 "points with kinematic hardening have a plastic strain of %.2g at t = %.3g s, near (%s) m: in "
                  "shear their back stress turns with Jaumann's rate and oscillates, so they carry too little beyond a "
                  "shear of about 1; use isotropic hardening, which does not oscillate",
-                 p->plastic_strain[i], t, p->X[0][i]);
+                 p->plastic_strain[i], t, particle_position_text(p, i, 4).text);
         warnings_add_and_print(to, text);
         return true;
     }

@@ -175,6 +175,8 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa}}}|6:76|rate: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|keep one of the two
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_hardening: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:88|keep one of the two
+6|material: {young: 190 GPa, density: 7800, yield_hardening: 1 GPa}|6:43|yield_hardening: has no effect without yield_stress
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {swift: {a: 1}}}|6:76|linear
 6|material: {young: 190 GPa, density: 7800, hardening: {linear: {modulus: 1 GPa}}}|6:43|add yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {power: {coefficient: 1 GPa, exponent: 1.2}}}|6:104|out of range
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa]]}}|6:55|2 to 16 are expected
