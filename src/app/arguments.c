@@ -103,7 +103,7 @@ status option_read_size_dpi_or_format(struct picture_size *size, const char *opt
 status arguments_refuse_second_scene(const char *scene, const char *word)
 {
     if (strchr(word, '=')) return status_set(REFUSED, "%s: the option -s is missing before it: -s %s", word, word);
-    return status_set(REFUSED, "one scene at a time: %s and %s", scene, word);
+    return status_set(REFUSED, "give one scene, not two: %s and %s", scene, word);
 }
 
 static status read_threads(struct run_arguments *a, const char *text)
@@ -149,7 +149,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
             a->scene = word;
     }
     if (a->resume && a->overwrite)
-        return status_set(REFUSED, "--resume continues a run, but --overwrite replaces it: give one of them");
+        return status_set(REFUSED, "--resume continues a run, but --overwrite replaces it: remove one of the two");
     return a->scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
 }
 

@@ -321,9 +321,10 @@ static status say_accuracy(const struct run *e, int *remarks)
     char *text = NULL;
     size_t length;
     FILE *out = memory_stream_open(&text, &length);
-    if (!out) return status_set(FAILED, "no memory for the remarks on accuracy");
+    if (!out) return status_set(FAILED, "out of memory: the remarks on accuracy are not printed");
     print_accuracy_advice(e, out);
-    const status written = fclose(out) == 0 ? OK : status_set(FAILED, "no memory for the remarks on accuracy");
+    const status written =
+        fclose(out) == 0 ? OK : status_set(FAILED, "out of memory: the remarks on accuracy are not printed");
     *remarks = 0;
     for (const char *line = text; written == OK && *line; line = strchr(line, '\n') + 1) ++*remarks;
     if (written == OK) fputs(text, stdout);

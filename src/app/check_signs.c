@@ -46,9 +46,9 @@ static void hint_sizes(const struct run *e, struct warnings *to)
     const real gravity = sqrt(dot(s->gravity, s->gravity, s->dim)) / EARTH;
     const real longest = particles_bounding_box_longest_edge(&e->part) + s->spacing;
     if (s->contact_friction > FRICTION_MOST)
-        warnings_add_if_new(to,
-                            "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5; check its unit (%%?)",
-                            s->contact_friction, FRICTION_MOST);
+        warnings_add_if_new(
+            to, "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5; check its unit (0.3 is 30 %%)",
+            s->contact_friction, FRICTION_MOST);
     if (gravity > GRAVITY_MOST)
         warnings_add_if_new(to, "gravity: %.3g m/s^2 is %.3g times that of the Earth; check its unit (m/s^2)",
                             gravity * EARTH, gravity);
@@ -60,7 +60,8 @@ static void hint_sizes(const struct run *e, struct warnings *to)
     for (int k = 0; k < s->cracks_given; k++)
         if (s->crack[k].width > longest)
             warnings_add_if_new(to,
-                                "crack %d: its width of %.3g m is larger than the bodies, %.3g m; check its unit (mm?)",
+                                "crack %d: its width of %.3g m is larger than the bodies, %.3g m; check its unit (m if "
+                                "none is written)",
                                 k + 1, s->crack[k].width, longest);
 }
 

@@ -84,11 +84,12 @@ void print_load_step_solver(const struct run *e)
     if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
     if (e->bonds.soft.curve) {
         printf("cracks         grow where bonds soften; %s\n",
-               s->steps.control != CONTROL_ENERGY ? "a step whose loads the body cannot carry ends the run"
-               : s->steps.energy > 0              ? "in each load step they dissipate steps.energy"
-               : s->dim == 1 ? "in each load step they dissipate a hundredth of the energy that parts the bar"
-                             : "in each load step they dissipate the energy of a quarter spacing "
-                               "of crack");
+               s->steps.control != CONTROL_ENERGY
+                   ? "the run ends at the first load step whose loads the body cannot carry"
+               : s->steps.energy > 0 ? "in each load step they dissipate steps.energy"
+               : s->dim == 1         ? "in each load step they dissipate a hundredth of the energy that parts the bar"
+                                     : "in each load step they dissipate the energy of a quarter spacing "
+                                       "of crack");
         return;
     }
     if (is_sif_driven(e))

@@ -163,8 +163,8 @@ static void print_fields(const struct output_frame *a, const struct output_frame
 static const char *particles_differ(const struct output_frame *a, const struct output_frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
-    if (a->n != b->n) return "the numbers of particles differ";
-    if (!arrays_equal(a->id, b->id, a->n, sizeof *a->id)) return "the particles are numbered differently";
+    if (a->n != b->n) return "the runs have different numbers of particles";
+    if (!arrays_equal(a->id, b->id, a->n, sizeof *a->id)) return "the runs number their particles differently";
     return NULL;
 }
 
@@ -387,7 +387,7 @@ static status read_words(struct pair *p, int argc, char **argv)
         if (argv[k][0] == '-')
             return status_set(REFUSED, "compare: unknown option %s; usage: cleave compare DIR DIR", argv[k]);
     if (argc != 3)
-        return status_set(REFUSED, "compare: give two folders, not %d; usage: cleave compare DIR DIR", argc - 1);
+        return status_set(REFUSED, "compare: got %d folders, but needs two; usage: cleave compare DIR DIR", argc - 1);
     for (int k = 0; k < 2; k++) {
         p->folder[k] = argv[k + 1];
         if (holds_run(p->folder[k])) continue;

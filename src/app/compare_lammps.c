@@ -29,7 +29,7 @@ static status lammps_time_step(const char *folder, double *dt)
     if (from) fclose(from);
     return *dt > 0 && isfinite(*dt)
                ? OK
-               : status_set(FAILED, "%s has no line `timestep`, from which the time of its frames would follow",
+               : status_set(FAILED, "%s has no line `timestep`, which gives the time of its frames; add it",
                             printable_name(path.text).text);
 }
 

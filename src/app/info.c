@@ -75,7 +75,7 @@ static void print_machine(void)
 
 status command_info_main(int argc, char **argv)
 {
-    if (argc > 1) return status_set(REFUSED, "info: takes no arguments; leave out %s", argv[1]);
+    if (argc > 1) return status_set(REFUSED, "info: takes no arguments; remove %s", argv[1]);
     print_build();
     print_machine();
     if (fflush(stdout) != 0 || ferror(stdout)) return status_set(FAILED, "standard output: %s", strerror(errno));

@@ -57,7 +57,8 @@ static status read_times(struct plot_words *w, const char *text)
         else if (strcmp(word, "last") == 0)
             r->time[r->times++] = INFINITY;
         else if (!time_read(&time, word, what, sizeof what))
-            s = status_set(REFUSED, "plot: --times %s: %s; or last, or all alone", printable_name(word).text, what);
+            s = status_set(REFUSED, "plot: --times %s: %s; give times, or last, or the single word all",
+                           printable_name(word).text, what);
         else
             r->bare[r->times] = !word[strspn(word, "0123456789")], r->time[r->times++] = time;
     }
@@ -244,7 +245,7 @@ static status settle_format(struct plot_words *w)
     return status_set(
         REFUSED,
         w->format
-            ? "plot: -o %s: its ending does not fit --format %s; give one of the two"
+            ? "plot: -o %s: its ending does not fit --format %s; change the ending, or remove --format"
             : "plot: -o %s: give a file that ends in .png, .svg, .pdf, .mp4 or .gif, or a folder with / at its end",
         printable_name(out).text, w->format);
 }
@@ -258,7 +259,8 @@ static status words_together(const struct plot_words *w)
         return status_set(REFUSED,
                           "plot: --scene draws a scene before it runs, so it takes no folder, field, time or slice");
     if (w->times && w->frames)
-        return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: give one of them",
+        return status_set(REFUSED,
+                          "plot: --times %s and --frames (or --times) %s exclude each other: remove one of the two",
                           printable_name(w->times).text, printable_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_is_film(r->format))
         return status_set(REFUSED,
@@ -273,9 +275,9 @@ static status words_together(const struct plot_words *w)
         return status_set(REFUSED, "plot: --fps is for films; add --format mp4 or gif");
     if (r->range[0] && !r->field) return status_set(REFUSED, "plot: --range limits the values of --field; give both");
     if (r->cropped && r->projection.outside)
-        return status_set(REFUSED, "plot: --crop is for plane runs and slices, not for --view; remove one");
+        return status_set(REFUSED, "plot: --crop is for plane runs and slices, not for --view; remove one of the two");
     if (r->projection.outside && r->projection.normal >= 0)
-        return status_set(REFUSED, "plot: --slice shows the inside, but --view the outside: give one of them");
+        return status_set(REFUSED, "plot: --slice shows the inside, but --view the outside: remove one of the two");
     if (!w->scene.scene && !r->folder)
         return status_set(REFUSED, "plot: no folder of a run is given; usage: cleave %s", usage);
     return OK;
@@ -291,7 +293,7 @@ static status plot_words_read(struct plot_words *w, int argc, char **argv)
             TRY(read_option(w, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
             k++;
         } else if (w->request.folder) {
-            return status_set(REFUSED, "plot: %s is a second folder; give one", argv[k]);
+            return status_set(REFUSED, "plot: %s is a second folder; give only one", argv[k]);
         } else
             w->request.folder = argv[k];
     }

@@ -83,7 +83,8 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
     }
     if (!a->scene) return status_set(REFUSED, "no scene given; usage: cleave %s", usage);
     if (a->list && a->collect)
-        return status_set(REFUSED, "--list runs nothing, and --collect only reads finished runs: give one of them");
+        return status_set(REFUSED,
+                          "--list runs nothing, and --collect only reads finished runs: remove one of the two");
     if (a->keys == 0)
         return status_set(REFUSED, "no key has several values, so nothing varies; usage: cleave %s", usage);
     return OK;

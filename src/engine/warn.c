@@ -179,7 +179,7 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
         if (!region_is_met(frame, p, &s->series[k].region))
             warnings_add_if_new(to,
                                 "output.regions: %s holds no particle, so its frames will be empty: check its "
-                                "coordinates and their unit (mm?)",
+                                "coordinates and their unit (m if none is written)",
                                 s->series[k].name);
 }
 
@@ -190,10 +190,10 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
 {
     for (int b = 0; b < l->n; b++)
         if (l->load[b].n == 0 && s->boundary[b].kind == BOUNDARY_VELOCITY)
-            warnings_add_if_new(to, "boundary %s holds no particle%s; %s: check its region and the unit (mm?)",
-                                s->boundary[b].name,
-                                s->method == METHOD_PD ? "" : " and acts on grid nodes in its region only",
-                                particles_extent_text(p).text);
+            warnings_add_if_new(
+                to, "boundary %s holds no particle%s; %s: check its region and the unit (m if none is written)",
+                s->boundary[b].name, s->method == METHOD_PD ? "" : " and acts on grid nodes in its region only",
+                particles_extent_text(p).text);
 }
 
 /* Adds a warning to *to if the time step of `clock` is above the critical time step, with which the run of scene s is
@@ -203,7 +203,7 @@ static void warn_of_step(const struct scene *s, const struct run_clock *clock, s
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
     warnings_add_if_new(to,
                         "the time step is too large: time.step is %.4g s, %.3g times the critical %.4g s, so the run "
-                        "will be unstable; leave time.step out, or use at most %.3g s",
+                        "will be unstable; remove time.step, or use at most %.3g s",
                         clock->dt, clock->dt / clock->dt_critical, clock->dt_critical, 0.8 * clock->dt_critical);
 }
 

@@ -78,7 +78,7 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
         far++;
         warnings_add_if_new(to,
                             "crack %d is outside all bodies, %.3g m from the nearest particle, and has no effect: "
-                            "check its coordinates and their unit (mm?)",
+                            "check its coordinates and their unit (m if none is written)",
                             k + 1, crack_distance(c, p));
     }
     return far > 0;
@@ -125,7 +125,8 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
             warnings_add_if_new(
                 to,
                 "crack %d ends nowhere inside a body, so that it cannot grow and may cut the body in two: its "
-                "end at (%s) m is %.3g m from the nearest particle; check its coordinates and their unit (mm?); "
+                "end at (%s) m is %.3g m from the nearest particle; check its coordinates and their unit (m if none is "
+                "written); "
                 "if this is intended, add accept: [growth]",
                 k + 1, position_text(c->corner[end], p->dim, 6).text, outside);
             return;
@@ -177,13 +178,15 @@ static void warn_of_growths(const struct scene *s, const struct particles *p, st
         const struct growth_rule *g = &s->growth[k];
         const real outside = particle_distance(p, g->at), growth = g->speed * (s->duration - g->start);
         if (outside > s->horizon * s->spacing && p->n == p->n_body)
-            warnings_add_if_new(
-                to, "growth %s: its tip starts %.3g m from the nearest particle: check `at` and its unit (mm?)",
-                g->name, outside);
+            warnings_add_if_new(to,
+                                "growth %s: its tip starts %.3g m from the nearest particle: check `at` and its unit "
+                                "(m if none is written)",
+                                g->name, outside);
         if (g->start >= s->duration)
-            warnings_add_if_new(
-                to, "growth %s: starts at %.3g s, after the duration of %.3g s: check the unit of start (us?)", g->name,
-                g->start, s->duration);
+            warnings_add_if_new(to,
+                                "growth %s: starts at %.3g s, after the duration of %.3g s: check the unit of start (s "
+                                "if none is written)",
+                                g->name, g->start, s->duration);
         else if (growth < s->spacing)
             warnings_add_if_new(to,
                                 "growth %s: at %.3g m/s it grows by %.3g m in the run, less than a spacing of %.3g m: "
@@ -208,8 +211,9 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, longest_bond, warnings)) return;
     tips_make_at_precrack_ends(&tips, p, cells, s->crack, s->cracks, s->spacing, 0);
     if (!bonds_are_cut(b))
-        warnings_add_if_new(warnings,
-                            "the pre-cracks cut no bond: check that they are inside the body, and their unit (mm?)");
+        warnings_add_if_new(
+            warnings,
+            "the pre-cracks cut no bond: check that they are inside the body, and their unit (m if none is written)");
     else
         warn_of_fixed_cracks(s, p, loads, &tips, longest_bond, warnings);
     engine_warn_of_cracks_beyond_waves(s, p, loads, &tips, wave_speed, warnings);

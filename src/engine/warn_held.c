@@ -17,9 +17,10 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
     const struct boundary *b = l->boundary;
     const unsigned all = (1u << s->dim) - 1;
     if (!boundary_holds_at_rest(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all) return;
-    warnings_add_if_new(
-        to, "boundary %s holds all %lld particles, so nothing can move; check the units of its region (mm?)", b->name,
-        (long long)l->n);
+    warnings_add_if_new(to,
+                        "boundary %s holds all %lld particles, so nothing can move; check the units of its region (m "
+                        "if none is written)",
+                        b->name, (long long)l->n);
 }
 
 /* Returns true if load l prescribes a motion whose displacement is known at all times. */
@@ -118,7 +119,7 @@ static void warn_of_idle_forces(const struct scene *s, const struct loads *loads
             if (!(idle > IDLE_SHARE * all)) continue;
             warnings_add_if_new(to,
                                 "boundary %s: %.3g %% of its force along %c acts on particles whose motion along %c a "
-                                "support prescribes, and does nothing: leave one of them out, or give each a face or "
+                                "support prescribes, and does nothing: remove one of them, or give each a face or "
                                 "region of its own",
                                 l->boundary->name, 100 * idle / all, "xyz"[d], "xyz"[d]);
         }

@@ -126,11 +126,12 @@ static void warn_of_empty_parts(const struct scene *s, const struct particles *p
         }
         for (int k = 0; k < body->parts; k++)
             if (!held[k] && !region_beyond_mirror(s, &body->part[k].region))
-                warnings_add_if_new(to,
-                                    "body %s: its part %d, of material %s, holds no particle, because it is outside "
-                                    "the body, thinner than the spacing, or covered by a later part: check its region "
-                                    "and the unit (mm?), or remove the part: its material counts in the time step",
-                                    body->name, k + 1, s->material[body->part[k].material].name);
+                warnings_add_if_new(
+                    to,
+                    "body %s: its part %d, of material %s, holds no particle, because it is outside "
+                    "the body, thinner than the spacing, or covered by a later part: check its region and the unit (m "
+                    "if none is written), or remove the part: its material counts in the time step",
+                    body->name, k + 1, s->material[body->part[k].material].name);
         memory_free(held);
     }
 }
@@ -166,11 +167,12 @@ static void warn_of_mirror_beside(const struct scene *s, const struct particles 
     const char *effect = bonds || nodes ? "holds the body too softly across the gap"
                          : meets        ? "only acts on the body by contact with its mirror image"
                                         : "has no effect";
-    warnings_add_if_new(to,
-                        "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, but "
-                        "should be half a spacing (%.3g m) away: it %s (%s); check its position and unit (mm?)",
-                        mirror->name, "xyz"[mirror->axis], mirror -> at, distance, 0.5 * s -> spacing, effect,
-                        particles_extent_text(p).text);
+    warnings_add_if_new(
+        to,
+        "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, but "
+        "should be half a spacing (%.3g m) away: it %s (%s); check its position and unit (m if none is written)",
+        mirror->name, "xyz"[mirror->axis], mirror -> at, distance, 0.5 * s -> spacing, effect,
+        particles_extent_text(p).text);
 }
 
 void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
@@ -184,11 +186,13 @@ void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struc
     }
     for (int k = 0; k < s->initials; k++)
         if (!initial_is_met(s, p, k))
-            warnings_add_if_new(warnings,
-                                "initial[%d]: no particle is in its region; %s: check the region and its unit (mm?)", k,
-                                particles_extent_text(p).text);
+            warnings_add_if_new(
+                warnings,
+                "initial[%d]: no particle is in its region; %s: check the region and its unit (m if none is written)",
+                k, particles_extent_text(p).text);
     warn_of_empty_parts(s, p, warnings);
     if (s->has_pd_region && !region_holds_particle(s, p, &s->pd_region, -1))
-        warnings_add_if_new(warnings, "pd.region: no particle is in it; %s: check the region and its unit (mm?)",
+        warnings_add_if_new(warnings,
+                            "pd.region: no particle is in it; %s: check the region and its unit (m if none is written)",
                             particles_extent_text(p).text);
 }

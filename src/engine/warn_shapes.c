@@ -56,9 +56,10 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
     if (!region_compute_bounding_box_if_finite(&before, dim, low, high)) return;
     const real apart = boxes_common(&b->shape.solid[k], dim, low, high);
     if (apart > 0)
-        warnings_add_if_new(
-            to, "body %s: solid %d of its shape removes nothing: it is %.3g m from the body; check its units (mm?)",
-            b->name, k + 1, apart);
+        warnings_add_if_new(to,
+                            "body %s: solid %d of its shape removes nothing: it is %.3g m from the body; check its "
+                            "units (m if none is written)",
+                            b->name, k + 1, apart);
     else if (!point_found(&b->shape.solid[k], &before, dim, true, low, high))
         warnings_add_if_new(
             to, "body %s: solid %d of its shape removes nothing, because it is outside the body; check its position",

@@ -31,37 +31,35 @@ static const struct {
     real least, most;
     const char *what, *unit, *look;
 } rule[RULES] = {
-    [ACCEPT_WAVES] = {10, 20e3, "the speed of its waves is", " m/s", "young (GPa?) and density (kg/m^3)"},
+    [ACCEPT_WAVES] = {10, 20e3, "the speed of its waves is", " m/s", "young (Pa) and density (kg/m^3)"},
     [ACCEPT_STRETCH] =
         {1e-6, 0.05, "its bonds break at a stretch of", "",
-         "critical_stretch (%?), energy_release_rate (J/m^2) or toughness (MPa m^0.5), young and spacing"},
+         "critical_stretch (0.01 is 1 %), energy_release_rate (J/m^2) or toughness (MPa m^0.5), young and spacing"},
     [ACCEPT_STRESS] = {1e-2, 1e3,
                        "the largest stress that its loads, speeds and displacements can cause, over the strength, is",
                        "", "loads (Pa), speeds (m/s), displacements (m) and the keys that let bonds break"},
-    [ACCEPT_STRAIN] = {0, 0.05, "its load over Young's modulus is", "", "the load and young (MPa? GPa?)"},
-    [ACCEPT_STEPS] = {20, 1e8, "the number of time steps is", "", "duration, spacing (mm?), young and density"},
-    [ACCEPT_REACH] = {1, INFINITY, "in the duration waves travel", " spacings",
-                      "duration, lengths (mm?) and young (GPa?)"},
+    [ACCEPT_STRAIN] = {0, 0.05, "its load over Young's modulus is", "", "the load and young (Pa)"},
+    [ACCEPT_STEPS] = {20, 1e8, "the number of time steps is", "", "duration, spacing (m), young and density"},
+    [ACCEPT_REACH] = {1, INFINITY, "in the duration waves travel", " spacings", "duration, lengths (m) and young (Pa)"},
     [ACCEPT_PARTICLES] = {8, INFINITY, "it has a crack, and its least number of particles across is", "",
-                          "spacing and lengths (mm?)"},
+                          "spacing and lengths (m)"},
     [ACCEPT_DENSITY] = {0.5, 3e4, "its density is", " kg/m^3", "density (kg/m^3; g/cm^3?)"},
-    [ACCEPT_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "",
-                      "yield_stress (MPa?) and young (GPa?)"},
+    [ACCEPT_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "", "yield_stress (Pa) and young (Pa)"},
     [ACCEPT_PASSAGES] = {0, 2000, "the number of times that waves cross the bodies in the duration is", "",
-                         "duration (ms for us?), lengths (mm?) and young (GPa?)"},
+                         "duration (s), lengths (m) and young (Pa)"},
     [ACCEPT_THICKNESS] = {0, 10, "in plane stress its thickness over the longest edge of its bodies is", "",
-                          "thickness and lengths (mm?)"},
+                          "thickness and lengths (m)"},
     [ACCEPT_ENERGY] = {0.03, 1e6, "its energy release rate is", " J/m^2", "energy_release_rate (J/m^2)"},
-    [ACCEPT_HEAT] = {50, 2e4, "its specific heat is", " J/(kg K)", "specific_heat (J/(kg K); kJ/(kg K)?)"},
+    [ACCEPT_HEAT] = {50, 2e4, "its specific heat is", " J/(kg K)", "specific_heat (J/(kg K))"},
     [ACCEPT_GROWTH] =
         {0.1, INFINITY,
          "no crack can grow: the energy that one as long as the body could release, over the energy release rate, is",
-         "", "energy_release_rate (J/m^2; kJ?), loads (Pa), lengths (mm?) and young (GPa?)"},
-    [ACCEPT_MASS] = {50, 25e3, "its mass over its volume is", " kg/m^3", "mass (kg; g?) and lengths (mm?)"},
+         "", "energy_release_rate (J/m^2), loads (Pa), lengths (m) and young (Pa)"},
+    [ACCEPT_MASS] = {50, 25e3, "its mass over its volume is", " kg/m^3", "mass (kg) and lengths (m)"},
     [ACCEPT_BRITTLENESS] = {0, 30, "its length E G_c/tensile_strength^2 over the longest edge of the bodies is", "",
-                            "energy_release_rate (J/m^2; kJ?), tensile_strength (MPa?) and lengths (mm?)"},
+                            "energy_release_rate (J/m^2), tensile_strength (Pa) and lengths (m)"},
     [ACCEPT_TIMES] = {0.1, INFINITY, "the largest load within the duration, over the largest at any time, is", "",
-                      "its times (us?) and duration"},
+                      "its times (s) and duration"},
 };
 
 /* Adds a warning to *to if `value` is outside least .. most, unless the scene accepts implausible values of the
@@ -124,7 +122,7 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
         if (constant[k].value > 0 && constant[k].value < HARDENING_LEAST * a->young)
             warnings_add_if_new(to,
                                 "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so it does not harden: "
-                                "check the unit (MPa?); if this is intended, add accept: [yield]",
+                                "check the unit (Pa if none is written); if this is intended, add accept: [yield]",
                                 subject, constant[k].key, constant[k].value);
 }
 
@@ -138,7 +136,7 @@ static void units_of_toughness(const struct scene *s, const char *name, const st
     warnings_add_if_new(
         to,
         "%s: its toughness of %.3g MPa m^0.5 (%.3g J/m^2, %.3g Pa) is below %.3g (glass: 0.75): check the units of "
-        "energy_release_rate (J/m^2; kJ?) and young; if this is intended, add accept: [energy]",
+        "energy_release_rate (J/m^2) and young; if this is intended, add accept: [energy]",
         name, 1e-6 * toughness, m->energy_release_rate, m->young, 1e-6 * TOUGHNESS_LEAST);
 }
 
@@ -233,10 +231,11 @@ static void units_of_times(const struct scene *s, real dt, struct warnings *to)
         snprintf(subject, sizeof subject, "boundary %s", s->boundary[b].name);
         if (most > 0) units_judge(s, ACCEPT_TIMES, subject, factor_largest_until(f, s->duration) / most, "", to);
         if (scene_is_dynamic(s) && end < EARLY * dt && !scene_silences_warning(s, ACCEPT_TIMES))
-            warnings_add_if_new(to,
-                                "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so "
-                                "%s: check the units of its times (us?); if this is intended, add accept: [times]",
-                                subject, end, dt, early[f->kind]);
+            warnings_add_if_new(
+                to,
+                "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so "
+                "%s: check the units of its times (s if none is written); if this is intended, add accept: [times]",
+                subject, end, dt, early[f->kind]);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         snprintf(subject, sizeof subject, "body %s", s->body[b].name);
@@ -390,7 +389,7 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     if (stress == 0 && !scene_silences_warning(s, ACCEPT_STRESS)) {
         warnings_add_if_new(to,
                             "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g "
-                            "s; check their values and times (us?); if this is intended, add accept: [stress]",
+                            "s; check their values and times (s); if this is intended, add accept: [stress]",
                             s->duration);
         return;
     }

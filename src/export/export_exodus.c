@@ -76,7 +76,8 @@ static status frames_open(struct exodus_export *x)
     struct output_frame f;
     TRY(run_list_frames(x->folder, &x->frames, &x->frame));
     if (x->frames == 0)
-        return status_set(REFUSED, "%s: has no frames; give a finished run", printable_name(x->folder).text);
+        return status_set(REFUSED, "%s: this run has no frames; give one that is finished",
+                          printable_name(x->folder).text);
     const struct path path = run_frame_path(x->folder, x->frame[0].number);
     TRY(frame_read(&f, path.text));
     for (int k = 0; k < FIELDS; k++) {
@@ -121,8 +122,8 @@ static status exodus_frame_write(struct exodus_export *x, int k)
         int columns = 0;
         if (x->width[field] > 0) s = frame_field_read(&f, path.text, fields[field].name, &columns, &value[field]);
         if (s == OK && columns != x->width[field])
-            s = status_set(REFUSED, "%s: %s has other components than in the first frame", path.text,
-                           fields[field].name);
+            s = status_set(REFUSED, "%s: %s has other components than in the first frame; run the scene again",
+                           path.text, fields[field].name);
     }
     real *numbers = NEW("export.numbers", m->n, real);
     if (s == OK) netcdf_write_reals(&x->w, 1, &f.t);
@@ -384,8 +385,9 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
 {
     TRY(export_mesh_make(&x->mesh, scene));
     if (x->mesh.n > NETCDF_NUMBERS_MOST)
-        return status_set(REFUSED, "%s: %lld particles; an Exodus file can have at most %d", scene->scene,
-                          (long long)x->mesh.n, NETCDF_NUMBERS_MOST);
+        return status_set(REFUSED,
+                          "%s: %lld particles are more than the %d of an Exodus file; use a larger particles.spacing",
+                          scene->scene, (long long)x->mesh.n, NETCDF_NUMBERS_MOST);
     if (x->folder) TRY(frames_open(x));
     snprintf(x->title, sizeof x->title, "%.40s%s %s", x->mesh.scene.name, EXODUS_SIGN, CLEAVE_VERSION);
     return export_write_file_and_rename(x->request->folder, exodus_put, x);

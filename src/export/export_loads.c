@@ -49,7 +49,7 @@ static status load_carries(const struct load *load)
     else if (b->kind == BOUNDARY_ABSORBING)
         why = "absorbing faces cannot be exported; use a larger body";
     else if (!is_force(load) && b->kind != BOUNDARY_VELOCITY)
-        why = "this kind of load cannot be exported to LAMMPS";
+        why = "this kind of load cannot be exported to LAMMPS; use traction, body_force, velocity or fixed";
     else if (has_formula(b) || b->rotates)
         why = "formulas and rotation cannot be exported to LAMMPS; use numbers and a function of time";
     else if (!function_carries(&b->time))
@@ -66,7 +66,7 @@ status lammps_find_loads_of_particles(struct exported *exported)
     const struct loads *l = &exported->e->loads;
     for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
     if (l->n > LOADS_MOST)
-        return status_set(REFUSED, "%s: %d loads, but LAMMPS has groups for %d only; use fewer",
+        return status_set(REFUSED, "%s: %d loads, but LAMMPS has groups for %d only; use fewer loads",
                           printable_name(exported->s->path).text, l->n, LOADS_MOST);
     exported->loads = NEW("export.loads", exported->e->part.n, uint32_t);
     for (int k = 0; k < l->n; k++)

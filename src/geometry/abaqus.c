@@ -84,7 +84,8 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
         if (!abaqus_read_field(d->s, field)) {
             source_skip_to_next_line(d->s);
             if (!abaqus_find_data_line(d->s))
-                return source_report_fault(d->s, "an element of a type with %d nodes lists only %d", size->nodes, k);
+                return source_report_fault(
+                    d->s, "an element of a type with %d nodes lists only %d; add the missing nodes", size->nodes, k);
             continue;
         }
         TRY(abaqus_parse_label(d->s, field, &label));
@@ -95,8 +96,9 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
         k++;
     }
     if (!abaqus_read_field(d->s, field) || field[0] == '\0') return OK;
-    return source_report_fault(d->s, "an element of a type with %d nodes lists more, such as %.20s", size->nodes,
-                               field);
+    return source_report_fault(d->s,
+                               "an element of a type with %d nodes lists more, such as %.20s; remove the surplus ones",
+                               size->nodes, field);
 }
 
 /* Reads the data lines of *ELEMENT in deck d, each a label and nodes. If the keyword has the parameter ELSET, the
@@ -138,7 +140,7 @@ static status generate_line(struct deck *d, int set)
     char field[FIELD];
     for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_label(d->s, field, &bound[k]));
     if (bound[2] < 1 || bound[1] < bound[0])
-        return source_report_fault(d->s, "a set with GENERATE needs first, last and step");
+        return source_report_fault(d->s, "a set with GENERATE lacks first, last or step; give all three");
     d->generated += (bound[1] - bound[0]) / bound[2] + 1;
     if (d->generated > GENERATED_MOST * d->length)
         return source_report_fault(d->s, "sets list more nodes or elements than the file has; it is damaged");
@@ -256,8 +258,9 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
 {
     const int64_t index = label_map_find(&scope->node_of, *node);
     if (index < 0)
-        return source_report_fault(d->s, "element %lld has node %d, but its part has no such node",
-                                   (long long)d->m->element_label[k], (int)*node);
+        return source_report_fault(
+            d->s, "element %lld has node %d, but its part has no such node; define it, or correct the element",
+            (long long)d->m->element_label[k], (int)*node);
     *node = (int32_t)index;
     return OK;
 }
@@ -273,9 +276,9 @@ static status scope_end(struct deck *d)
     label_map_make(&scope->node_of, m->node_label + scope->node, scope->node, m->nodes - scope->node);
     label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
     if (label_map_find_duplicate(&scope->node_of, &twice))
-        return source_report_fault(d->s, "node %lld is given twice", (long long)twice);
+        return source_report_fault(d->s, "node %lld is given twice; remove one of the two", (long long)twice);
     if (label_map_find_duplicate(&scope->element_of, &twice))
-        return source_report_fault(d->s, "element %lld is given twice", (long long)twice);
+        return source_report_fault(d->s, "element %lld is given twice; remove one of the two", (long long)twice);
     for (int64_t k = scope->element; k < m->elements; k++) {
         struct element *e = &m->element[k];
         for (int c = 0; c < element_corners[e->kind]; c++) TRY(node_resolve(d, scope, k, &e->node[c]));
@@ -322,8 +325,8 @@ static status instance_read(struct deck *d)
     real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
     if (scope < 0)
-        return source_report_fault(d->s, "an instance uses part %.40s, but the file has no such part",
-                                   part ? part : "?");
+        return source_report_fault(
+            d->s, "an instance uses part %.40s, but the file has no such part; check its spelling", part ? part : "?");
     struct scope *p = &d->scope[scope];
     if (p->placed)
         return source_report_fault(d->s, "part %.40s is in the assembly twice; give each instance a part of its own",
@@ -362,13 +365,14 @@ static status input_read(struct deck *d, status (*read)(struct deck *d), bool ke
     const int before = slash && *name != '/' ? (int)(slash - folder) + 1 : 0;
     if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
         return source_report_fault(d->s, "the name of an included file is too long; shorten it");
-    if (d->depth >= DEPTH_MAX) return source_report_fault(d->s, "more than %d files include each other", DEPTH_MAX);
+    if (d->depth >= DEPTH_MAX)
+        return source_report_fault(d->s, "more than %d files include each other; put them into one file", DEPTH_MAX);
     if (source_read_whole_file(&file, path) != OK)
         return source_report_fault(d->s, "*%s: %.200s", keyword, status_message());
     d->s = &file, d->depth++, d->length += file.length;
     status s = OK;
     if (keywords && abaqus_find_data_line(&file))
-        s = source_report_fault(&file, "an included file does not begin with a keyword, such as *NODE");
+        s = source_report_fault(&file, "an included file does not begin with a keyword; add one, such as *NODE");
     if (s == OK) s = read(d);
     while (s == OK && abaqus_find_data_line(&file)) source_skip_to_next_line(&file); /* of types that are left out */
     if (s == OK && file.at < file.length)
@@ -429,7 +433,8 @@ status abaqus_read(struct element_mesh *m, struct source *s)
     status result = keywords_read(&d);
     if (result == OK) result = scope_end(&d);
     if (result == OK && m->nodes == 0)
-        result = source_report_fault(s, "no *NODE, so this is not a mesh in the format of Abaqus");
+        result = source_report_fault(
+            s, "has no *NODE, so this is not a mesh in the format of Abaqus; give one, or a file of another kind");
     for (int k = 0; k < d.scopes; k++) {
         label_map_free(&d.scope[k].node_of);
         label_map_free(&d.scope[k].element_of);

@@ -342,7 +342,8 @@ static status check_elements_differ(const struct element_mesh *m, const char *pa
     memory_free(list);
     if (doubles == 0) return OK;
     const long long first = m->element_label[pair[0]], other = m->element_label[pair[1]];
-    if (first == other) return status_set(REFUSED, "%s: element %lld is given twice", path, first);
+    if (first == other)
+        return status_set(REFUSED, "%s: element %lld is given twice; remove one of the two", path, first);
     return status_set(REFUSED,
                       "%s: %lld element%s the corners of another one (element %lld has those of element %lld); keep "
                       "each element once",

@@ -97,7 +97,7 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = -1;
     for (int k = 0; k < nodes; k++) {
         if (label[k] < 1 || label[k] > x->m->nodes)
-            return exodus_report_fault(&x->file, "element %lld has node %lld; a number from 1 to %lld is expected",
+            return exodus_report_fault(&x->file, "element %lld has node %lld; give its nodes numbers from 1 to %lld",
                                        (long long)x->elements + 1, (long long)label[k], (long long)x->m->nodes);
         const int slot = k < corners ? -1 : middle_at[kind][k - corners];
         if (k < corners) node[k] = (int32_t)(label[k] - 1);
@@ -126,7 +126,8 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
         memory_free(number);
     }
     *set = element_mesh_find_or_create_set(x->m, name, of_nodes);
-    return *set >= 0 ? OK : exodus_report_fault(&x->file, "more than %d blocks and sets", ELEMENT_SETS_MAX);
+    return *set >= 0 ? OK
+                     : exodus_report_fault(&x->file, "has more than %d blocks and sets; join some", ELEMENT_SETS_MAX);
 }
 
 /* Appends the elements of block `number` (from 1) of the file x to the mesh, and makes a set of them. Returns REFUSED,
@@ -292,7 +293,7 @@ static status mesh_read(struct exodus *x)
     const struct exodus_file *f = &x->file;
     if (f->blocks > ELEMENT_SETS_MAX || f->side_sets > ELEMENT_SETS_MAX || f->node_sets > ELEMENT_SETS_MAX ||
         f->element_sets > ELEMENT_SETS_MAX)
-        return exodus_report_fault(f, "more than %d blocks and sets", ELEMENT_SETS_MAX);
+        return exodus_report_fault(f, "has more than %d blocks and sets; join some", ELEMENT_SETS_MAX);
     TRY(nodes_add(x));
     for (int64_t k = 1; k <= f->blocks; k++) TRY(element_block_add(x, k));
     for (int64_t k = 1; k <= f->side_sets; k++) TRY(side_set_add(x, k));

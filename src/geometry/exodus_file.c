@@ -142,7 +142,7 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t nam
  * not have n numbers, contains letters, or is larger than its file can be. */
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
-    if (!array_find(f, name, a)) return exodus_report_fault(f, "array %s is missing", name);
+    if (!array_find(f, name, a)) return exodus_report_fault(f, "lacks the array %s; write the file again", name);
     if (a->type == EXODUS_CHAR) return exodus_report_fault(f, "array %s contains letters instead of numbers", name);
     if (a->extent[0] * a->extent[1] != n)
         return exodus_report_fault(f, "array %s has %lld x %lld numbers; %lld are expected", name,
@@ -174,7 +174,8 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
         s = exodus_report_fault(f, "array %s cannot be read: the file is damaged", called);
     for (int64_t k = 0; k < n && s == OK && real_value; k++)
         if (!isfinite(real_value[k]))
-            s = exodus_report_fault(f, "array %s: number %lld is not finite", called, (long long)k + 1);
+            s = exodus_report_fault(f, "array %s: number %lld is infinite or not a number; correct it", called,
+                                    (long long)k + 1);
     if (s != OK) {
         memory_free(real_value), memory_free(whole_value);
         return s;

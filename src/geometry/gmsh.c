@@ -103,7 +103,8 @@ static status node_next(struct gmsh *g, int32_t *index)
     TRY((g->old ? source_read_int32 : source_read_int64)(g->s, "node of an element", &label));
     const int64_t found = label_map_find(&g->node, label);
     if (found < 0)
-        return source_report_fault(g->s, "an element has node %lld, but $Nodes does not define it", (long long)label);
+        return source_report_fault(g->s, "an element has node %lld, but $Nodes does not define it; save the mesh again",
+                                   (long long)label);
     *index = (int32_t)found;
     return OK;
 }
@@ -151,7 +152,7 @@ static status nodes_known(struct gmsh *g)
     int64_t twice;
     label_map_make(&g->node, g->m->node_label, 0, g->m->nodes);
     if (!label_map_find_duplicate(&g->node, &twice)) return OK;
-    return source_report_fault(g->s, "node %lld is given twice", (long long)twice);
+    return source_report_fault(g->s, "node %lld is given twice; remove one of the two", (long long)twice);
 }
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
@@ -425,7 +426,7 @@ static status format_read(struct gmsh *g)
             g->s, "Gmsh's file format %s is not supported; save it as 4.1 (gmsh -save -format msh41) or 2.2", version);
     TRY(source_read_integer(g->s, "kind of file", &bytes));
     TRY(source_read_integer(g->s, "size of numbers", &size));
-    if (size != 8) return source_report_fault(g->s, "numbers have %lld bytes; 8 are expected", (long long)size);
+    if (size != 8) return source_report_fault(g->s, "numbers have %lld bytes; save them with 8", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
     source_skip_to_next_line(g->s);
@@ -474,7 +475,7 @@ static status section_read(struct gmsh *g, const char *name)
     if (strcmp(name, "$PartitionedEntities") == 0)
         return source_report_fault(g->s, "the mesh has partitions; save it without them");
     if (strcmp(name, "$Nodes") == 0 && g->node.entry)
-        return source_report_fault(g->s, "there is a second section of nodes; keep one");
+        return source_report_fault(g->s, "has a second section of nodes; remove one of the two");
     for (size_t k = 0; k < COUNT_OF(sections); k++) {
         if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
         if (!g->old && g->bytes && k > 0) source_skip_to_next_line(g->s);
@@ -493,7 +494,8 @@ static status sections_read(struct gmsh *g)
     char name[40];
     source_read_word(g->s, name, sizeof name);
     if (strcmp(name, "$MeshFormat") != 0)
-        return source_report_fault(g->s, "does not begin with $MeshFormat, so it is not a mesh of Gmsh");
+        return source_report_fault(g->s,
+                                   "does not begin with $MeshFormat, so it is not a mesh of Gmsh; save it by Gmsh");
     TRY(format_read(g));
     section_skip(g->s, name);
     while (source_skip_blanks(g->s)) {

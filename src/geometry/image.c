@@ -14,7 +14,7 @@ status pages_append_page(struct pages *p, const struct source *s, int64_t width,
 {
     const int64_t memory = machine_memory_size();
     const real all = (real)width * (real)height * (real)(p->n + 1);
-    if (width < 1 || height < 1) return status_set(REFUSED, "%s: the image has no pixels", s->path);
+    if (width < 1 || height < 1) return status_set(REFUSED, "%s: the image has no pixels; give another one", s->path);
     if (p->n > 0 && (width != p->width || height != p->height))
         return status_set(
             REFUSED,

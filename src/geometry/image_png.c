@@ -75,7 +75,8 @@ status png_read_pages(struct pages *p, struct source *s)
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_read_struct(&png, NULL, NULL);
-        return status_set(FAILED, "%s: libpng cannot start; memory may be short", s->path);
+        return status_set(FAILED, "%s: libpng cannot start, probably for lack of memory; free memory and try again",
+                          s->path);
     }
     if (setjmp(png_jmpbuf(png)) == 0) {
         png_set_read_fn(png, s, bytes_next);

@@ -55,7 +55,8 @@ static status binary_read(struct element_mesh *m, struct source *s)
                 X[d] = value;
                 /* infinite or NaN: all exponent bits are set */
                 if ((bits & 0x7F800000u) == 0x7F800000u)
-                    return source_report_fault(s, "triangle %lld: a coordinate is not finite", (long long)k);
+                    return source_report_fault(s, "triangle %lld: a coordinate is infinite or not a number; correct it",
+                                               (long long)k);
             }
             TRY(corner_add(m, s, X));
         }
@@ -78,7 +79,7 @@ static status words_read(struct element_mesh *m, struct source *s)
             for (int d = 0; d < 3; d++) TRY(source_read_real(s, "coordinate", &X[d]));
             TRY(corner_add(m, s, X));
         } else if (strcasecmp(word, "endfacet") == 0 && m->nodes % 3 != 0) {
-            return source_report_fault(s, "a facet has %d corners; three are expected", (int)(m->nodes % 3));
+            return source_report_fault(s, "a facet has %d corners; give three", (int)(m->nodes % 3));
         } else if (strcasecmp(word, "endsolid") == 0 || strcasecmp(word, "solid") == 0) {
             ended = strcasecmp(word, "endsolid") == 0;
             source_skip_to_next_line(s);

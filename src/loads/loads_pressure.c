@@ -117,8 +117,10 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
     struct pressed pressed = {area, follows ? &faces : NULL};
     if (any) pressure_visit_faces(boundary, boundaries, boundary_number, p, spacing, selected, face_pressed, &pressed);
     if (!any)
-        s = status_set(REFUSED, "boundary %s: no particle is in its region; %s: check the region and its unit (mm?)",
-                       b->name, particles_extent_text(p).text);
+        s = status_set(
+            REFUSED,
+            "boundary %s: no particle is in its region; %s: check the region and its unit (m if none is written)",
+            b->name, particles_extent_text(p).text);
     else if (follows)
         s = load_surface_make(l, &faces, boundary, boundaries, p, spacing);
     else if (!pressure_shares(l, p, area))

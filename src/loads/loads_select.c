@@ -159,8 +159,10 @@ status load_find_particles_of_boundary(struct load *l, const struct boundary *b,
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
     if (!any && (boundary_applies_force(b) || needs_face(b)))
-        return status_set(REFUSED, "boundary %s: no particle is in its region; %s: check the region and its unit (mm?)",
-                          b->name, particles_extent_text(p).text);
+        return status_set(
+            REFUSED,
+            "boundary %s: no particle is in its region; %s: check the region and its unit (m if none is written)",
+            b->name, particles_extent_text(p).text);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,
                       "boundary %s: seen from %c%c, other particles of the body are in front of every particle in its "

@@ -56,7 +56,7 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
                                   const struct cells_without_particles *hollow)
 {
     if (plane_with_fit(p, s, 0, hollow->absent, PLANE_MISFIT))
-        return "a plane of symmetry is not half a spacing away from its outermost layer of particles";
+        return "a plane of symmetry is not at half a spacing from its outermost layer of particles";
     if (scene_is_dynamic(s) && plane_with_fit(p, s, 0, hollow->absent, PLANE_APART))
         return "it starts away from a plane of symmetry, but may reach it";
     const int64_t pieces = mesh_count_connected_parts(p, &mpm->field[0].grid, hollow);

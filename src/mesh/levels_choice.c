@@ -210,18 +210,20 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
     if (c->why == LEVELS_AT_REST)
         snprintf(text, capacity, "no coarse cells: they save no time with a static solver");
     else if (c->why == LEVELS_NO_MESH)
-        snprintf(text, capacity, "no coarse cells: no material points are in the reference frame");
+        snprintf(text, capacity,
+                 "no coarse cells: they need material points in the reference frame, and there are none");
     else if (c->why == LEVELS_FEW)
         snprintf(text, capacity,
                  "no coarse cells: the body has only %lld particles, and they save time only from %d particles on",
                  (long long)c->particles, PAYS);
     else if (c->why == LEVELS_DAMPED)
-        snprintf(text, capacity, "no coarse cells: damping needs one time step for the whole body");
+        snprintf(text, capacity,
+                 "no coarse cells: they have time steps of their own, but damping needs one for the whole body");
     else if (c->why == LEVELS_LONG_STEP)
-        snprintf(
-            text, capacity,
-            "no coarse cells: time.step is %.2f of the critical time step, but they are stable only up to %.2f of it",
-            c->step_share, LEVELS_STEP_MOST);
+        snprintf(text, capacity,
+                 "no coarse cells: time.step is %.2f of the critical time step, but coarse cells are stable only up to "
+                 "%.2f of it; use a smaller time.step to get them",
+                 c->step_share, LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
         snprintf(text, capacity,
                  "no coarse cells: no part of the body is %d spacings thick, which %d cells of 4 spacings need",

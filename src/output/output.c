@@ -419,7 +419,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     struct path clean = {{0}};
     size_t length = strlen(folder);
     *o = (struct output){.compress = compress, .lock.fd = -1, .series[0].particles.number = -1};
-    if (length == 0) return status_set(REFUSED, "-o: give the name of a folder");
+    if (length == 0) return status_set(REFUSED, "-o is empty: give the name of a folder");
     if (length + PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     while (length > 1 && folder[length - 1] == '/') length--;

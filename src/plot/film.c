@@ -79,7 +79,8 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
     char *h264[] = {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-f", "mp4", to.text, NULL};
     if (!gif) memcpy(word + 16, h264, sizeof h264);
     *f = (struct ffmpeg){.to = -1, .complaints = tmpfile()};
-    if (!pipe_make(ends)) return status_set(FAILED, "%s: no connection to ffmpeg: %s", sheet.path, strerror(errno));
+    if (!pipe_make(ends))
+        return status_set(FAILED, "%s: cannot send frames to ffmpeg: %s", sheet.path, strerror(errno));
     interrupt_signals_block(true);
     f->process = (int)fork();
     if (f->process == 0) become_ffmpeg(word, ends[0], f->complaints ? fileno(f->complaints) : -1);

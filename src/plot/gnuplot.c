@@ -68,7 +68,7 @@ static status gnuplot_start(struct gnuplot *g)
     g->complaints = own < 0 ? NULL : fdopen(own, "w+"); /* an unlinked file in the folder of the picture */
     if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->path, strerror(errno));
     remove(g->aside);
-    if (pipe(ends) != 0) return status_set(FAILED, "%s: no connection to gnuplot: %s", g->path, strerror(errno));
+    if (pipe(ends) != 0) return status_set(FAILED, "%s: cannot send commands to gnuplot: %s", g->path, strerror(errno));
     signal(SIGPIPE, SIG_IGN); /* an early end of gnuplot becomes an error instead of a signal */
     g->process = (int)fork();
     if (g->process == 0) become_gnuplot(ends, fileno(g->complaints));
@@ -81,7 +81,7 @@ static status gnuplot_start(struct gnuplot *g)
     if (g->to != NULL) return OK;
     int cause = errno;
     close(ends[1]); /* an open copy of this end would keep gnuplot waiting for input */
-    return status_set(FAILED, "%s: no connection to gnuplot: %s", g->path, strerror(cause));
+    return status_set(FAILED, "%s: cannot send commands to gnuplot: %s", g->path, strerror(cause));
 }
 
 static void set_style(FILE *to)

@@ -175,7 +175,7 @@ status projection_complete_slice_from_particles(struct projection *projection, c
     if (fabs(near - projection->layer) > frame_particle_spacing(f)) {
         const struct unit metre = unit_for_length(fmax(fabs(from), fabs(to)));
         return status_set(REFUSED,
-                          "plot: --slice %c=%.4g %s: no particle is at this position; they are from %.4g to %.4g %s",
+                          "plot: --slice %c=%.4g %s: no particle is at this position; give one from %.4g to %.4g %s",
                           'x' + projection->normal, projection->layer / metre.factor, metre.name, from / metre.factor,
                           to / metre.factor, metre.name);
     }

@@ -118,7 +118,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
                           : r->projection.magnify > 0 ? "--magnify"
                                                       : NULL;
     if (of_maps)
-        return status_set(REFUSED, "plot: %s is for maps; a run in one dimension has curves, so remove it", of_maps);
+        return status_set(REFUSED, "plot: %s is for maps, but a run in one dimension has curves; remove the option",
+                          of_maps);
     if (picture_is_film(r->format))
         return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; use png, svg or pdf",
                           picture_ending[r->format]);
@@ -145,7 +146,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
 static status projection_check(const struct plot_request *r, int dim)
 {
     if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;
-    return status_set(REFUSED, "plot: %s is for runs in space; this one has %d dimension%s, so remove it",
+    return status_set(REFUSED,
+                      "plot: %s needs a run with space: solid, but this one has %d dimension%s; remove the option",
                       r->projection.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
 }
 

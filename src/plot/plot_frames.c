@@ -72,7 +72,7 @@ static status times_within(const struct run_frames *f, const double *time, int t
     const struct unit second = unit_for_largest_value(last, "s");
     for (int k = 0; k < times; k++)
         if (!isinf(time[k]) && (time[k] < fmin(first - beside, 0) || time[k] > last + beside))
-            return status_set(REFUSED, "plot: --times: %.4g %s is not in the run: its frames go from %.4g to %.4g %s",
+            return status_set(REFUSED, "plot: --times: %.4g %s is not in the run; give times from %.4g to %.4g %s",
                               time[k] / second.factor, second.name, first / second.factor, last / second.factor,
                               second.name);
     return OK;
@@ -94,7 +94,7 @@ static status steps_to_times(double *time, const struct plot_request *r)
         while (r->bare[k] && row < h.rows && history_value_at(&h, row, step) != r->time[k]) row++;
         if (row < h.rows && r->bare[k]) time[k] = history_value_at(&h, row, at);
         if (row == h.rows)
-            s = status_set(REFUSED, "plot: --times: load step %.0f is not in the run: its steps go from %.0f to %.0f",
+            s = status_set(REFUSED, "plot: --times: load step %.0f is not in the run; give steps from %.0f to %.0f",
                            r->time[k], history_value_at(&h, 0, step), history_value_at(&h, h.rows - 1, step));
     }
     history_free(&h);

@@ -339,7 +339,8 @@ static status say_missing_load(const char *path, const struct reactions *r)
     if (r->n > 0)
         return report_picture_not_drawn(path, "the boundary that carries the load does not move; a point probe where "
                                               "the body moves adds the displacement: probes: [{point: {at: [...]}}]");
-    return report_picture_not_drawn(path, "neither a support nor a rigid body has a force");
+    return report_picture_not_drawn(
+        path, "no force to draw: give a boundary a displacement or velocity, or add a rigid body");
 }
 
 /* Writes the label of an axis to text[LABEL_ROOM]: force or displacement, the direction if all curves of r are along

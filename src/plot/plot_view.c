@@ -236,9 +236,9 @@ static status view_check_crop(const struct view *v, const struct view *around, c
     if (!r->cropped || (!huge && view_shows_any(v, cloud, clouds))) return OK;
     const struct unit metre = panel_axis_unit(around);
     const double f = metre.factor;
-    return status_set(REFUSED, "plot: --crop: %s; the body is in %.6g%s:%.6g%s,%.6g%s:%.6g%s",
+    return status_set(REFUSED, "plot: --crop: %s; give a part of %.6g%s:%.6g%s,%.6g%s:%.6g%s",
                       huge ? "the body would be a point in this rectangle, whose unit is m where none is given"
-                           : "nothing is in this rectangle",
+                           : "no particle is in this rectangle",
                       around->from[0] / f, metre.name, around->to[0] / f, metre.name, around->from[1] / f, metre.name,
                       around->to[1] / f, metre.name);
 }
@@ -255,7 +255,10 @@ status view_make_for_request(struct view *v, const struct plot_request *r, const
     TRY(view_check_crop(v, &around, r, cloud, frame_count));
     count_beyond(v, cloud, frame_count);
     if (isfinite(v->to[0] - v->from[0]) && isfinite(v->to[1] - v->from[1])) return OK;
-    return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
+    return status_set(
+        FAILED,
+        "%s: the frames have no particles, or positions that are not numbers; run the scene again with --overwrite",
+        r->folder);
 }
 
 bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3])

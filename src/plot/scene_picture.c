@@ -374,8 +374,9 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     struct path path;
     struct plotted_particles c;
     if (r->projection.outside && s->dim < 3)
-        return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s, so remove it",
-                          s->dim, s->dim > 1 ? "s" : "");
+        return status_set(
+            REFUSED, "plot: --view needs a scene with space: solid, but this one has %d dimension%s; remove --view",
+            s->dim, s->dim > 1 ? "s" : "");
     TRY(engine_set_up_run(e, s, NULL));
     TRY(scene_sheet(&path, s, r));
     scene_cloud(&c, e, &r->projection.camera);

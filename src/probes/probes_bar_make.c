@@ -48,7 +48,7 @@ static status find_bar(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     struct bar *b = q->bar;
-    if (p->dim != 1) return refuse(q, "an analytical solution is for a bar in one dimension; set space: line");
+    if (p->dim != 1) return refuse(q, "compares with the solution of a bar, which has one dimension; set space: line");
     if (p->n < 3) return refuse(q, "the bar has fewer than three particles; use a smaller particles.spacing");
     for (int64_t i = 1; i < p->n; i++)
         if (p->material[i] != p->material[0])
@@ -166,7 +166,7 @@ static status find_load(struct probe *q, const struct observed_run *o)
     const struct load *other = NULL;
     const struct material *m = &o->material[o->part->material[0]];
     if (probes_bar_make_count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
-        return refuse(q, "a body_force acts on the bar; leave it out");
+        return refuse(q, "a body_force acts on the bar; remove it");
     if (probes_bar_make_count_of(o, BOUNDARY_PRESSURE, &other) > 0)
         return refuse(q, "a pressure acts on the bar; use a traction on one end instead");
     if (probes_bar_make_count_of(o, BOUNDARY_ABSORBING, &other) > 0)
@@ -177,7 +177,7 @@ static status find_load(struct probe *q, const struct observed_run *o)
         if (o->pulses == 0)
             return refuse(q, "needs a pulse, but the scene starts none; add a pulse under the key initial");
         if (probes_bar_make_count_of(o, BOUNDARY_TRACTION, &other) > 0)
-            return refuse(q, "a traction acts on the bar; leave it out");
+            return refuse(q, "a traction acts on the bar; remove it");
         q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
         return starts_with_pulses(&q->bar->exact, o->part)
                    ? OK

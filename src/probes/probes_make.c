@@ -91,9 +91,11 @@ static status bind_point(struct probe *q, const struct observed_run *o)
     q->list = NEW("probes.list", 1, int32_t);
     q->list[q->n++] = probe_find_nearest_particle(o, q->request.at);
     if (q->list[0] >= 0) return OK;
-    return status_set(
-        REFUSED, "probe \"%s\": the point (%s) m is outside the bodies; %s: check its coordinates and their unit (mm?)",
-        q->request.name, position_text(q->request.at, o->part->dim, 6).text, particles_extent_text(o->part).text);
+    return status_set(REFUSED,
+                      "probe \"%s\": the point (%s) m is outside the bodies; %s: check its coordinates and their unit "
+                      "(m if none is written)",
+                      q->request.name, position_text(q->request.at, o->part->dim, 6).text,
+                      particles_extent_text(o->part).text);
 }
 
 /* Makes the particles of run o nearest to the stations of LINE probe q its particles, -1 for stations outside the
@@ -113,9 +115,10 @@ static status bind_line(struct probe *q, const struct observed_run *o)
         inside += q->list[q->n] >= 0;
     }
     if (inside > 0) return OK;
-    return status_set(REFUSED,
-                      "probe \"%s\": the whole line is outside the bodies; %s: check its ends and their unit (mm?)",
-                      q->request.name, particles_extent_text(o->part).text);
+    return status_set(
+        REFUSED,
+        "probe \"%s\": the whole line is outside the bodies; %s: check its ends and their unit (m if none is written)",
+        q->request.name, particles_extent_text(o->part).text);
 }
 
 /* Makes the particles of run o in the region of probe q its particles; those on the surface of the region, up to
@@ -130,8 +133,10 @@ static status bind_region(struct probe *q, const struct observed_run *o)
         if (region_contains(&q->request.region, X, p->dim, ON_SURFACE * o->spacing)) q->list[q->n++] = (int32_t)i;
     }
     if (q->n > 0) return OK;
-    return status_set(REFUSED, "probe \"%s\": its region holds no particle: check its coordinates and their unit (mm?)",
-                      q->request.name);
+    return status_set(
+        REFUSED,
+        "probe \"%s\": its region holds no particle: check its coordinates and their unit (m if none is written)",
+        q->request.name);
 }
 
 /* Returns REFUSED, with a message, unless the boundary of run o that REACTION probe q names prescribes a motion or, in

@@ -32,7 +32,8 @@ status gauge_check_positions(const struct scene *scene, const struct particles *
     }
     if (nearest[0] != nearest[1]) return OK;
     return status_set(
-        REFUSED, "steps.from and steps.to are at the same particle; give two positions, one on each side of the crack");
+        REFUSED,
+        "steps.from and steps.to are nearest to the same particle; give two positions, one on each side of the crack");
 }
 
 real gauge_opening(const struct particles *part, const struct statics *statics)

@@ -93,7 +93,7 @@ const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *pla
                                 .body_mirrors = e->source.mirrors,
                                 .body_mirror = e->source.mirror};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
-    if (s->steps.path == PATH_AUTO && !one) return "there are several bodies or materials";
+    if (s->steps.path == PATH_AUTO && !one) return "the scene has several bodies or materials";
     return sif_plane_find_or_return_reason(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
 }
 

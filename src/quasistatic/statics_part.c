@@ -67,14 +67,17 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     if (!scene_is_single_equilibrium(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
-            warnings_add_if_new(to, "a static equilibrium has no velocities: the velocities of `initial` are ignored");
+            warnings_add_if_new(to, "a static equilibrium has no velocities: those of `initial` are ignored; remove "
+                                    "them, or set solver: explicit");
     for (int b = 0; b < s->bodies; b++)
         if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
-            warnings_add_if_new(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
+            warnings_add_if_new(to,
+                                "a static equilibrium has no velocities: that of body %s is ignored; remove it, or set "
+                                "solver: explicit",
                                 s->body[b].name);
     if (s->bodies > 1 && !scene_silences_warning(s, ACCEPT_CONTACT))
-        warnings_add_if_new(to, "bodies do not meet in a static equilibrium: they pass through each other where they "
-                                "close; if they do not close: accept: [contact]");
+        warnings_add_if_new(to, "bodies have no contact in a static equilibrium: they pass through each other where "
+                                "gaps close; if none closes, add accept: [contact]");
     if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add_if_new(to,
                             "nothing loads the body at t = %.4g s, the end of the duration: this solver applies the "

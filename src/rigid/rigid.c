@@ -87,7 +87,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
     for (int d = 0; d < DIM_MAX; d++) r->turn[d][d] = 1;
     if (!bounded && r->motion != RIGID_FIXED)
         return status_set(
-            REFUSED, "rigid body %s moves, but its shape is infinite; build it from boxes, balls, discs or cylinders",
+            REFUSED, "rigid body %s moves, but has an infinite shape; build it from boxes, balls, discs or cylinders",
             r->name);
     if (bounded) region_compute_moments(shape, dim, from, to, &moments);
     if (bounded && !(moments.volume > 0))

@@ -50,7 +50,8 @@ status particle_draft_append_particle(struct particle_draft *d, const real *posi
                                       int body_number)
 {
     if (d->n + d->skipped >= PARTICLES_MAX)
-        return particle_draft_refuse_body(d, body_number, "more than 2147483583 particles; use a larger spacing");
+        return particle_draft_refuse_body(d, body_number,
+                                          "has more than 2147483583 particles; use a larger particles.spacing");
     if (d->n == d->room) draft_grow(d);
     for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = position[a];
     for (int a = 0; a < d->scene->dim; a++) d->v[a][d->n] = NAN;
@@ -123,10 +124,10 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
     if (!region_compute_bounding_box_if_finite(&s->body[body].shape, s->dim, from, to))
         return particle_draft_refuse_body(
-            d, body, "its shape is infinite; build it from finite solids such as boxes, balls or cylinders");
+            d, body, "has an infinite shape; build it from finite solids such as boxes, balls or cylinders");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
         !first_solid_box(&s->body[0].shape, s->dim, low, high))
-        return particle_draft_refuse_body(d, body, "its first solid is infinite; begin with a finite one");
+        return particle_draft_refuse_body(d, body, "has an infinite first solid; begin with a finite one");
     for (int a = 0; a < s->dim; a++) {
         struct axis *x = &axis[a];
         x->centre = 0.5 * (low[a] + high[a]);
@@ -136,8 +137,9 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
         real last = ceil((to[a] - x->centre) / s->spacing + x->half_count - 0.5);
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
-            return particle_draft_refuse_body(
-                d, body, "too large for particles.spacing: use a larger spacing, or check the units of both (mm?)");
+            return particle_draft_refuse_body(d, body,
+                                              "too large for particles.spacing: use a larger spacing, or check the "
+                                              "units of both (m if none is written)");
         x->first = (int64_t)first, x->last = (int64_t)last;
         axis_round(x);
     }
@@ -180,7 +182,8 @@ static status fill_lattice(struct particle_draft *d, int body)
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
     if (!(spacing > 0))
-        return particle_draft_refuse_body(d, body, "particles.spacing, at which a shape is filled, is missing");
+        return particle_draft_refuse_body(
+            d, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
     TRY(lattice_axes(d, body, axis));
     for (int64_t k = axis[2].first; k <= axis[2].last; k++)
         for (int64_t j = axis[1].first; j <= axis[1].last; j++)
@@ -197,7 +200,8 @@ status fill_compute_lattice_site_position(const struct scene *s, int body, real 
     const struct particle_draft d = {.scene = s};
     struct axis axis[DIM_MAX] = {{0}};
     if (!(s->spacing > 0))
-        return particle_draft_refuse_body(&d, body, "particles.spacing, at which a shape is filled, is missing");
+        return particle_draft_refuse_body(
+            &d, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
     TRY(lattice_axes(&d, body, axis));
     for (int a = 0; a < s->dim; a++) X[a] = axis_place(&axis[a], axis[a].first);
     return OK;
@@ -334,8 +338,8 @@ static status check_distances(const struct particles *p, const struct particle_d
     if (first == p->n) return OK;
     const struct scene_body *one = &d->scene->body[p->body[first]], *two = &d->scene->body[p->body[other]];
     if (one == two)
-        status_set(REFUSED, "body %s has two particles at (%.6g, %.6g, %.6g) m: remove one from its list", one->name,
-                   X[0], X[1], X[2]);
+        status_set(REFUSED, "body %s has two particles at (%.6g, %.6g, %.6g) m: remove one of the two from its list",
+                   one->name, X[0], X[1], X[2]);
     else
         status_set(REFUSED, "bodies %s and %s both have a particle at (%.6g, %.6g, %.6g) m: move one body, or cut it",
                    one->name, two->name, X[0], X[1], X[2]);
@@ -440,7 +444,7 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
     if (growth > 0 && !inverted) return OK;
     return status_prepend_location(
         initial->place,
-        status_set(REFUSED, "its displacement gradient turns the body inside out; use strains near 1e-3"));
+        status_set(REFUSED, "has a displacement gradient that turns the body inside out; use strains near 1e-3"));
 }
 
 /* Applies to particle i every initial state of the scene s whose body and region contain the particle, in the order of

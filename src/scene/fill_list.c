@@ -101,7 +101,7 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     const real volume = lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
     if (!l->volume && !(volume > 0))
         return particle_draft_refuse_body(d, body,
-                                          "its list gives no volumes; add a column volume, or set particles.spacing");
+                                          "has a list without volumes; add a column volume, or set particles.spacing");
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
         if (!shares_file(s, owner, path))

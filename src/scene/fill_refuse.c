@@ -16,12 +16,14 @@ status particle_draft_refuse_empty_body(const struct particle_draft *d, int body
     real from[DIM_MAX], to[DIM_MAX];
     char why[200] = "holds no particle: its shape is at most ";
     size_t used = strlen(why);
-    if (listed) return particle_draft_refuse_body(d, body, "its list has no entry for it: check its column body");
+    if (listed)
+        return particle_draft_refuse_body(d, body, "has no particle in its list: check the column body of the list");
     region_compute_bounding_box_if_finite(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
-    snprintf(why + used, sizeof why - used,
-             " m, the spacing %.4g m: use a spacing below its thickness, or check the units of both (mm?)",
-             d->scene->spacing);
+    snprintf(
+        why + used, sizeof why - used,
+        " m, the spacing %.4g m: use a spacing below its thickness, or check the units of both (m if none is written)",
+        d->scene->spacing);
     return particle_draft_refuse_body(d, body, why);
 }

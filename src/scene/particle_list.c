@@ -66,14 +66,13 @@ static status table_check(const struct table *t, const char *path, const char *n
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
     if (hdf_is_link(file, name))
-        return status_set(REFUSED, "%s: %s is a link; give a dataset of this file", path, name);
+        return status_set(REFUSED, "%s: %s is a link; replace it by a dataset in this file", path, name);
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
     if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset", path, name);
     bool good = table_shape(set, t);
     status checked = good ? table_check(t, path, name) : OK;
     if (good && !hdf_dataset_is_in_its_file(set))
-        checked =
-            status_set(REFUSED, "%s: the numbers of %s are stored in another file; store them in this one", path, name);
+        checked = status_set(REFUSED, "%s: %s is stored in another file; store its numbers in this file", path, name);
     if (checked != OK) {
         H5Dclose(set);
         return checked;
@@ -86,7 +85,8 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     if (good) return OK;
     memory_free(t->value);
     t->value = NULL;
-    return status_set(REFUSED, "%s: %s: cannot be read as one list of numbers", path, name);
+    return status_set(REFUSED, "%s: %s: cannot be read as one list of numbers; write it as an array of one dimension",
+                      path, name);
 }
 
 /* Copies column k of the table t, converted to SI units, to a new array of the list l. column: quantity in the list
@@ -120,8 +120,8 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     if (!unit[0]) t.factor = particle_list_default_factor_to_si(l, column);
     if (column == COLUMN_X) l->n = t.rows;
     if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
-        s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers; %lld x %d are expected", path, name,
-                       (long long)t.rows, (long long)t.columns, (long long)l->n, count);
+        s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers; give %lld x %d", path, name, (long long)t.rows,
+                       (long long)t.columns, (long long)l->n, count);
     else if (unit[0] && !unit_find_factor_to_si(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count)
@@ -148,7 +148,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
     particle_list_note_missing_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
     return status_set(
-        REFUSED, "%s: mass and density are both given, but each determines the other; leave one of them out", path);
+        REFUSED, "%s: mass and density are both given, but each determines the other; remove one of the two", path);
 }
 
 /* Reads the list l from the HDF5 file `path`. If the library crashes on a damaged file, the crash message names the

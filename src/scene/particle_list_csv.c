@@ -127,7 +127,7 @@ static status header_read(struct csv *c, struct particle_list *l)
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
         return csv_report_fault(
             &c->in, c->in.text,
-            "mass and density are both given, but each determines the other; leave one of them out");
+            "mass and density are both given, but each determines the other; remove one of the two");
     particle_list_note_missing_columns(&l->head, has);
     return OK;
 }

@@ -58,8 +58,9 @@ static status block_read(struct exodus_list *x, int64_t number)
     const int64_t attributes = exodus_read_dimension_length(&x->file, "num_att_in_blk", number);
     const int64_t volume = volume_column(&x->file, number, attributes), first = l->n;
     if (first > 0 && (volume >= 0) != x->volumes)
-        return exodus_report_fault(&x->file, "block %lld has %svolumes, unlike the blocks before it", (long long)number,
-                                   volume >= 0 ? "" : "no ");
+        return exodus_report_fault(
+            &x->file, "block %lld has %svolumes, unlike the blocks before it; give volumes to all blocks or to none",
+            (long long)number, volume >= 0 ? "" : "no ");
     x->volumes = volume >= 0;
     TRY(exodus_read_integers(&x->file, "connect", number, elements, &node));
     status s = volume >= 0 ? exodus_read_reals(&x->file, "attrib", number, elements * attributes, &attribute) : OK;
@@ -68,7 +69,7 @@ static status block_read(struct exodus_list *x, int64_t number)
     if (volume >= 0) GROW("list.column", l->volume, first + elements);
     for (int64_t k = 0; k < elements && s == OK; k++, l->n++) {
         if (node[k] < 1 || node[k] > x->file.nodes)
-            s = exodus_report_fault(&x->file, "element %lld has node %lld; a number from 1 to %lld is expected",
+            s = exodus_report_fault(&x->file, "element %lld has node %lld; give its nodes numbers from 1 to %lld",
                                     (long long)l->n + 1, (long long)node[k], (long long)x->file.nodes);
         for (int d = 0; d < l->dim && s == OK; d++)
             s = value_take(x, COLUMN_X + d, l->n,
@@ -89,7 +90,9 @@ static status blocks_read(struct exodus_list *x)
 {
     bool has[COLUMNS] = {false};
     if (x->file.dim < x->l->dim)
-        return exodus_report_fault(&x->file, "has %d coordinates, but the space has %d", x->file.dim, x->l->dim);
+        return exodus_report_fault(
+            &x->file, "has %d coordinates, but the space of the scene has %d; change the key space, or the file",
+            x->file.dim, x->l->dim);
     TRY(exodus_read_coordinates(&x->file, x->axis));
     for (int64_t k = 1; k <= x->file.blocks; k++)
         if (exodus_has_array(&x->file, "connect", k)) TRY(block_read(x, k));

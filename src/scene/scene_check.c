@@ -23,8 +23,8 @@ static status check_measure(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *thickness = yaml_node_find(root, "thickness"), *section = yaml_node_find(root, "section");
     const char *space = space_names[s->space];
     if (s->dim == 2 && !thickness) return fault_report_missing_key(r, root, key_find("", "thickness"));
-    if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; leave it out", space);
-    if (s->dim != 1 && section) return fault(r, section, "space %s has no section; leave it out", space);
+    if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; remove it", space);
+    if (s->dim != 1 && section) return fault(r, section, "space %s has no section; remove it", space);
     if (s->dim != 2) s->thickness = 1;
     return OK;
 }
@@ -95,7 +95,7 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
     for (int b = 0; b < s->boundaries && n; b++, n = n->next)
         if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_is_dynamic(s))
             return fault(r, yaml_node_find(n, "absorbing"),
-                         "a static equilibrium has no waves to absorb, and an absorbing face does not hold the body; "
+                         "has no effect in a static equilibrium, which has no waves and needs supports; remove it, or "
                          "set solver: explicit");
     return OK;
 }
@@ -140,7 +140,8 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
                 "a static equilibrium applies loads to the undeformed body; set solver: explicit with damping");
         if (load->rotates)
             return fault(r, yaml_node_find(n, "rotation"),
-                         "static solvers drive along straight lines only; set solver: explicit");
+                         "cannot be used with a static solver, which moves supports along straight lines only; set "
+                         "solver: explicit");
         if (formula && boundary_check_displacement_known(load) != OK)
             return fault(r, yaml_node_find(n, "velocity"),
                          "static solvers need the displacement, but a velocity that is a formula of t does not give "
@@ -217,7 +218,7 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
         return fault(r, between, "load steps have no contact if bonds soften; set none, or solver: explicit");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
         return fault(r, friction,
-                     "nothing has contact (contact.between: none), so friction has no effect; leave it out, or set "
+                     "nothing has contact (contact.between: none), so friction has no effect; remove it, or set "
                      "contact.between: all");
     return OK;
 }
@@ -400,7 +401,7 @@ static status check_times(struct reader *r, const struct yaml_node *root)
                            *times = scene_check_below(root, "output", "times");
     if (every && (frames || times)) return fault_report_exclusive_keys(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
-        return fault(r, every, "an interval of %s makes more than %d frames; use at least %.3g s", node_text(r, every),
+        return fault(r, every, "%s makes more than %d frames; use an interval of at least %.3g s", node_text(r, every),
                      FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
@@ -414,7 +415,7 @@ static status check_times(struct reader *r, const struct yaml_node *root)
 static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *n = yaml_node_find(root, "accuracy");
-    return n ? fault(r, n, "has no effect without method: auto; leave it out") : OK;
+    return n ? fault(r, n, "has no effect without method: auto; remove it") : OK;
 }
 
 /* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models in

@@ -84,7 +84,9 @@ bool compile_append_operation(struct compile *c, enum expression_op operation, c
     a->constant = constant;
     if (!constant) return add_step(c, operation, 0);
     c->steps -= two ? 2 : 1;
-    if (!isfinite(a->q.value)) return compile_write_fault_and_return_false(c, "has a part that is not a finite number");
+    if (!isfinite(a->q.value))
+        return compile_write_fault_and_return_false(
+            c, "has a part that is infinite or not a number; check its divisions and powers");
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
@@ -109,7 +111,8 @@ static bool unit_in_bounds(struct compile *c, const struct quantity *q)
 {
     for (int k = 0; k < 3; k++)
         if (q->twice[k] > POWER_MOST || q->twice[k] < -POWER_MOST)
-            return compile_write_fault_and_return_false(c, "has a unit with a power above %d", POWER_MOST / 2);
+            return compile_write_fault_and_return_false(c, "has a unit with a power above %d; use lower powers",
+                                                        POWER_MOST / 2);
     return true;
 }
 
@@ -133,7 +136,7 @@ bool compile_append_product_or_quotient(struct compile *c, char sign, const char
     const struct operand *b = compile_operand_from_top(c, 0);
     for (int k = 0; k < 3; k++) unit.twice[k] += sign == '*' ? b->q.twice[k] : -b->q.twice[k];
     if (sign == '/' && b->constant && b->q.value == 0)
-        return compile_write_fault_and_return_false(c, "divides by 0 (character %d)",
+        return compile_write_fault_and_return_false(c, "divides by 0 (character %d); change the divisor",
                                                     compile_character_number(c, operator_in_text));
     return unit_in_bounds(c, &unit) &&
            compile_append_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
@@ -166,7 +169,7 @@ bool compile_append_power(struct compile *c, const char *operator_in_text)
     const int place = compile_character_number(c, operator_in_text);
     const bool two = b->constant && b->q.value == 2;
     if (!quantity_is_dimensionless(&b->q))
-        return compile_write_fault_and_return_false(c, "has %s as a power (character %d); a plain number is expected",
+        return compile_write_fault_and_return_false(c, "has %s as a power (character %d); give a plain number",
                                                     quantity_unit_name(&b->q).text, place);
     if (!quantity_is_dimensionless(&unit) && !b->constant)
         return compile_write_fault_and_return_false(

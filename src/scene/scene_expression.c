@@ -56,7 +56,7 @@ static void skip(struct compile *c)
 static bool keep(struct compile *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT)
-        return compile_write_fault_and_return_false(c, "is longer than %d characters", EXPRESSION_TEXT);
+        return compile_write_fault_and_return_false(c, "is longer than %d characters; shorten it", EXPRESSION_TEXT);
     memcpy(c->kept + c->used, text, length);
     c->used += length;
     c->kept[c->used] = '\0';
@@ -117,7 +117,7 @@ static bool compile_sum(struct compile *c);
 static bool deeper(struct compile *c, int levels)
 {
     if (c->depth + levels <= DEPTH_MOST) return true;
-    return compile_write_fault_and_return_false(c, "is nested deeper than %d levels", DEPTH_MOST);
+    return compile_write_fault_and_return_false(c, "is nested deeper than %d levels; use fewer brackets", DEPTH_MOST);
 }
 
 static bool compile_brackets(struct compile *c)
@@ -139,12 +139,12 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
     if (two) unit = compile_operand_from_top(c, 1)->q;
     if (f->rule == PLAIN && !quantity_is_dimensionless(&unit))
         return compile_write_fault_and_return_false(
-            c, "applies %s to %s (character %d); a plain number is expected, such as (t/5us)", f->name,
+            c, "applies %s to %s (character %d); give a plain number, such as (t/5us)", f->name,
             quantity_unit_name(&unit).text, compile_character_number(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
             return compile_write_fault_and_return_false(
-                c, "takes the square root of %s (character %d), whose unit has no square root",
+                c, "takes the square root of %s (character %d), whose unit has no square root; change the operand",
                 quantity_unit_name(&unit).text, compile_character_number(c, at));
         unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
     }
@@ -186,7 +186,7 @@ static bool compile_coordinate(struct compile *c, char name)
     struct quantity q = {.twice = {2, 0, 0}};
     if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
     if (!(c->of & (name == 't' ? EXPRESS_TIME : EXPRESS_SPACE)))
-        return compile_write_fault_and_return_false(c, "contains %c, which this key does not have", name);
+        return compile_write_fault_and_return_false(c, "contains %c, which this key does not have; remove it", name);
     if (name != 't' && name - 'x' >= c->r->dim)
         return compile_write_fault_and_return_false(c, "contains %c, which space %s does not have", name,
                                                     space_names[c->r->scene->space]);
@@ -313,7 +313,7 @@ static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
     if (strlen(c->text) > EXPRESSION_TEXT)
-        return compile_write_fault_and_return_false(c, "is longer than %d characters", EXPRESSION_TEXT);
+        return compile_write_fault_and_return_false(c, "is longer than %d characters; shorten it", EXPRESSION_TEXT);
     if (!compile_sum(c)) return false;
     return *c->at == '\0' ? keep_to(c, c->at) : missing(c, "an operation");
 }

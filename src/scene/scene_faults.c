@@ -91,7 +91,7 @@ status fault(const struct reader *r, const struct yaml_node *at, const char *for
 status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other)
 {
     const struct yaml_node *late = one->origin > other->origin ? one : other;
-    return fault(r, late, "given together with %s; keep one of the two", late == one ? other->key : one->key);
+    return fault(r, late, "is given together with %s; remove one of the two", late == one ? other->key : one->key);
 }
 
 const char *words_for_message(struct reader *r, const char *words)

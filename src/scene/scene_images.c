@@ -84,13 +84,13 @@ status read_grey_materials(struct reader *r, const struct yaml_node *materials_n
         if (s != OK) break;
         const struct grey_range range = p->range[before];
         for (int grey = range.low; grey <= range.high && s == OK; grey++) {
-            if (in[grey]) s = fault(r, c, "grey value %d is in two of the ranges; keep it in one", grey);
+            if (in[grey]) s = fault(r, c, "has grey value %d in two ranges; remove it from one of them", grey);
             in[grey] = true;
         }
         if (is_void(c)) p->ranges = before;
     }
     if (s == OK && p->ranges == 0)
-        s = fault(r, materials_node, "all grey values are void; give at least one of them a material");
+        s = fault(r, materials_node, "has only void grey values; give at least one of them a material");
     if (s == OK) s = check_covered(r, materials_node, voxels, in);
     memory_free(in);
     r->grey_materials++;

@@ -43,7 +43,7 @@ static status check_twins(const struct reader *r, const struct yaml_node *map)
     for (const struct yaml_node *n = map->first; n; n = n->next)
         for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
-                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
+                return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
     return OK;
 }
 

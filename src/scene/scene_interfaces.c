@@ -16,7 +16,7 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
     const struct yaml_node *names = yaml_node_find(n, "bodies");
     if (!names) return fault_report_missing_key(r, n, key_find("interfaces", "bodies"));
     if (names->kind != NODE_LIST || names->n != 2)
-        return fault(r, names, "names of two bodies are expected, such as [plate, layer]");
+        return fault(r, names, "is not two names; give the names of two bodies, such as [plate, layer]");
     const struct yaml_node *name = names->first;
     for (int k = 0; k < 2; k++, name = name->next) {
         face->body[k] = -1;
@@ -34,7 +34,7 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
     for (const struct scene_interface *other = s->interface; other < face; other++)
         if ((other->body[0] == face->body[0] && other->body[1] == face->body[1]) ||
             (other->body[0] == face->body[1] && other->body[1] == face->body[0]))
-            return fault(r, names, "these two bodies have an interface already; keep one");
+            return fault(r, names, "names two bodies that have an interface already; remove one of the two interfaces");
     return OK;
 }
 
@@ -120,7 +120,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
         TRY(interface_bodies(r, n, face));
         if (!face->joined && yaml_node_find(n, "energy_release_rate"))
             return fault(r, yaml_node_find(n, "energy_release_rate"),
-                         "has no effect on bodies that are not joined; leave it out, or set joined: true");
+                         "has no effect on bodies that are not joined; remove it, or set joined: true");
         if (s->method == METHOD_MPM && yaml_node_find(n, "energy_release_rate"))
             return fault(r, yaml_node_find(n, "energy_release_rate"),
                          "the grid of method: mpm does not break; set method: pd");
@@ -141,8 +141,8 @@ status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_nod
         for (int b = 0; b < s->bodies && body >= 0; b++)
             if (b != body && s->body[b].joined == s->body[body].joined)
                 return fault(r, yaml_node_find(n, "body"),
-                             "is joined to body %s by an interface, so that both count as one body; use a region in "
-                             "place of this key",
+                             "is joined to body %s by an interface, so that both count as one body: remove this key "
+                             "and give a region",
                              s->body[b].name);
     }
     return OK;

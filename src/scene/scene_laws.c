@@ -53,8 +53,7 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
     if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; 2 to %d are expected", n->n, FLOW_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next, c->points++) {
         if (point->kind != NODE_LIST || point->n != 2)
-            return fault(r, point, "%s is not a point of a curve; [plastic strain, stress] is expected",
-                         node_text(r, point));
+            return fault(r, point, "%s is not a point of a curve; give [plastic strain, stress]", node_text(r, point));
         TRY(read_number(r, &strain, point->first, &c->strain[c->points]));
         TRY(read_number(r, &stress, point->first->next, &c->stress[c->points]));
     }
@@ -121,7 +120,7 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
     if (!heat) return OK;
     if (!law->given || law->flow != FLOW_JOHNSON_COOK)
         return fault(r, heat,
-                     "has no effect without johnson_cook, whose yield stress depends on temperature; leave it out");
+                     "has no effect without johnson_cook, whose yield stress depends on temperature; remove it");
     if (!share) law->taylor_quinney = 0.9;
     return OK;
 }

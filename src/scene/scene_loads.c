@@ -26,7 +26,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
     real length2 = dot(f->direction, f->direction, r->dim);
     if (length2 > 0 && isfinite(length2)) return OK;
     return fault(r, yaml_node_find(n->first, "direction"),
-                 "its length is 0 or not finite; give the direction in which the force varies");
+                 "has a length that is 0 or infinite; give the direction in which the force varies");
 }
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
@@ -132,8 +132,7 @@ static status read_velocity(struct reader *r, const struct yaml_node *n, struct 
     } else if (n->kind == NODE_SCALAR && r->dim == 1) {
         TRY(read_component(r, n, b, 0));
     } else {
-        return fault(r, n,
-                     "%s does not have the number of components of space %s; a list of %d is expected, for example %s",
+        return fault(r, n, "%s does not have the number of components of space %s; give a list of %d, for example %s",
                      node_text(r, n), space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
     }
     return b->components ? OK
@@ -151,9 +150,9 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
     unit_vector[2] = 1;
     if (!list && r->dim == 2) return OK;
     if (!list) return fault_report_missing_key(r, rotation_node, k);
-    if (r->dim == 2) return fault(r, list, "is always z in a plane space; leave it out");
+    if (r->dim == 2) return fault(r, list, "is always z in a plane space; remove it");
     if (list->kind != NODE_LIST || list->n != DIM_MAX)
-        return fault(r, list, "%s is not an axis; three numbers such as [0, 0, 1] are expected", node_text(r, list));
+        return fault(r, list, "%s is not an axis; give three numbers such as [0, 0, 1]", node_text(r, list));
     for (const struct yaml_node *c = list->first; c; c = c->next) {
         struct key plain = *k;
         plain.unit = UNIT_NONE;
@@ -183,7 +182,7 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
     int axis;
     for (size_t k = 0; k < COUNT_OF(senseless); k++) {
         const struct yaml_node *other = yaml_node_find(map, senseless[k]);
-        if (other) return fault(r, other, "cannot be given with mirror, which always acts on every body; leave it out");
+        if (other) return fault(r, other, "has no effect with mirror, which acts on every body; remove it");
     }
     TRY(read_keys_of_group(r, n, n, "boundary.mirror", b));
     const struct yaml_node *at = yaml_node_find(n, "axis");
@@ -195,7 +194,7 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
 static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
     const struct yaml_node *time = yaml_node_find(map, "time");
-    if (time) return fault(r, time, "cannot be given with absorbing, which acts at all times; leave it out");
+    if (time) return fault(r, time, "cannot be given with absorbing, which acts at all times; remove it");
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
     return fault(r, n, "%s is given, but absorbing can only be true; write absorbing: true, or leave the boundary out",
                  node_text(r, n));
@@ -299,17 +298,17 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
         TRY(read_layer(r, n, b));
     else
         depth = yaml_node_find(n, "depth");
-    if (depth) return fault(r, depth, "has no effect without fixed, velocity, displacement or rotation; leave it out");
+    if (depth) return fault(r, depth, "has no effect without fixed, velocity, displacement or rotation; remove it");
     if (boundary_applies_force(b) || b->kind == BOUNDARY_MIRROR) face = yaml_node_find(n, "face");
     if (face && b->kind == BOUNDARY_PRESSURE)
         return fault(r, face,
                      "a pressure acts on every free face of the particles in `region`: give region instead of face, or "
                      "a traction instead of a pressure");
-    if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no effect with %s; leave it out", kind->key);
+    if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no effect with %s; remove it", kind->key);
     if (b->follow && b->kind != BOUNDARY_PRESSURE)
-        return fault(r, yaml_node_find(n, "follow"), "has no effect without pressure; leave it out");
+        return fault(r, yaml_node_find(n, "follow"), "has no effect without pressure; remove it");
     if (profile && b->kind != BOUNDARY_BODY_FORCE)
-        return fault(r, profile, "has no effect without body_force; leave it out");
+        return fault(r, profile, "has no effect without body_force; remove it");
     TRY(read_profile(r, profile, &b->profile));
     if (b->kind == BOUNDARY_MIRROR) return read_mirror(r, n, kind, b);
     if (b->kind == BOUNDARY_ABSORBING) {

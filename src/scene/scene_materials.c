@@ -17,7 +17,7 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
     for (size_t k = 0; k < COUNT_OF(ways); k++) {
         const struct yaml_node *way = yaml_node_find(n, ways[k]);
         if (way && given)
-            return fault(r, way, "is given together with %s, but each determines the other; leave one of them out",
+            return fault(r, way, "is given together with %s, but each determines the other; remove one of the two",
                          given->key);
         if (way) given = way;
     }
@@ -53,7 +53,7 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
     real H;
     if (tangent && hardening)
         return fault(r, hardening,
-                     "is given together with yield_tangent, but each determines the other; leave one of them out");
+                     "is given together with yield_tangent, but each determines the other; remove one of the two");
     if ((tangent || hardening) && !yaml_node_find(n, "yield_stress"))
         return fault(r, tangent ? tangent : hardening, "has no effect without yield_stress: add yield_stress");
     if (hardening) {
@@ -82,10 +82,13 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     if (!yaml_node_find(n, own[s->form]))
         return fault_report_missing_key(r, n, key_find("material.scatter", own[s->form]));
     if (other)
-        return fault(r, other, "belongs to another distribution of strength; the chosen one has the parameter %s",
+        return fault(r, other,
+                     "belongs to another distribution of strength; replace it by %s, the parameter of the chosen one",
                      own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
-        return fault(r, n, "its bonds never break; give energy_release_rate, critical_stretch or toughness");
+        return fault(r, n,
+                     "has no effect, because bonds of the material never break; give energy_release_rate, "
+                     "critical_stretch or toughness");
     if (material_yields(m) && r->scene->method == METHOD_MPM)
         return fault(r, n,
                      "material points of method mpm do not break, and a yield stress does not scatter; set method: pd, "

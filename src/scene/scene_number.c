@@ -139,7 +139,7 @@ status read_variables(struct reader *r, const struct yaml_node *root)
         TRY(expect_node_kind(r, n, NODE_SCALAR, "a number or an expression"));
         for (int v = 0; v < r->variables; v++)
             if (strcmp(r->variable[v].n->key, n->key) == 0)
-                return fault(r, n, "given twice, first in line %d; keep one", r->variable[v].n->line);
+                return fault(r, n, "is given twice, first in line %d; remove one", r->variable[v].n->line);
         r->variable[r->variables++] = (struct variable){.n = n};
     }
     for (struct variable *v = r->variable; v < r->variable + r->variables; v++)

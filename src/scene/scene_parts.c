@@ -144,8 +144,8 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
         TRY(read_body_parts_by_grey_value(r, one, s->body));
         if (s->materials > 1 && !parts && s->body->parts == 0)
             return fault(r, one,
-                         "the scene has %d materials, but the key body cannot name one; use parts, or bodies with a "
-                         "material each",
+                         "the scene has %d materials, but the key body cannot name one; use parts, or the key bodies "
+                         "with a material for each",
                          s->materials);
         return read_body_parts(r, parts, key_find("", "parts"), s->body);
     }
@@ -173,7 +173,7 @@ static status read_polarisation(struct reader *r, const struct yaml_node *n, str
     if (!n)
         memcpy(moved, w->direction, sizeof w->direction);
     else if (!(length > 0))
-        return fault(r, n, "has zero length and so no direction; give `direction`, or move one of its ends");
+        return fault(r, n, "has no length, so it has no direction; give `direction`, or move one of its ends");
     for (int d = 0; n && d < dim; d++) moved[d] /= length;
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;
@@ -291,7 +291,8 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
                      "has no effect with a given speed; set speed: follow, or remove it");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
-    return g->probe[0] ? fault(r, yaml_node_find(n, "probe"), "there is no sif probe %s; add it to probes", g->probe)
+    return g->probe[0] ? fault(r, yaml_node_find(n, "probe"),
+                               "names the sif probe %s, which the scene does not have; add it to probes", g->probe)
                        : OK;
 }
 
@@ -350,7 +351,7 @@ static status read_frame_region(struct reader *r, const struct yaml_node *n, int
             return fault(r, yaml_node_find(n, "name"), "%s is already the name of another region; choose another one",
                          one->name);
     if (s->duration / one->every > FRAMES_MOST)
-        return fault(r, yaml_node_find(n, "every"), "an interval of %s makes more than %d frames; use at least %.3g s",
+        return fault(r, yaml_node_find(n, "every"), "%s makes more than %d frames; use an interval of at least %.3g s",
                      node_text(r, yaml_node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
     return OK;
 }

@@ -50,7 +50,7 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
     }
     return fault(
         r, n,
-        "there is no boundary named %s; of the %d in the scene %s has the most similar name (key `name` of a boundary)",
+        "there is no boundary named %s; of the %d in the scene, %s has the most similar name: give the name of one",
         p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
@@ -63,11 +63,11 @@ static status check_exact(struct reader *r, const struct yaml_node *n, const str
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
     if (p->kind != PROBE_EXACT) return OK;
     if (r->scene->space != SPACE_LINE)
-        return fault(r, map ? map : n, "an analytical solution is for a bar in one dimension; set space: line");
+        return fault(r, map ? map : n, "compares with the solution of a bar, which has one dimension; set space: line");
     for (size_t k = 0; k < COUNT_OF(numbers); k++) {
         const struct yaml_node *given = yaml_node_find(map, numbers[k]);
         if (given && p->form != EXACT_MANUFACTURED)
-            return fault(r, given, "has no effect without form: manufactured; leave it out");
+            return fault(r, given, "has no effect without form: manufactured; remove it");
         if (!given && p->form == EXACT_MANUFACTURED)
             return fault_report_missing_key(r, map, key_find("probes.exact", numbers[k]));
     }
@@ -78,7 +78,7 @@ static status check_rigid(struct reader *r, const struct yaml_node *n, const str
                           const struct probe_request *p)
 {
     if (p->kind != PROBE_RIGID || r->dim == 2) return OK;
-    return fault(r, map ? map : n, "rigid is a probe for plane spaces only; remove it");
+    return fault(r, map ? map : n, "rigid is a probe for plane spaces only; remove this probe");
 }
 
 /* Checks a probe p of stress-intensity factors; returns OK for other probes. Sets its outer radius to its last contour
@@ -89,7 +89,7 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
 {
     enum { CONTOURS_MAX = 16 };
     if (p->kind != PROBE_SIF) return OK;
-    if (r->dim != 2) return fault(r, map ? map : n, "sif is a probe for plane spaces only; remove it");
+    if (r->dim != 2) return fault(r, map ? map : n, "sif is a probe for plane spaces only; remove this probe");
     const struct number_list *c = &p->contours;
     const struct yaml_node *contours = yaml_node_find(map, "contours");
     if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; 1 to %d are expected", c->n, CONTOURS_MAX);

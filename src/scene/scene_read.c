@@ -50,7 +50,10 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     s->text = scene_to_yaml(s);
     return s->text
                ? OK
-               : status_set(FAILED, "%s: out of memory; the scene with all its defaults cannot be written", r->name);
+               : status_set(
+                     FAILED,
+                     "%s: out of memory, so the scene with all its defaults is not written; free memory and try again",
+                     r->name);
 }
 
 /* Reads a scene from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores only the

@@ -171,7 +171,7 @@ status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *y
     const unsigned has = scene_has(r);
     const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);
     if (change) return fault(r, yield_node, "model %s cannot yield; use %s", model, change);
-    return fault(r, yield_node, "model %s cannot yield, and no method has all of %s; leave one of them out", model,
+    return fault(r, yield_node, "model %s cannot yield, and no method has all of %s; remove one of them", model,
                  names_of(r, has));
 }
 
@@ -231,13 +231,13 @@ status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yam
                      change);
     return fault(r, interfaces_node,
                  "bodies are joined by bonds (method pd) or by their grid (method mpm), and no method has all of %s; "
-                 "leave one of them out",
+                 "remove one of them",
                  names_of(r, has));
 }
 
 const char *strength_unit_hint(const struct scene *s, real required_horizon)
 {
     return required_horizon < 1e-3 * s->horizon * s->spacing
-               ? "; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (mm?)"
+               ? "; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (m)"
                : "";
 }

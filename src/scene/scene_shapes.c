@@ -196,7 +196,7 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
                      g->sets ? names : "none");
     s->hull = set ? &set->hull : &g->whole;
     if (within && !s->hull->open)
-        return fault(r, within, "is only for sets of nodes or faces, but this solid fills a volume; leave it out");
+        return fault(r, within, "is only for sets of nodes or faces, but this solid fills a volume; remove it");
     if (!s->hull->open) return OK;
     TRY(read_spacing(r, n, &s->radius));
     if (within) s->radius = words->within;
@@ -249,7 +249,7 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
     if (!file) return fault_report_missing_key(r, n, key_find("solid.image", "file"));
     if (r->dim == 1) return fault(r, n, "cannot be used in space line; use box");
     if (slice && r->dim == 2)
-        return fault(r, slice, "cannot be used in the plane, where there is one image; leave it out");
+        return fault(r, slice, "cannot be used in the plane, where there is one image; remove it");
     struct shape_file *f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = SHAPE_IMAGE, .dim = r->dim, .scale = NAN};
     for (int d = 0; d < r->dim; d++)

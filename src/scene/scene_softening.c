@@ -62,7 +62,8 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
         return fault(r, n,
-                     "bonds break at a stretch of %.4g, which is a stress of %.4g Pa; give a lower strength, or a "
+                     "bonds break at a stretch of %.4g, which is a stress of %.4g Pa, below this strength; give a "
+                     "lower strength, or a "
                      "larger critical_stretch",
                      m->critical_stretch, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space));
     return fault(r, n,
@@ -85,8 +86,7 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
     for (const struct yaml_node *point = n->first; point; point = point->next) {
         const int k = rate->points++;
         if (point->kind != NODE_LIST || point->n != 2)
-            return fault(r, point, "%s is not a point of the table; [strain rate, factor] is expected",
-                         node_text(r, point));
+            return fault(r, point, "%s is not a point of the table; give [strain rate, factor]", node_text(r, point));
         TRY(read_number(r, &rates, point->first, &rate->rate[k]));
         TRY(read_number(r, &factors, point->first->next, &rate->factor[k]));
         if (k > 0 && !(rate->rate[k] > rate->rate[k - 1]))
@@ -211,7 +211,7 @@ status check_softening_is_supported(struct reader *r, const struct yaml_node *ro
     if (!soft || s->model == MODEL_BOND) return OK;
     if (growth)
         return fault(r, growth,
-                     "with this model cannot cut bonds that soften; set model: bond, or remove tensile_strength");
+                     "cannot cut bonds that soften with this model; set model: bond, or remove tensile_strength");
     for (int m = 0; m < s->materials; m++)
         if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, model,

@@ -35,8 +35,7 @@ static status check_box(struct reader *r, const struct yaml_node *n, const struc
 {
     for (int d = 0; d < r->dim; d++)
         if (!(s->from[d] < s->to[d]))
-            return fault(r, n,
-                         "from is not smaller than to along %c; let from be the corner with the smaller coordinates",
+            return fault(r, n, "from is not below to along %c; give from the smaller and to the larger coordinates",
                          'x' + d);
     return OK;
 }
@@ -47,11 +46,12 @@ static status check_round(struct reader *r, const struct yaml_node *n, const str
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
     if (has_ends && memcmp(s->from, s->to, sizeof s->from) == 0)
-        return fault(r, n, "its axis has no length; give two different ends, from and to");
+        return fault(r, n, "has an axis without length; give two different ends, from and to");
     if ((s->kind == SOLID_TUBE || s->kind == SOLID_RING) && !(s->inner < s->radius))
         return fault(r, yaml_node_find(n, "inner"), "is not below radius; give the radius of the hole");
     if (s->kind == SOLID_CONE && !(s->inner + s->radius > 0))
-        return fault(r, n, "both radii are 0; give at least one (the other may be 0, for a cone that ends in a point)");
+        return fault(r, n,
+                     "has two radii of 0; give one above 0 (the other may be 0, for a cone that ends in a point)");
     if (s->kind == SOLID_TORUS && !(s->inner < s->radius))
         return fault(r, yaml_node_find(n, "section"),
                      "is not below radius, so the torus has no hole; give a smaller radius of the section");
@@ -62,9 +62,9 @@ static status check_solid(struct reader *r, const struct yaml_node *n, const str
 {
     if (s->kind == SOLID_BOX) return check_box(r, n, s);
     if (s->kind == SOLID_HALF_SPACE && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "the normal has no length; give one that points out of the half-space");
+        return fault(r, n, "has a normal without length; give one that points out of the half-space");
     if (s->kind == SOLID_TORUS && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "its axis has no length; give the direction through the hole");
+        return fault(r, n, "has an axis without length; give the direction through the hole");
     return check_round(r, n, s);
 }
 
@@ -110,7 +110,7 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
     const struct yaml_node *shape = yaml_node_find(n, "shape");
     TRY(read_keys_of_group(r, n, n, "solid.extrude", s));
     if (!shape) return fault_report_missing_key(r, n, key_find("solid.extrude", "shape"));
-    if (!(s->begin < s->end)) return fault(r, n, "from is not below to; let from be the lower end");
+    if (!(s->begin < s->end)) return fault(r, n, "from is not below to; give from the lower end");
     r->dim = 2;
     const status read = read_region(r, shape, &s->region);
     r->dim = r->scene->dim;
@@ -205,7 +205,7 @@ static status read_names(struct reader *r, const struct yaml_node *map, struct n
             .text = n->key, .key = n->key, .line = n->line, .column = n->column, .origin = n->origin};
         for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
-                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
+                return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
         TRY(read_value_of_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, named[*count].name));
         TRY(read_called(r, &name, &named[(*count)++].region));
     }
@@ -299,7 +299,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     else if (strcmp(child->key, "region") == 0)
         TRY(read_named(r, child, s));
     else if (signed_before)
-        return fault(r, child, "is inside add, subtract or intersect; give a solid such as box there");
+        return fault(r, child, "cannot be inside add, subtract or intersect; give a solid such as box there");
     else
         TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));
@@ -312,7 +312,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
  * one is subtracted. */
 static status read_solids(struct reader *r, const struct yaml_node *n, struct region *region, bool intersect)
 {
-    if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "an empty list; at least one solid is expected");
+    if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "is an empty list; give at least one solid");
     const struct yaml_node *item = n->kind == NODE_LIST ? n->first : n;
     int count = n->kind == NODE_LIST ? n->n : 1;
     region->solid = NEW("solids", count, struct solid);

@@ -61,7 +61,8 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
     if (!scene_has_load_steps_with_softening_bonds(s)) return OK;
-    if (s->method != METHOD_PD) return fault(r, solver, "load steps with bonds that soften need method: pd; set it");
+    if (s->method != METHOD_PD)
+        return fault(r, solver, "load steps with bonds that soften need method: pd; set method: pd");
     if (s->rigids > 0)
         return fault(r, solver, "load steps with bonds that soften cannot have rigid bodies; use boundaries instead");
     if (s->steps.control == CONTROL_OPENING || s->steps.then == THEN_EXPLICIT || s->steps.path == PATH_HOOP)

@@ -210,7 +210,7 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
     if (yaml_node_find(function_node, "file") || yaml_node_find(function_node, "column")) {
         for (const struct yaml_node *other = function_node->first; other; other = other->next)
             if (word_index_in_list("file|column", other->key) < 0)
-                return fault(r, other, "is given together with file; keep one of %s", forms);
+                return fault(r, other, "is given together with file; remove one of %s", forms);
         return read_time_file(r, function_node, boundary);
     }
     if (function_node->n != 1) return fault(r, function_node, "has %d keys; give one: %s", function_node->n, forms);
@@ -219,5 +219,5 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
     TRY(read_keys_of_group(r, form, form, groups[kind], f));
-    return f->from < f->until ? OK : fault(r, form, "from is not before until; let it begin at from and end at until");
+    return f->from < f->until ? OK : fault(r, form, "from is not before until; give from the earlier time");
 }

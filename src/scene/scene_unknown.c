@@ -38,7 +38,7 @@ status check_keys_known(struct reader *r, const struct yaml_node *mapping, const
         }
         for (const struct yaml_node *twin = mapping->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
-                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
+                return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
     }
     return OK;
 }

@@ -70,14 +70,14 @@ static const char *event_refusal(const yaml_event_t *e, int depth)
     if (e->type == YAML_MAPPING_START_EVENT) anchor = e->data.mapping_start.anchor, tag = e->data.mapping_start.tag;
     if (anchor) return "an anchor (&) is not allowed in a scene; write the value out where it is used";
     if (tag) return "a tag (!) is not allowed in a scene; the key says what its value is";
-    if (depth > DEPTH_MOST) return "nested deeper than 16 levels, more than any key of a scene";
+    if (depth > DEPTH_MOST) return "is nested deeper than 16 levels, more than any key of a scene; remove levels";
     return NULL;
 }
 
 static const char *key_refusal(const yaml_event_t *e)
 {
     if (e->type == YAML_SEQUENCE_START_EVENT || e->type == YAML_MAPPING_START_EVENT)
-        return "a key must be a single word, not a list or mapping";
+        return "has a list or mapping as a key; write a single word";
     if (e->type == YAML_SCALAR_EVENT && strcmp((char *)e->data.scalar.value, "<<") == 0)
         return "merge keys (<<) are not allowed in a scene; write the keys out";
     return NULL;

@@ -190,8 +190,8 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
     memory_free(*figure);
     *figure = NULL;
     return status_set(FAILED,
-                      "nothing to extrapolate: no figure has a value at every spacing, because some runs failed; their "
-                      "messages are in %s/logs",
+                      "no figure can be extrapolated, because none has a value at every spacing: some runs failed; "
+                      "read their messages in %s/logs",
                       s->study.folder);
 }
 

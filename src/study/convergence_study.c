@@ -152,8 +152,9 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].file) return "the particles of a body come from a list, so the spacing cannot be refined";
-    if (w->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon";
+        if (s->body[b].file)
+            return "the particles of a body come from a list, so the spacing cannot be refined; give the body a shape";
+    if (w->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon; remove --horizon";
     return NULL;
 }
 
@@ -178,10 +179,11 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     const struct unit metre = unit_for_spacings(coarsest);
     if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
         return status_set(REFUSED,
-                          "--budget %.3g s is too small: one run at %.4g %s, the coarsest spacing, takes longer",
+                          "--budget %.3g s is too small: one run at %.4g %s, the coarsest spacing, takes longer; give "
+                          "a larger budget",
                           s->budget, coarsest / metre.factor, metre.name);
     if (run->state == CASE_FAILED)
-        return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
+        return status_set(FAILED, "the coarsest run has failed; read its message in %s/logs", s->study.folder);
     return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 

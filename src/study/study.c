@@ -38,7 +38,7 @@ static status place_read(char *to, size_t capacity, const char *path, const char
 status study_make(struct study *s, const char *scene, const char *folder, const char *study_kind)
 {
     *s = (struct study){.scene = scene, .lock.fd = -1};
-    if (folder && !*folder) return status_set(REFUSED, "-o: give the name of a folder");
+    if (folder && !*folder) return status_set(REFUSED, "-o is empty: give the name of a folder");
     if (folder && strlen(folder) + CASE_NAME_ROOM + PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long; choose a shorter one");
     if (folder)

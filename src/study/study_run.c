@@ -346,7 +346,8 @@ status study_lock_folder(struct study *s, bool overwrite)
 {
     if (path_exists(path_join(s->folder, "scene.yaml").text))
         return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
-    if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: contains no study", s->folder);
+    if (!path_is_folder(s->folder))
+        return status_set(REFUSED, "%s: contains no study; give the folder of one", s->folder);
     if (s->lock.fd >= 0) return OK;
     TRY(study_folder_check_is_usable(s->folder));
     TRY(folder_lock(&s->lock, s->folder));

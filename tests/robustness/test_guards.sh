@@ -14,7 +14,7 @@ refused "the same command again" "$work/kept" "holds a finished run of this scen
 same "left alone" "$work/once" "$work/kept"
 calm "$work/kept" $small --overwrite
 same "replaced" "$work/once" "$work/kept"
-refused "both" "$work/kept" "one of them" $small --resume --overwrite
+refused "both" "$work/kept" "one of the two" $small --resume --overwrite
 sed -i 's/"done"/"failed"/' "$work/kept/summary.json"
 refused "a failed run" "$work/kept" "holds a failed run of this scene" $small
 rm "$work/kept/summary.json"

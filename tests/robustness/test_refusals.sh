@@ -138,7 +138,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, gc: 100}|6:43|here it is `energy_release_rate`
 6|material: {bulk: 190 GPa, density: 7800}|6:12|here it is `young`
 19|output: {length: 2}|19:10|`cleave help length` lists the 2 keys of that name
-20|probes: [{reaction: {boundary: bottom}}]|20:22|there is no boundary named bottom; of the 1 in the scene pull has
+20|probes: [{reaction: {boundary: bottom}}]|20:22|there is no boundary named bottom; of the 1 in the scene, pull has
 2|space: plane|2:1|plane stress
 2|space: solid|3:1|thickness
 2||1:1|space: missing
@@ -173,8 +173,8 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|not below Young's modulus
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|has no law; linear, voce
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa}}}|6:76|rate: missing
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|keep one of the two
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_hardening: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:88|keep one of the two
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|remove one of the two
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_hardening: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:88|remove one of the two
 6|material: {young: 190 GPa, density: 7800, yield_hardening: 1 GPa}|6:43|yield_hardening: has no effect without yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {swift: {a: 1}}}|6:76|linear
 6|material: {young: 190 GPa, density: 7800, hardening: {linear: {modulus: 1 GPa}}}|6:43|add yield_stress
@@ -187,11 +187,11 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[1 GPa, 0], [2 GPa, 0.1]]}}|6:64|a plain number is expected
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the stress falls
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|the slope of the curve increases
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|keep one of the two
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|remove one of the two
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is for material points; use `method: mpm`
 6|material: {young: 190 GPa, density: 7800, kinematic: {modulus: 1 GPa}}|6:43|add yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, kinematic: {recall: 3}}|6:64|modulus: missing
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}}|6:64|keep one of the two
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}}|6:64|remove one of the two
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 1.3, C: 0.025, T_melt: 1356}}|6:81|out of range
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 200 K}}|6:99|is not above T_room
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356 m}}|6:99|a temperature in kelvin is expected
@@ -204,7 +204,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no effect without specific_heat
 6|material: steel|6:1|not a mapping
 8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
-8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not smaller than to
+8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not below to
 8|  - box: {from: [0, 0], to: [inf, 10 mm]}|8:30|not finite
 8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|particles, more than the limit of 2e9
 8|  - cylinder: {radius: 1}|8:5|cannot be used in space plane stress
@@ -256,9 +256,9 @@ done <<'END'
 20|probes: [rigid: {region: here}]|20:18|region
 20|probes: [tip, tip]|20:15|name of another probe
 20|probes: [exact: step bar]|20:10|set space: line
-19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
+19|output: {frames: 2, times: [1 us]}|19:21|remove one of the two
 19|output: {times: [2 us, 1 us]}|19:24|values in ascending order
-19|output: {frames: 2, every: 1 us}|19:21|keep one of the two
+19|output: {frames: 2, every: 1 us}|19:21|remove one of the two
 19|output: {regions: [{name: a, every: 1 us}]}|19:20|region: missing
 19|output: {regions: [{name: frames, region: {all: true}, every: 1 us}]}|19:21|the files of the whole body
 19|output: {regions: []}|19:10|regions
@@ -390,7 +390,7 @@ x,y,volume
 0.5e-3,0.5e-3,1e-8
 0.5e-3,0.5e-3,1e-8
 END
-list "no particle" "bad.yaml:7:25: particles: " "its list has no entry for it" <<'END'
+list "no particle" "bad.yaml:7:25: particles: " "has no particle in its list" <<'END'
 x,y,volume
 END
 list "a pipe" "kept/grains.csv:1:1: " "column x is missing" <<'END'
@@ -412,7 +412,7 @@ frobnicate|unknown command frobnicate|
 run|no scene given|usage
 run good.yaml --fast|unknown option --fast|usage
 run good.yaml -x|unknown option -x|usage
-run good.yaml good.yaml|one scene at a time|
+run good.yaml good.yaml|give one scene, not two|
 run good.yaml method=pd|method=pd: |the option -s is missing before it: -s method=pd
 run good.yaml -o|-o needs a value|
 run good.yaml -s|-s needs a value|

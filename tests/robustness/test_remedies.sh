@@ -97,7 +97,7 @@ refused 'model ospd cannot yield; use `model: bond`' "$plate" -s model=ospd $yie
 remedied -s model=bond
 refused 'model mospd cannot yield; use `method: mpm` without the key model' "$plate" -s model=mospd -s material.poisson=0.2 $yields
 remedied -s method=mpm -s model=
-refused "no method has all of rigid bodies and a Poisson's ratio that bonds do not have and yield_stress; leave one" "$wall" -s model=ospd \
+refused "no method has all of rigid bodies and a Poisson's ratio that bonds do not have and yield_stress; remove one" "$wall" -s model=ospd \
     -s material.poisson=0.2 $yields
 remedied -s material.yield_stress=
 remedied -s material.poisson= -s model=
@@ -126,7 +126,7 @@ remedied $steps
 refused 'set solver: explicit or static' "$plate" $soft -s material.compressive_strength=300MPa -s solver=cg
 remedied -s solver=explicit
 remedied $steps
-refused 'need method: pd; set it' "$plate" $soft $steps -s method=adaptive
+refused 'need method: pd; set method: pd' "$plate" $soft $steps -s method=adaptive
 remedied -s method=pd
 remedied -s method=pd -s model=ospd
 refused 'cannot be combined with yield_stress' "$plate" $soft $yields

@@ -166,7 +166,7 @@ says "levels by nothing" "$needs 32 spacings, $largest (nothing loads the body)"
 says "levels: cells" '^levels  *[0-9]* cells with edges of 2 spacings, [0-9]* cells with edges of 4 spacings, [0-9]* cells with edges of 8' "$far" -s "$ramp"
 costs "levels: what they save" '^levels  *[0-9]* of 133400 particles are in coarse cells, of which there are [0-9]*; memory [0-9]* MB; about' "$far"
 says "levels: none, too small" '^levels  *no coarse cells: the body has only [0-9]* particles, and they save time only from 100000' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
-says "levels: none, a long step" '^levels  *no coarse cells: time.step is 0.7[0-9] of the critical time step, but they are stable only up to 0.70' "$far" -s time.step=0.03us
+says "levels: none, a long step" '^levels  *no coarse cells: time.step is 0.7[0-9] of the critical time step, but coarse cells are stable only up to 0.70' "$far" -s time.step=0.03us
 narrow="body={box: {from: [0, 0], to: [200 mm, 15 mm]}}"
 says "levels: none, too sudden" 'no coarse cells: boundary pull is sudden, but cells of 4 spacings require a rise over at least 10 spacings, or a body at least 200 .*(this one: 100)$' "$far" -s "$narrow"
 says "levels given" '^levels  *coarse cells of up to 16 spacings, set by mpm.levels; auto would choose: coarse cells of up to 4' "$far" -s mpm.levels=3

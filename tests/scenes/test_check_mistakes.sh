@@ -34,7 +34,7 @@ ball() { echo "bodies=[{name: plate, shape: {box: {from: [0, -20 mm], to: [50 mm
     shape: {disc: {centre: [56 mm, 0], radius: 5 mm}}}]"; }
 dense='body ball: its mass over its volume is'
 silent "a ball of steel" "$dense" "$glass" -s body= -s "$(ball '0.613 g')"
-says "a mass in kg for g" "^warning: $dense 7.8[0-9]*e+06 kg/m^3 (0.613 kg over 7.8[0-9]*e-08 m^3), above 2.5e+04: check the units of mass (kg; g?)" "$glass" -s body= \
+says "a mass in kg for g" "^warning: $dense 7.8[0-9]*e+06 kg/m^3 (0.613 kg over 7.8[0-9]*e-08 m^3), above 2.5e+04: check the units of mass (kg)" "$glass" -s body= \
     -s "$(ball '0.613 kg')"
 says "a mass in mg" "$dense 7.8[0-9]* kg/m^3 .*, below 50: " "$glass" -s body= -s "$(ball '0.613 mg')"
 silent "a mass that is meant" "$dense" "$glass" -s body= -s "$(ball '0.613 kg')" -s 'accept=[mass]'
@@ -51,7 +51,7 @@ silent "glass that softens" 'E G_c/tensile_strength' "$glass" $soft
 says "an energy of steel" '^warning: material material: its length E G_c/tensile_strength^2 over the longest edge of the bodies is 1.44e+03 (72 m over 0.05 m), above 30: check' \
     "$glass" $soft -s material.energy_release_rate=100kJ/m^2
 silent "an energy of steel that is meant" 'E G_c/tensile_strength' "$glass" $soft -s material.energy_release_rate=100kJ/m^2 -s 'accept=[brittleness]'
-refuses "a strength in GPa" 'm; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (mm?)' "$glass" \
+refuses "a strength in GPa" 'm; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (m)' "$glass" \
     -s material.tensile_strength=2GPa
 checked "$glass" -s material.tensile_strength=60MPa
 holds "a strength that needs smaller particles" sh -c "grep -q 'particles.spacing below [^;]* m$' '$work/said'"
@@ -62,7 +62,7 @@ factor() { echo "boundary.up.time={$1}"; }
 late='^warning: boundary up: the largest load within the duration, over the largest at any time, is' early='^warning: boundary up: its time function ends at'
 silent "a ramp" "$late\|$early" "$glass" -s "$(factor 'ramp: {until: 40 us}')"
 silent "a ramp of ten times the run" "$late" "$glass" -s "$(factor 'ramp: {until: 399 us}')"
-says "a ramp in ms" "$late 0.001, below 0.1: check the units of its times (us?) and duration; if this is intended, add accept: \[times\]" "$glass" \
+says "a ramp in ms" "$late 0.001, below 0.1: check the units of its times (s) and duration; if this is intended, add accept: \[times\]" "$glass" \
     -s "$(factor 'ramp: {until: 40 ms}')"
 silent "a ramp in ms that is meant" "$late" "$glass" -s "$(factor 'ramp: {until: 40 ms}')" -s 'accept=[times]'
 says "a pulse in ms" "$late" "$glass" -s "$(factor 'pulse: {until: 40 ms}')"
@@ -105,11 +105,11 @@ silent "the scene of a run, which gives all keys" "$idle" "$work/ran/scene.yaml"
 
 between='the particles are between (0.0005, -0.0195) and (0.0495, 0.0195) m: check'
 box() { echo "box: {from: [$1], to: [$2]}"; }
-refuses "a probe outside" "the point (10, 5) m is outside the bodies; $between its coordinates and their unit (mm?)" "$glass" -s 'probes=[{point: {name: p, at: [10, 5]}}]'
+refuses "a probe outside" "the point (10, 5) m is outside the bodies; $between its coordinates and their unit (m if none is written)" "$glass" -s 'probes=[{point: {name: p, at: [10, 5]}}]'
 refuses "a line outside" "the whole line is outside the bodies; $between its ends" "$glass" -s 'probes=[{line: {name: p, from: [10, 5], to: [20, 5], points: 3}}]'
-refuses "a load outside" "boundary up: no particle is in its region; $between the region and its unit (mm?)" "$glass" -s "boundary.up.region={$(box '100, 0' '200, 50')}"
+refuses "a load outside" "boundary up: no particle is in its region; $between the region and its unit (m if none is written)" "$glass" -s "boundary.up.region={$(box '100, 0' '200, 50')}"
 refuses "a pressure outside" "boundary p: no particle is in its region; $between the region" "$glass" -s "boundary=[{name: p, pressure: 1 MPa, region: {$(box '100, 0' '200, 50')}}]"
-says "a support outside" "^warning: boundary f holds no particle; $between its region and the unit (mm?) (" "$glass" \
+says "a support outside" "^warning: boundary f holds no particle; $between its region and the unit (m if none is written) (" "$glass" \
     -s "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: f, fixed: all, region: {$(box '100, 0' '200, 50')}}]"
 says "a velocity outside" "^warning: initial\[0\]: no particle is in its region; $between the region" "$glass" -s "initial=[{velocity: [1, 0], region: {$(box '100, 0' '200, 50')}}]"
 says "peridynamics outside" "^warning: pd.region: no particle is in it; $between the region" "$glass" -s "pd.region={$(box '100, 0' '200, 50')}"

@@ -94,7 +94,7 @@ for model in bond ospd; do
 done
 
 refused "no such body" "$work/no" "is not the name of a body with particles; check its spelling" "$work/halves.yaml" -s "interfaces=[{bodies: [low, middle]}]"
-refused "a toughness of what is apart" "$work/no" "bodies that are not joined; leave it out, or set joined: true" "$work/halves.yaml" \
+refused "a toughness of what is apart" "$work/no" "bodies that are not joined; remove it, or set joined: true" "$work/halves.yaml" \
     -s "interfaces=[{bodies: [low, high], joined: false, energy_release_rate: 1}]"
 refused "a boundary of a joined body" "$work/no" "is joined to body low" "$work/halves.yaml" -s "boundary=[{fixed: all, body: high}]"
 # Joined bodies that touch do not overlap, and each has the initial state of its own name; their bonds break at the interface.

@@ -28,7 +28,7 @@ boundary: [{traction: [0, 12 MPa], face: y+}, {traction: [0, -12 MPa], face: y-}
 END
 glass=$work/glass.yaml units='check the units of'
 silent "glass" "$units" "$glass"
-says "lengths in mm" '^warning: time: in the duration waves travel 0.23[0-9]* spacings, below 1: check the units of duration, lengths (mm?)' "$glass" \
+says "lengths in mm" '^warning: time: in the duration waves travel 0.23[0-9]* spacings, below 1: check the units of duration, lengths (m)' "$glass" \
     -s 'variables.a=1 m'
 says "a modulus in MPa" '^warning: boundary boundary0: its load over Young.s modulus is 167 ' "$glass" -s 'variables.E=72000 Pa'
 says "a modulus in MPa: slow waves" '^warning: material material: the speed of its waves is 5.7[0-9]* m/s, below 10: ' "$glass" -s 'variables.E=72000 Pa'
@@ -473,7 +473,7 @@ particles: {spacing: 1 mm}
 boundary: [{name: a, fixed: all, face: y-}, {name: b, velocity: [0, 0.5 m/s], face: y+}]
 END
 plate=$work/plate.yaml
-says "a region in m" '^warning: boundary a holds all 400 particles, so nothing can move; check the units of its region (mm?) (' "$plate" \
+says "a region in m" '^warning: boundary a holds all 400 particles, so nothing can move; check the units of its region (m if none is written) (' "$plate" \
     -s 'boundary=[{name: a, fixed: all, region: {box: {from: [0, 0], to: [20, 1]}}}]'
 silent "a region in mm" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: all, region: {box: {from: [0, 0], to: [20 mm, 1 mm]}}}'
 # The layer behind a face is three particles deep.
@@ -498,7 +498,7 @@ holds "its stiffness: $(cat "$work/said")" grep -q 'boundary a: .* of 0.02 m by 
 rests silent "a layer of one row" -s 'boundary.a={name: a, fixed: all, face: y-, depth: 1 mm}'
 # From the corner at 20 mm to 8 m: sqrt(2) 7.98 m.
 solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }
-says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (mm?) (' "$plate" \
+says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (m if none is written) (' "$plate" \
     -s "$(solids 'subtract: {disc: {centre: [10, 10], radius: 2}}')"
 says "a hole beside a corner" 'solid 2 of its shape removes nothing, because it is outside' "$plate" \
     -s "$(solids 'subtract: {disc: {centre: [21.5 mm, 21.5 mm], radius: 2 mm}}')"

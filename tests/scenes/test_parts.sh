@@ -135,7 +135,7 @@ start list_again "$work/list/scene.yaml"; wait
 if cmp "$work/list/history.csv" "$work/list_again/history.csv"; then pass; else fail "list: scene.yaml is another scene"; fi
 sound list 0.005
 
-refused "two materials, no parts" "$work/no" "use parts, or bodies" "$work/layers.yaml" -s parts=
+refused "two materials, no parts" "$work/no" "use parts, or the key bodies" "$work/layers.yaml" -s parts=
 refused "an unknown material" "$work/no" "there is no material wood" "$work/layers.yaml" -s parts.0.material=wood
 refused "a part of nowhere" "$work/no" "region: missing" "$work/layers.yaml" -s parts.0.region=
 finish

@@ -146,7 +146,7 @@ refused "--range a:b: b: " results/strip --field speed --range a:b
 refused "give the lower end first" results/strip --field speed --range 5m/s:1m/s
 refused "X:X,Y:Y" results/strip --crop 1mm:2mm
 refused "lower end" results/strip --crop 2mm:1mm,0:1mm
-refused "nothing is in this rectangle; the body is in -0.5mm:20.5mm,-3mm:10.5" results/strip --crop 100mm:120mm,0mm:5mm -o beside.png
+refused "no particle is in this rectangle; give a part of -0.5mm:20.5mm,-3mm:10.5" results/strip --crop 100mm:120mm,0mm:5mm -o beside.png
 holds "no empty picture" test ! -e beside.png
 refused "above 0" results/strip --magnify -3
 refused "or a size, such as 1200x800" results/strip --size 100
@@ -190,7 +190,7 @@ refused "it has several components; draw one of strain_xx, strain_yy" results/st
 refused "there are damage, kind, material" results/strip --field nonsense
 "$cleave" plot results/strip --field principal_stress $small >out 2>err
 holds "principal_stress: which one is drawn" grep -q "principal_stress is the largest one; draw the others as principal_stress_2" err
-refused "runs in space" results/strip --slice z=1mm
+refused "a run with space: solid" results/strip --slice z=1mm
 refused "did you mean --field" results/strip --feild speed
 refused "a time is expected" results/strip --times 5kg
 refused "the body would be a point in this rectangle" results/strip --crop 0:6,0:6
@@ -200,11 +200,11 @@ drawn "the share of damage beyond the range" "% above' at screen"
 refused "png, svg, pdf, mp4 or gif" results/strip --format bmp
 refused "does not fit --format pdf" results/strip --field speed --format pdf -o x.png
 refused "a file that ends in .png" results/strip --field speed -o x.bmp
-refused "one of them" results/strip --times 1us --frames 2
+refused "one of the two" results/strip --times 1us --frames 2
 refused "at most 24 panels" results/strip --frames 30
 refused "cleave plot --scene strip.yaml" strip.yaml
 refused "before it runs" results/strip --scene strip.yaml
-refused "for scenes in space" --scene strip.yaml --view x+
+refused "needs a scene with space: solid" --scene strip.yaml --view x+
 refused "use it with --scene" results/strip -s method=pd
 "$cleave" plot results/strip --field strain_xx >out 2>err
 is "a field that the run has not written: exit status" $? 1
@@ -239,8 +239,8 @@ holds "a slice has the particles of a layer" grep -q "of 2 frames, 72 particles"
 holds "what is the same everywhere is not drawn" grep -q "speed is 0 m/s everywhere" out
 "$cleave" plot results/block --slice z=0.5mm --field damage --times last $small -o slice.png >out 2>err
 drawn "a slice is in the unit of the axes" "set label 1 'block, pd: damage, z = 0.5 mm'"
-refused "no particle is at this position; they are from 0.5 to 5.5 mm" results/block --slice z=9mm
-refused "one of them" results/block --slice z=3mm --view iso
+refused "no particle is at this position; give one from 0.5 to 5.5 mm" results/block --slice z=9mm
+refused "one of the two" results/block --slice z=3mm --view iso
 
 
 # ---- files of others, a disk that is full, films that are stopped ----------------------------------------------------
@@ -469,7 +469,7 @@ END
 : >all
 "$cleave" plot spall $small >out 2>err
 holds "no crack.png of a bar, with the reason" grep -q "crack.png is not drawn: a crack of a bar has no length" out
-refused "colours is for maps; a run in one dimension has curves" spall --field stress_xx --colours magma
+refused "colours is for maps, but a run in one dimension has curves" spall --field stress_xx --colours magma
 holds "the profiles say which component: $(cat err)" grep -a -q "set ylabel 'velocity x" all
 holds "colours of times are in order" grep -a -q "using 1:2 with lines lw 1.8 lc rgb '#440154' title '0 " all
 holds "a lone particle is a point: $(cat err)" grep -a -q '$l3 using 1:2 with points' all
@@ -538,7 +538,7 @@ holds "the support that moves" grep -a -q "title .jaw" all
 holds "not the one at rest" sh -c "! grep -a -q 'title .grip' all"
 "$cleave" run strip.yaml -q -o free -s 'boundary=[{traction: [0, 1 kPa], face: y+}]' >out 2>err
 "$cleave" plot free $small >out 2>err
-holds "no support: a line says so" grep -q "load_displacement.png is not drawn: neither a support nor" out
+holds "no support: a line says so" grep -q "load_displacement.png is not drawn: no force to draw" out
 
 # All pictures into a folder of -o, whether it is there or not; one picture into a file.
 "$cleave" plot held2 $small -o elsewhere >out 2>err

@@ -176,7 +176,7 @@ refused "given twice" bar.yaml -s method=pd,mpm -s method=pd -o none
 refused "given twice" bar.yaml -s boundary.0.traction=[1,0] -s boundary[0].traction=[2,0] -o none
 refused "unknown key" bar.yaml -s particles.spacin=1mm,2mm -o none
 refused "particles.spacing" bar.yaml -s particles.spacing=1mm,-1mm -o none
-refused "one of them" bar.yaml -s method=pd,mpm --list --collect -o none
+refused "one of the two" bar.yaml -s method=pd,mpm --list --collect -o none
 refused "contains no study" bar.yaml -s method=pd,mpm --collect -o none
 refused "holds a run, not a study" bar.yaml -s method=pd,mpm -o two/spacing=1mm,traction=5MPa,0
 refused "more than 100000" bar.yaml -s time.safety=0.1:0.9:0.0001 -s particles.seed=1:100:1 -o none

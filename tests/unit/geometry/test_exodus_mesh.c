@@ -245,7 +245,7 @@ static void spheres(void **state)
         for (int k = 0; k < 3 && l.volume; k++) assert_close(l.volume[k], (k ? 4 + 2 * k : 5) * 1e-9, 1e-15);
         particle_list_free(&l);
     }
-    assert_refused(particle_list_read(&l, "a.e", &mm, 3), "a.e: has 2 coordinates, but the space has 3");
+    assert_refused(particle_list_read(&l, "a.e", &mm, 3), "a.e: has 2 coordinates, but the space of the scene has 3");
     write_plate("a.e", 0, 2);
     assert_refused(particle_list_read(&l, "a.e", &mm, 2), "block 1 has elements of type BAR2 with 2 nodes; a list of");
     int file = exodus_begin("a.e", 0, 2, 3, X[0], 2, 0, 0);
@@ -306,7 +306,7 @@ static void bad_files(void **state)
     file = begin_bad(0, 0);
     exodus_put_block(file, 1, "QUAD4", 1, 4, (int[]){1, 2, 3, 5});
     NC(nc_close(file));
-    refused("element 1 has node 5; a number from 1 to 4 is expected");
+    refused("element 1 has node 5; give its nodes numbers from 1 to 4");
     file = begin_bad(0, 0);
     exodus_put_block(file, 1, "NSIDED", 1, 4, square);
     NC(nc_close(file));

@@ -119,7 +119,7 @@ static void bad_stl(void **state)
     stl_bytes(bytes, 12);
     memcpy(bytes + 84 + 50 * 3 + 16, &none, 4);
     write_file("c.stl", bytes, sizeof bytes);
-    refused("c.stl", 3, "c.stl: triangle 3: a coordinate is not finite");
+    refused("c.stl", 3, "c.stl: triangle 3: a coordinate is infinite or not a number");
     write_stl_words("c.stl", 12, "endsolid");
     refused("c.stl", 2, "not in one plane z = const");
 }

@@ -158,8 +158,7 @@ static void faults_are_placed(void **state)
         {UNIT_LENGTH, "x + t", "x + t combines a length and a time by + (character 3); give both the same unit"},
         {UNIT_LENGTH, "x + 3",
          "x + 3 combines a length and a plain number by + (character 3); give both the same unit"},
-        {UNIT_NONE, "2*exp(x)",
-         "2*exp(x) applies exp to a length (character 3); a plain number is expected, such as (t/5us)"},
+        {UNIT_NONE, "2*exp(x)", "2*exp(x) applies exp to a length (character 3); give a plain number, such as (t/5us)"},
         {UNIT_PRESSURE, "3 mm*x/m", "3 mm*x/m is a length; a stress is expected, such as 190 GPa"},
         {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; a stress is expected, such as 190 GPa"},
         {UNIT_NONE, "x*x", "x*x is an area; a plain number is expected, such as 0.25"},
@@ -185,15 +184,17 @@ static void faults_are_placed(void **state)
         {UNIT_NONE, "2*007",
          "2*007 has no number at character 3: a leading 0 means octal elsewhere; write the decimal "
          "number without it"},
-        {UNIT_NONE, "2/(1 - 1)", "2/(1 - 1) divides by 0 (character 2)"},
-        {UNIT_NONE, "log(-1)*t/s", "log(-1)*t/s has a part that is not a finite number"},
-        {UNIT_LENGTH, "x^t", "x^t has a time as a power (character 2); a plain number is expected"},
+        {UNIT_NONE, "2/(1 - 1)", "2/(1 - 1) divides by 0 (character 2); change the divisor"},
+        {UNIT_NONE, "log(-1)*t/s",
+         "log(-1)*t/s has a part that is infinite or not a number; check its divisions and powers"},
+        {UNIT_LENGTH, "x^t", "x^t has a time as a power (character 2); give a plain number"},
         {UNIT_LENGTH, "x^(t/s)", "x^(t/s) raises a length to a power that varies (character 2); use a constant power"},
         {UNIT_LENGTH, "x^0.3",
          "x^0.3 raises a length (character 2) to a power whose unit cannot be represented; use whole and half powers "
          "of m, kg and s"},
         {UNIT_LENGTH, "sqrt(sqrt(x))",
-         "sqrt(sqrt(x)) takes the square root of in m^0.5 (character 1), whose unit has no square root"},
+         "sqrt(sqrt(x)) takes the square root of in m^0.5 (character 1), whose unit has no square root; change the "
+         "operand"},
         {UNIT_LENGTH, "2*1e20 m*1e20", "2*1e20 m*1e20 is above 1e30 in SI units; a length is expected, such as 0.5 mm"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {

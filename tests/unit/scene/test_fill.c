@@ -143,7 +143,7 @@ static void added_solids_continue_the_lattice(void **state)
     s.body[0].shape.n = 1;
     s.solid[1][0] = (struct solid){.kind = SOLID_BOX, .from = {-INFINITY, -1}, .to = {INFINITY, 0}};
     s.body[1].shape.n = 1;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body layer: its shape is infinite");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body layer: has an infinite shape");
     s.solid[1][0].from[0] = 0, s.solid[1][0].to[0] = 2.1;
     assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
@@ -339,11 +339,11 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: too large for particles.spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: its shape is infinite");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: has an infinite shape");
     s.body[0].shape.n = 1;
     s.scene.spacing = 0;
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
-                   "particles.spacing, at which a shape is filled, is missing");
+                   "particles.spacing is missing: a shape is filled with particles at this distance; add it");
     s.scene.spacing = 0.5;
     s.scene.bodies = 2;
     s.solid[1][0] = s.solid[0][0]; /* the same position twice */

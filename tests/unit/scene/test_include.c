@@ -132,11 +132,11 @@ static void faults_name_the_file(void **state)
          "space: line\nmaterial: {young: 1}", "sub/outer.yaml:2:12: yuong: unknown key; the nearest is young"},
         {"include: inner.yaml\nbodies: []\nduration: 1\nparticles: {spacing: 1}\n",
          "space: line\nmaterial: {young: 1, density: 1}\nbody: {box: {from: 0, to: 1}}\n",
-         "sub/outer.yaml:2:1: bodies: given together with body; keep one of the two"},
+         "sub/outer.yaml:2:1: bodies: is given together with body; remove one of the two"},
         {"include: inner.yaml\n", "space: [",
          "sub/inner.yaml:2:1: not YAML: did not find expected node content; indent by spaces (not "
          "tabs), end a key in `: `, close brackets"},
-        {"include: inner.yaml\n", "a: 1\na: 2\n", "sub/inner.yaml:2:1: a: given twice, first in line 1; keep one"},
+        {"include: inner.yaml\n", "a: 1\na: 2\n", "sub/inner.yaml:2:1: a: is given twice, first in line 1; remove one"},
         {"include: inner.yaml\n", "a: &b 1\n",
          "sub/inner.yaml:1:4: an anchor (&) is not allowed in a scene; write the value "
          "out where it is used"},
@@ -156,7 +156,7 @@ static void faults_name_the_file(void **state)
         {"include:\n", "", "sub/outer.yaml:1:1: include: no value is not a file name; give a scene file"},
         {"include: [{a: 1}]\n", "", "sub/outer.yaml:1:11: include[0]: a mapping is not a file name; give a scene file"},
         {"include: inner.yaml\ninclude: inner.yaml\n", "space: line\n",
-         "sub/outer.yaml:2:1: include: given twice, first in line 1; keep one"},
+         "sub/outer.yaml:2:1: include: is given twice, first in line 1; remove one"},
         {"include: inner.yaml\nduration: 1\n", "space: line\nduration:\n  include: b.yaml\nparticles: {include: a}\n",
          "sub/inner.yaml:4:13: include: does not belong here; put the key include at the left margin"},
     };

@@ -179,7 +179,7 @@ static void volumes_have_a_default(void **state)
     particles_free(&p);
     s.scene.spacing = 0;
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
-                   "gives no volumes; add a column volume, or set particles.spacing");
+                   "has a list without volumes; add a column volume, or set particles.spacing");
     remove(name);
 }
 

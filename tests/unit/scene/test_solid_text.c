@@ -245,7 +245,7 @@ static void test_refusals(void **state)
          "there is no region girp; the nearest is grip"},
         {2, "regions: {a: {region: b}, b: [{region: c}], c: {region: a}}\n", "a",
          "region a is part of itself; remove this reference"},
-        {2, "regions: {a: {box: {from: [0, 0], to: [-1, 1]}}}\n", "a", "from is not smaller than to"},
+        {2, "regions: {a: {box: {from: [0, 0], to: [-1, 1]}}}\n", "a", "from is not below to"},
         {2, "regions: {a: {box: {from: [0, 0], to: [1, 1]}}, a: {all: true}}\n", "a", "given twice"},
         {2, "regions: {'a b': {box: {from: [0, 0], to: [1, 1]}}}\n", "a b", "is not a name"},
         {2, "regions: 3\n", "a", "is not a mapping"},

@@ -105,7 +105,7 @@ static const struct {
     {"a: 3", "2:3: b: 2*a + 4 mm combines a plain number and a length by + (character 5); give both "
              "the same unit"},
     {"aa: 3 mm", "2:3: b: 2*a + 4 mm has an unknown name a; the nearest variable is aa"},
-    {"a: 3 mm\n  a: 2 mm", "4:3: a: given twice, first in line 3; keep one"},
+    {"a: 3 mm\n  a: 2 mm", "4:3: a: is given twice, first in line 3; remove one"},
     {"a: 3 mm\n  s: 1", "4:3: s: is a unit in expressions; choose another name, such as s1"},
     {"a: 3 mm\n  m2: 1", "4:3: m2: is a unit in expressions; choose another name, such as m21"},
     {"a: 3 mm\n  x: 1", "4:3: x: is a coordinate in expressions; choose another name, such as x1"},
@@ -117,9 +117,9 @@ static const struct {
     {"a: 3 mm\n  2a: 3",
      "4:3: 2a: cannot be the name of a variable; use up to 40 letters, digits and _, a letter first"},
     {"a: 3 mm\n  d: [1]", "4:3: d: a list is not a number or an expression"},
-    {"a: 3 mm\n  d: x", "4:3: d: x contains x, which this key does not have"},
+    {"a: 3 mm\n  d: x", "4:3: d: x contains x, which this key does not have; remove it"},
     {"a: 3 mm\n  d: red", "4:3: d: red has an unknown name red; the nearest variable is rho"},
-    {"a: 1/0*1 mm", "2:3: b: 2*a + 4 mm needs a, which divides by 0 (character 2)"},
+    {"a: 1/0*1 mm", "2:3: b: 2*a + 4 mm needs a, which divides by 0 (character 2); change the divisor"},
     {"a: 1e40 mm", "2:3: b: 2*a + 4 mm needs a, which is above 1e30 in SI units"},
 };
 
@@ -145,7 +145,8 @@ static void wrong_ones_are_refused(void **state)
         {{"variables.aa", "3 mm"},
          "-s variables.aa=3 mm: aa: no value of the scene uses this variable; the nearest is a"},
         {{"variables", "3 mm"}, "-s variables=3 mm: variables: 3 mm is not a mapping such as {a: 3 mm, b: 2*a}"},
-        {{"variables.a", "t*m/s"}, "v.yaml:2:3: b: 2*a + 4 mm needs a, which contains t, which this key does not have"},
+        {{"variables.a", "t*m/s"},
+         "v.yaml:2:3: b: 2*a + 4 mm needs a, which contains t, which this key does not have; remove it"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct scene s;
