@@ -17,10 +17,10 @@ struct impedance {
     real normal, tangential;
 };
 
-/* Dashpots of all absorbing faces. */
+/* Dashpots of all absorbing faces, `n` in number, one for each particle on these faces. */
 struct absorbing {
     int64_t n;
-    int32_t *particle;           /* [n] ascending */
+    int32_t *particle;           /* [n] particles with a dashpot, indices in ascending order */
     real *rate[MOVERS][DIM_MAX]; /* [n] coefficient (force divided by velocity) of the dashpot for each method of motion
                                     and each component [kg/s] */
     const struct impedance *impedance[MOVERS]; /* [materials] borrowed */

@@ -1,7 +1,5 @@
 /* Room `loads`: boundary conditions on particles, grids and meshes, and their impulse and work. It uses `data`, `bonds`
- * and `kernels`, but neither scenes nor the step; mesh, solver and engine call it.
- *
- * Prescribed velocities, forces, walls and mirrors as functions of time, and the accounts of their impulse and work. */
+ * and `kernels`, but neither scenes nor the step; mesh, solver and engine call it. */
 #ifndef CLEAVE_LOADS
 #define CLEAVE_LOADS
 
@@ -23,7 +21,8 @@ enum boundary_kind {
     BOUNDARY_PRESSURE    /* on every free face, against its outward normal (loads_pressure.c) [Pa] */
 };
 
-/* Factor on a body force at X: 1, or sin(2 pi (X - origin) . direction/(wavelength |direction|)). */
+/* Factor on a body force at the reference position X. PROFILE_UNIFORM: 1; PROFILE_SINE: sin(2 pi (X - origin) .
+ * direction/(wavelength |direction|)). */
 enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
 struct profile {
     enum profile_kind kind;
@@ -32,7 +31,7 @@ struct profile {
     real direction[DIM_MAX]; /* of any length [1] */
 };
 
-/* One boundary condition as given in the scene. Capitals: kinds (boundary_kind) that use a member. */
+/* One boundary condition as given in the scene. A comment such as VELOCITY: names the kinds that use a member. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
     char place[PLACE_LENGTH]; /* position in the scene file */
@@ -68,7 +67,8 @@ struct boundary {
     bool hold_tangential; /* MIRROR: displacement odd in all components, not only the normal one */
 };
 
-/* A boundary condition applied to particles. Arrays are owned, except shares that several loads use together. */
+/* A boundary condition applied to `n` particles, with their shares: factors on its value, such as areas or masses.
+ * Arrays are owned, except shares that several loads use together. */
 struct load {
     const struct boundary *boundary; /* borrowed from the scene */
     int64_t n;
@@ -118,7 +118,7 @@ static inline bool boundary_applies_force(const struct boundary *b)
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
 }
 
-/* Returns true if boundary b prescribes zero velocity or displacement for its components, i.e. is a fixed support. */
+/* Returns true if boundary b is a support at rest: prescribes zero velocity or displacement. dim: of the space. */
 static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
@@ -182,9 +182,9 @@ static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
 
-/* Returns the components of the motion that boundary b prescribes, as bits (bit d: component d): those of a prescribed
- * motion, the normal one of a mirror, all of a clamped mirror. In the plane of a mirror that is not clamped nodes are
- * held, particles are not. */
+/* Returns the components of motion that boundary b prescribes, as bits (bit d: component d): those of a prescribed
+ * motion, the one normal to a mirror, all `dim` of a clamped mirror; 0 for other kinds. A mirror that is not clamped
+ * constrains only nodes of grids and meshes in its plane, no particles. */
 uint8_t boundary_prescribed_components(const struct boundary *b, int dim);
 
 /* Finds the particles on which boundary b acts, those in its region (for a clamped mirror those in its plane), and
@@ -215,7 +215,7 @@ struct exposed_face {
 void exposed_face_compute_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
                                 const uint8_t *selected, real spacing, bool extrapolate);
 
-/* Releases both arrays of areas of a face. */
+/* Frees both arrays of areas in f. */
 void exposed_face_free(struct exposed_face *f);
 
 /* Sets in_layer[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and
@@ -240,8 +240,8 @@ void face_visit_surface_particles(const struct boundary *b, const struct particl
 status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
                                 struct particles *p, real spacing);
 
-/* Function that pressure_visit_faces calls for each free face of a particle. axis: axis of its outward normal, side: -1
- * or 1 for its direction along the axis; area: of the face [m^2]; context: data of the caller. */
+/* Function that pressure_visit_faces calls for each free face of a particle (index `particle`). axis, side: axis of the
+ * outward normal, and -1 or 1 for its direction; area: area of the face [m^2]; context: data of the caller. */
 typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
 
 /* Calls visit(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
@@ -295,7 +295,7 @@ void load_value_at_particle(const struct load *l, const struct particles *p, int
 status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
                   real mirror_reach, int optional_arrays);
 
-/* Releases all arrays of all loads. */
+/* Frees all arrays of *l and of its loads; the boundaries, which belong to the scene, remain. */
 void loads_free(struct loads *l);
 
 /* Sets the list of particles on which contact forces may act, in place of the previous one: n indices in ascending
@@ -305,7 +305,7 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads with equal lists of particles, so that each list is traversed once; last part of loads_make. */
+/* Combines loads with equal particle lists, to traverse each list once. Ends loads_make. dim: of the space. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads, also arrays that several
@@ -322,8 +322,8 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
-/* Checks the absorbing boundaries. Returns REFUSED, with a message, if two act on one part of a face, or one lies in a
- * mirror plane. */
+/* Checks the absorbing boundaries, whose dashpots act on particles of p. Returns REFUSED, with a message, if two of
+ * them act on the same part of a face, or if one lies in a mirror plane. */
 status absorbing_boundaries_check(const struct loads *l, const struct particles *p);
 
 /* Creates the dashpots on the particles of all absorbing faces. Must be called after loads_make.
@@ -331,7 +331,7 @@ status absorbing_boundaries_check(const struct loads *l, const struct particles 
  * grid or mesh), kept by reference. Release with absorbing_dashpots_free. */
 void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
 
-/* Releases the dashpots of all absorbing faces. */
+/* Frees the dashpots of all absorbing faces, which absorbing_dashpots_make has made. */
 void absorbing_dashpots_free(struct loads *l);
 
 /* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
@@ -348,7 +348,7 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
  * loads_find_driven_mesh_nodes. */
 void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Adds the energy and impulse in `absorbed`, the effect of all dashpots of a grid or mesh in a step, to l. */
+/* Adds energy and impulse that all dashpots of a grid or mesh have absorbed in a step, `absorbed`, to the sums in l. */
 void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed);
 
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For

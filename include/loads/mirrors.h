@@ -10,8 +10,9 @@
  * message, if a mirror plane is inside its body or two mirrors coincide. */
 status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
 
-/* Sets the flag MOVES_LATER in l->loaded for particles whose bonds may cross a clamped mirror plane: the reactions of
- * such bonds are added after all bond forces, so these particles must not be moved before. */
+/* Sets the flag MOVES_LATER in l->loaded for the particles of p whose bonds may cross a clamped mirror plane (a mirror
+ * that also prevents motion along its plane). The reactions of such bonds are added after all bond forces, so these
+ * particles must not be moved before. */
 void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p);
 
 /* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
@@ -25,7 +26,8 @@ void loads_update_mirror_images(const struct loads *l, struct particles *p);
  * a message, if the distance is at most the bond length minus a spacing. */
 status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length);
 
-/* Returns true if the plane of mirror b is on a node of grid g or midway between two. spacing: lattice spacing [m]. */
+/* Returns true if the plane of mirror b is on a row of nodes of grid g or midway between two rows, so that nodes have
+ * nodes as mirror images. spacing: lattice spacing of the particles, to which the tolerance refers [m]. */
 bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 #endif

@@ -4,14 +4,15 @@
 
 #include "loads/loads.h"
 
-/* A free face of a particle, by axis and side of its normal. */
+/* A free face of a particle. particle: index of the particle; axis: axis of the outward normal, 0 to dim - 1; side: -1
+ * or 1, the direction of the normal along this axis. */
 struct surface_face {
     int32_t particle;
     uint8_t axis;
     int8_t side;
 };
 
-/* List of free faces of particles. */
+/* List of free faces of particles, face[0 .. n - 1]. */
 struct surface_faces {
     int64_t n;
     struct surface_face *face;
@@ -29,7 +30,7 @@ status load_surface_make(struct load *l, const struct surface_faces *free_faces,
  * pointing into the body, from the present particle positions. area: [dim][number of particles of the load] [m^2]. */
 void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
 
-/* Releases all arrays of the surface s and s itself. */
+/* Frees the surface s, which load_surface_make has made, with its arrays; s may be NULL. */
 void load_surface_free(struct surface *s);
 
 #endif
