@@ -6,11 +6,10 @@
 #include "data/mesh.h"
 #include "loads/loads.h"
 
-/* Updates the list of active blocks, in which the nodes of the mesh may move, after a step. A block is eight nodes
- * beside each other along x; computations skip all blocks that are not active. Normally adds the neighbours of blocks
- * whose nodes have moved. After active_nodes_activate_all_blocks, makes the list anew from the blocks that move, on
- * which the boundary conditions `loads` act, or that have exposed points (material points to which bonds or loads
- * attach). */
+/* Updates after a step the list of active blocks of the mesh. A block is eight nodes beside each other along x; only
+ * active blocks are computed, all others are still at rest. Normally adds the neighbours of blocks whose nodes have
+ * moved. After active_nodes_activate_all_blocks, makes the list anew: it then has the blocks that move, on which the
+ * boundary conditions `loads` act, or that have exposed points (material points to which bonds or loads attach). */
 void active_nodes_update_block_list(struct mesh *mesh, const struct loads *loads);
 
 /* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that

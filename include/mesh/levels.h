@@ -29,8 +29,8 @@ enum { LEVELS_MAX = 4, MASTERS_MAX = 4 };
  * without coarse cells: impulses of the coarser levels then have half the period of the finest cells, and resonate. */
 #define LEVELS_STEP_MOST 0.7
 
-/* A ghost: node `coarse` of the mesh of a level that is at the position of node `fine` of the next finer level and
- * moves with it. */
+/* A ghost, a node of the mesh of a coarse level at the position of a node of the next finer level, with which it moves.
+ * coarse, fine: indices of the ghost and of the finer node in their meshes. */
 struct mesh_ghost {
     int32_t coarse, fine;
 };
@@ -112,7 +112,7 @@ static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1
 status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
                                     const struct particles *p, const struct mesh_source *source, const real *density);
 
-/* Frees the arrays of l; the finest mesh stays with the caller. */
+/* Frees the coarse levels in l, which levels_make_over_finest_mesh has made; the finest mesh stays with the caller. */
 void levels_free(struct mesh_levels *l);
 
 /* Sets two distances between a coarse cell and a material point that shall become peridynamic, both in cells of level 0
@@ -169,15 +169,16 @@ void levels_change_refinement(struct mesh_levels *l, const struct particles *p, 
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
                                        bool finite_strain, real dt);
 
-/* Copies displacement and velocity to all ghosts from the nodes that determine them. A ghost is a node of the mesh of a
- * coarser level at the position of a node of the next finer level; this finer node determines the motion. */
+/* Copies displacement and velocity to all ghosts, from the coarsening level 1 upwards. A ghost is a node of the mesh of
+ * a coarser level at the position of a node of the next finer level; the motion of the finer node is copied to it. */
 void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l);
 
-/* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
+/* Interpolates displacement and velocity of the nodes of coarse cells to all nodes of level 0 (the finest mesh) inside
+ * these cells, so that these have the motion of the coarse cells. */
 void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
 
-/* Interpolates displacement and velocity of coarse cells to the nodes of level 0 (the finest) inside them that have
- * particles in an adjacent cell. */
+/* Interpolates displacement and velocity of the nodes of coarse cells to those nodes of level 0 (the finest mesh)
+ * inside these cells that have particles in an adjacent cell. */
 void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l);
 
 /* Returns the highest coarsening level (0: finest) whose forces act in step number `step`: the largest L <= l->n for

@@ -38,7 +38,7 @@ struct mesh_source {
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node_grid,
                  const struct mesh_source *source);
 
-/* Frees the arrays of a mesh. */
+/* Frees the arrays of the mesh, which mesh_make has made. */
 void mesh_free(struct mesh *mesh);
 
 /* Returns the number of parts of a mesh of all particles that share no node with each other. node_grid: grid whose
@@ -72,7 +72,8 @@ bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct part
 real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *inserted_points,
                                                int64_t inserted_count);
 
-/* Returns true if the cell of the mesh contains a part of the body. */
+/* Returns true if the cell with the index `cell` contains a part of the body: it has material points or is part of
+ * a coarse cell. */
 bool mesh_cell_contains_material(const struct mesh *mesh, int64_t cell);
 
 /* Lists the exposed points of the mesh: material points with bonds, boundary conditions `loads` or mirror images. Their
@@ -87,10 +88,10 @@ void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles
 real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
                              bool after_any_conversion);
 
-/* Computes the stiffness matrix of the cell for displacements of its corners in the undeformed state [N/m], from the
- * points that the cell still has, without partial stresses. elastic: array of the elastic constants of all materials;
- * stiffness: receives (dim 2^dim)^2 values, column by column, with index corner x dim + component. Returns false, with
- * stiffness 0, if the cell has no points. */
+/* Computes the stiffness matrix of the cell with the index `cell` for displacements of its corners in the undeformed
+ * state [N/m], from the points that the cell still has, without partial stresses. elastic: array of the elastic
+ * constants of all materials; stiffness: receives (dim 2^dim)^2 values, column by column, with index corner x dim +
+ * component. Returns false, with stiffness 0, if the cell has no points. */
 bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
                                  int64_t cell, real *stiffness);
 
@@ -109,8 +110,8 @@ enum { CELLS_ACROSS = 6 };
 int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirror_plane *mirror, int mirror_count,
                                      uint8_t *highest_level);
 
-/* Marks all cells of grid g within `reach_in_cells` cells of a marked one, in all directions including diagonals.
- * cell_is_marked: g->n bytes, not 0 if marked. */
+/* Marks all cells of grid g that are within `reach_in_cells` cells of a marked cell, in all directions including
+ * diagonals. cell_is_marked: [g->n] marks of the cells, not 0 if marked. */
 void grid_mark_cells_near_marked_cells(const struct grid *g, uint8_t *cell_is_marked, int reach_in_cells);
 
 /* Saves displacement and velocity of the nodes of a mesh to the archive `a` if a->saving, else restores them from it.

@@ -20,7 +20,7 @@ struct frame_ring {
     real place[2], radius;
 };
 
-/* Material points in coarse cells without particles, made for the last frame of output only. */
+/* Material points in coarse cells whose particles were never made; they exist only for the last frame of output. */
 struct coarse_cell_points {
     struct particles part;
     real *spacing;                     /* spacing of the points [m] */
@@ -52,8 +52,8 @@ struct reference_frame {
     real speed; /* largest component of a nodal velocity [m/s] */
 };
 
-/* Warns of planes of symmetry that do not fit the nodes of a grid or mesh, and of those that bodies in the reference
- * frame do not reach. */
+/* Adds a warning to *warning_list for each plane of symmetry of run e that is neither on nodes of the grid or mesh nor
+ * midway between them, and for each that the bodies in the reference frame (on the mesh) do not reach. */
 void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings *warning_list);
 
 /* Decides for each body of scene s whether its material points use a mesh fixed to the material (reference frame) or
@@ -63,7 +63,7 @@ void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings 
 status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
                                        const struct scene *s);
 
-/* Returns true if at least one body is in the reference frame. */
+/* Returns true if the material points of at least one body move with a mesh (the reference frame). */
 bool reference_frame_is_in_use(const struct reference_frame *r);
 
 /* Returns true if the particles can be in the reference frame: they form one connected mesh on a lattice that fits the
@@ -135,8 +135,8 @@ real reference_frame_kinetic_energy(const struct reference_frame *reference);
 /* Returns the strain energy of all cells of the reference frame, of all coarsening levels [J]. */
 real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
-/* Kind of the load with the shortest rise time, which requires the smallest cells: none, a boundary condition, initial
- * values of particles, a moving or rigid body. */
+/* Kind of the load with the shortest rise time, which requires the smallest cells. RISE_NONE: there is no load;
+ * RISE_BOUNDARY: a boundary condition; RISE_INITIAL: initial values of particles; RISE_BODY: a moving or rigid body. */
 enum rise_kind { RISE_NONE, RISE_BOUNDARY, RISE_INITIAL, RISE_BODY };
 
 /* A load and its rise time, the time within which it grows from 0 to its largest value. */
@@ -162,7 +162,7 @@ enum levels_why {
 
 /* Number of levels of coarse cells that a run uses, and why. */
 struct levels_choice {
-    int levels, automatic; /* levels of this run; levels by auto */
+    int levels, automatic; /* number for this run; number that `mpm.levels: auto` chooses */
     bool given;            /* the scene gives the levels */
     enum levels_why why;
     real across;       /* thickness of the body [spacings] */
@@ -254,7 +254,7 @@ void cells_without_particles_update_from_levels(struct reference_frame *r, const
 bool coarse_cell_points_make_for_output(struct reference_frame *r, const struct particles *body,
                                         const struct material *m, bool with_gradients);
 
-/* Frees the points that coarse_cell_points_make_for_output has made. */
+/* Frees the material points and their arrays in *h, which coarse_cell_points_make_for_output has made. */
 void coarse_cell_points_free(struct coarse_cell_points *h);
 
 #endif

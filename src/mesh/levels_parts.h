@@ -20,8 +20,8 @@ static inline void grid_advance_to_next_node_indices(const struct grid *g, int64
 }
 
 /* Returns the index of the cell of coarsening level `level` that contains a cell of level 0 (the finest). fine_index:
- * indices of the cell of level 0 along the axes; coarse_index: receives those of the coarse cell, NULL if not
- * needed. */
+ * dim indices of the cell of level 0 along the axes; coarse_index: receives the dim indices of the coarse cell, NULL if
+ * they are not needed. */
 static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *l, int level, const int64_t *fine_index,
                                                       int64_t *coarse_index)
 {
@@ -36,7 +36,7 @@ static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *
 }
 
 /* Returns the index of the node of level 0 (the finest) at the position of a node of coarsening level `level`.
- * coarse_index: indices of this node along the axes. */
+ * coarse_index: dim indices of the coarse node along the axes. */
 static inline int64_t levels_fine_node_of_coarse_node(const struct mesh_levels *l, int level,
                                                       const int64_t *coarse_index)
 {
@@ -87,15 +87,16 @@ static inline bool levels_coarse_cell_contains_finer_level(const struct mesh_lev
     return any;
 }
 
-/* Returns the material number of cell `cell` of level 0 (the finest), which must be completely filled. If the particles
- * of the cell are not made, the body has only one material, and that one is returned. */
+/* Returns the material (index in the materials of the run) of cell `cell` of level 0, the finest; the cell must be
+ * completely filled. If its particles p are not made, the body has only one material, which is returned. */
 static inline uint8_t mesh_whole_cell_material(const struct mesh *finest_mesh, const struct particles *p, int64_t cell)
 {
     const int32_t i = finest_mesh->point[cell << finest_mesh->grid.dim];
     return p->material[i >= 0 ? i : 0];
 }
 
-/* Returns true if cell `cell` of the mesh computes forces: it has points and is not replaced by a coarse cell. */
+/* Returns true if cell `cell` of the mesh has material points and is not replaced by a coarse cell, so that it
+ * contributes forces to its nodes. */
 static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t cell)
 {
     return mesh->kind[cell] == CELL_WHOLE || mesh->kind[cell] == CELL_PARTIAL;

@@ -11,9 +11,10 @@
  * coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_remove_and_return_cells before its cells are
- * classified again. mesh_partial_compute_stiffness copies the stiffness of unchanged cells from here and frees the
- * arrays. */
+/* Partial cells (with missing points, partial stresses, several materials or doubled nodes), moved out of a mesh by
+ * mesh_partial_remove_and_return_cells before its cells are classified again. partial_cell: [partial_cells] indices of
+ * the cells; stiffness: their stiffness matrices. mesh_partial_compute_stiffness copies the stiffness of unchanged
+ * cells from here and frees the arrays. */
 struct mesh_partial {
     int64_t partial_cells;
     int32_t *partial_cell;
@@ -58,12 +59,13 @@ status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, con
  * after the blocks are made. */
 void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
 
-/* Stores the node indices of the corners of those groups of eight partial cells (cells with missing points, several
- * materials or doubled nodes) in which a cell touches a slit, a pre-crack as free surface. Slits double nodes, so the
- * corners of such cells are not at fixed index distances from the cell. To be called after the groups are made. */
+/* Stores the node indices of the corners of partial cells (cells with missing points, several materials or doubled
+ * nodes) that touch a slit, a pre-crack as free surface. Partial cells are computed in groups of eight; the indices are
+ * stored for all cells of a group if one of them touches a slit. Needed because slits double nodes, so that the corners
+ * of such cells are not at fixed index distances from the cell. To be called after the groups are made. */
 void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
 
-/* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh. */
+/* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh, which mesh_slits_double_nodes has made. */
 void mesh_slits_free(struct mesh_slits *s);
 
 /* Computes nodal values of a vector field from values at the points of the mesh, by least squares weighted with mass;
@@ -81,7 +83,8 @@ void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct parti
  * -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
 int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
 
-/* Recomputes mass and inverse mass of node `node` from the points around it; points in coarse cells are left out. */
+/* Recomputes mass [kg] and inverse mass of the mesh node with the index `node` from the points p in the cells around
+ * it; points in coarse cells are left out, since the nodes of the coarse cells carry their mass. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
