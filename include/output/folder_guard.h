@@ -16,7 +16,8 @@ struct folder_kind {
     const char *inner[2]; /* subfolders that the command fills; NULL: unused slot */
 };
 
-/* Returns true if `name` is that of a hidden or temporary file, which any output folder may hold. */
+/* Returns true if the file name `name` (without folder) begins with a dot (hidden) or ends in .tmp (temporary); any
+ * output folder may contain such files. */
 bool file_name_is_hidden_or_temporary(const char *name);
 
 /* Checks that a command may write its files into `folder`. It may if the folder does not exist, contains only hidden

@@ -6,7 +6,9 @@
 
 #include "base/base.h"
 
-enum { JSON_EXACT = 17, JSON_TIMING = 9 }; /* significant digits: 17 restore the same double; 9 for times */
+/* Numbers of significant digits for json_write_rounded. JSON_EXACT: reading restores the same double; JSON_TIMING: for
+ * durations of parts of the program. */
+enum { JSON_EXACT = 17, JSON_TIMING = 9 };
 
 /* Document being written. file: its destination; depth: number of open objects and lists; filled: the innermost object
  * or list has at least one entry, so that the next entry needs a comma. */
@@ -20,7 +22,7 @@ struct json {
  * Close it with json_close. */
 void json_open(struct json *j, const char *key, char bracket);
 
-/* Closes the innermost open object (bracket '}') or list (bracket ']'). */
+/* Closes the innermost open object or list. bracket: closing bracket, '}' of an object or ']' of a list. */
 void json_close(struct json *j, char bracket);
 
 /* Writes the string `text` as the next entry, with special characters escaped. key: name of the entry; NULL in a list.

@@ -23,7 +23,7 @@ status lammps_list_step_numbers(const char *path, int *step_count, int64_t **ste
  * with lammps_frame_free. */
 status lammps_frame_read(struct lammps_frame *f, const char *path, int64_t step);
 
-/* Releases the particle arrays of *f, which lammps_frame_read has allocated. */
+/* Frees the particle arrays of *f, which lammps_frame_read has allocated. */
 void lammps_frame_free(struct lammps_frame *f);
 
 #endif

@@ -16,9 +16,12 @@
 #include "data/region.h"
 #include "column.h"
 
-enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE }; /* treatment of an older run in the folder */
+/* Treatment of an older run in the folder: OUTPUT_FIRST refuses it, OUTPUT_RESUME continues it, OUTPUT_OVERWRITE
+ * removes its files. */
+enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };
 
-enum { SERIES_MOST = 16 }; /* number of regions with frames of their own, in addition to the frames of the whole body */
+/* Largest number of regions with frames of their own, in addition to the frames of the whole body. */
+enum { SERIES_MOST = 16 };
 
 /* Bit of the member `fields` of struct frame_entry: the file of the frame is missing or damaged, so that the index
  * files do not list it (output_remove_lost_frames_from_index). */
@@ -58,7 +61,7 @@ struct output {
     struct folder_lock lock; /* excludes a second process from the folder; held while `folder` is not NULL */
     char *folder;            /* path of the run's folder */
     bool has_other_scene;    /* output_open has refused, with a message that begins with the key that differs */
-    int n_series;            /* number of regions: series[1 .. n_series]; series[0] is the whole body */
+    int n_series;            /* number of regions with frames: series[1 .. n_series]; series[0] is the whole body */
     struct frame_series series[1 + SERIES_MOST];
     bool compress;
     FILE *history;
@@ -194,8 +197,9 @@ status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_tex
  * lack the frames of a run that continues. */
 void output_remove_vtkhdf_of_all_frames(const struct output *o);
 
-/* Discards the stored order in which particles are written. Must be called when the number of particles or their ids
- * have changed, after output_wait_for_frame. */
+/* Discards the order of rows, particles by ascending id, that is stored for all series of frames, so that the next
+ * frame determines it again. Must be called when the number of particles or their ids have changed, after
+ * output_wait_for_frame. */
 void output_discard_particle_order(struct output *o);
 
 /* Waits until the thread that writes a frame has finished. Returns FAILED if the frame could not be written; OK if it
@@ -236,7 +240,7 @@ static inline int frame_stress_component_count(int dim) { return symmetric_compo
  * frame_free. */
 status frame_read(struct output_frame *f, const char *path);
 
-/* Releases the arrays of the frame *f. */
+/* Frees the arrays of the frame *f, which frame_read has allocated. */
 void frame_free(struct output_frame *f);
 
 /* Reads the field called `name` at the particles of the frame f, which was read from the file `path`: a field stored in

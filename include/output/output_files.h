@@ -8,6 +8,7 @@
  * folders. */
 enum { PATH_ROOM = 4096, PATH_NAME_ROOM = 300 };
 
+/* A path as a text that ends with a 0 byte; "" for a path that was too long. */
 struct path {
     char text[PATH_ROOM];
 };
@@ -28,8 +29,8 @@ struct path run_frame_path(const char *folder, int frame_number);
  * file has the name of such a folder; FAILED if a folder cannot be created. */
 status folder_make(const char *path);
 
-/* Creates the folder of the file `path` as folder_make does, because the folders in the argument of -o may be missing.
- */
+/* Creates the folder that shall contain the file `path`, and its parent folders, unless they exist. Returns REFUSED if
+ * the path is too long or a file has the name of such a folder; FAILED if a folder cannot be created. */
 status folder_make_for_file(const char *path);
 
 /* Ending of the names of temporary files. It contains the name of the program, so that files of other programs do not
@@ -73,8 +74,8 @@ status file_check_replaceable(const char *path);
  * there is no such file; REFUSED if no beginning agrees. */
 status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginnings);
 
-/* Type of a function that is called for a file. path: the file. Its status is returned to the caller that visits the
- * files. */
+/* Type of a function that files_visit calls for a file. path: path of the file. Returns OK to continue; any other
+ * status ends the visit, and files_visit returns it. */
 typedef status file_visit_fn(const char *path);
 
 /* Calls visit(path) for every file in `folder` for whose name name_is_chosen(name, ending) returns true. ending: passed

@@ -8,7 +8,8 @@
 
 #include "base/base.h"
 
-/* Types of the numbers in a dataset of an HDF5 file: floating point, unsigned and signed integers, with their bits. */
+/* Types of the numbers in a dataset of an HDF5 file: floating point (F), unsigned (U) and signed integers (I), with the
+ * number of bits of each. */
 enum hdf_type { HDF_F32, HDF_F64, HDF_U8, HDF_I32, HDF_I64 };
 
 /* Returns the size of one number of the given type [byte]. */
@@ -37,7 +38,7 @@ void hdf_close(struct hdf *f);
  * the file has failed, removes the incomplete file, sets *write_failed to true and returns FAILED, with a message. */
 status hdf_close_written_file(struct hdf *f, const char *path, bool *write_failed);
 
-/* Creates the group `name`, a path within the file. A failure is stored in f->failed. */
+/* Creates the group `name`, a path within the HDF5 file f. A failure is stored in f->failed. */
 void hdf_create_group(struct hdf *f, const char *name);
 
 /* Writes the dataset `name` of rows x columns numbers of the given type from data[rows][columns]; the dataset has one
@@ -75,20 +76,21 @@ struct hdf_source {
 void hdf_write_virtual_dataset(struct hdf *f, const char *name, enum hdf_type type, int columns,
                                const struct hdf_source *source_files, int source_count, int extra_rows);
 
-/* Writes the string `text` as the dataset `name`, with fixed length. A failure is stored in f->failed. */
+/* Writes the string `text` to the HDF5 file f as the dataset `name`, of one string of fixed length. A failure is stored
+ * in f->failed. */
 void hdf_write_text(struct hdf *f, const char *name, const char *text);
 
 /* Writes the string `text` as the dataset `name`, a list of one string of variable length, which VTK shows as field
  * data. Bytes that are not ASCII become question marks. A failure is stored in f->failed. */
 void hdf_write_text_list(struct hdf *f, const char *name, const char *text);
 
-/* Writes values[count] as the attribute `name` of a group or dataset; the attribute is a list even for one number.
- * group: path of the group or dataset. A failure is stored in f->failed. */
+/* Writes values[count], numbers of the given type, as the attribute `name` of a group or dataset; the attribute is a
+ * list even for one number. group: path of the group or dataset. A failure is stored in f->failed. */
 void hdf_write_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count,
                          const void *values);
 
-/* Writes the number *value as the attribute `name` of a group or dataset; the attribute is a scalar. group: path of
- * the group or dataset. A failure is stored in f->failed. */
+/* Writes the number *value of the given type as the attribute `name` of a group or dataset; the attribute is a scalar.
+ * group: path of the group or dataset. A failure is stored in f->failed. */
 void hdf_write_scalar_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type,
                                 const void *value);
 
@@ -96,8 +98,8 @@ void hdf_write_scalar_attribute(struct hdf *f, const char *group, const char *na
  * group or dataset. A failure is stored in f->failed. */
 void hdf_write_text_attribute(struct hdf *f, const char *group, const char *name, const char *text);
 
-/* Returns how many numbers the dataset `name` has, over all its dimensions, or -1 if the file has no such dataset,
- * which is not a failure. */
+/* Returns the number of elements of the dataset `name`, the product of its dimensions, or -1 if the file f has no such
+ * dataset, which is not a failure. Any other failure is stored in f->failed. */
 int64_t hdf_dataset_size(struct hdf *f, const char *name);
 
 /* Reads the dataset `name`, which must hold exactly `count` numbers, and converts them to the given type in
@@ -118,8 +120,8 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
  * link. */
 bool hdf_is_link(hid_t file, const char *name);
 
-/* Returns true if the data of the dataset are stored in its file, neither in an external file nor as a virtual
- * dataset. */
+/* Returns true if the data of the dataset with the handle `dataset` are stored in its own file: neither in an external
+ * file nor as a virtual dataset, whose data are in other files. */
 bool hdf_dataset_is_in_its_file(hid_t dataset);
 
 /* Reads the attribute `name` of the dataset or group at the path `object_path` of the file into text[capacity]; "" if

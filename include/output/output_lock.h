@@ -18,7 +18,8 @@ status folder_lock(struct folder_lock *l, const char *folder);
  * because the locked one was moved or removed. */
 status folder_check_lock(const struct folder_lock *l, const char *folder);
 
-/* Releases the lock l, and removes the lock file in `folder` if the lock still applies. */
+/* Releases the lock l, and removes the lock file in `folder` if the lock still applies to this folder. Does nothing if
+ * l holds no lock. */
 void folder_unlock(struct folder_lock *l, const char *folder);
 
 #endif

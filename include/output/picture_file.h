@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 
+/* Formats of pictures and films; PICTURE_FORMATS: number of formats. */
 enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTURE_GIF, PICTURE_FORMATS };
 
 /* Completes the picture in PATH.cleave.tmp, the temporary file of `path`: checks that the file is complete, writes a

@@ -5,6 +5,7 @@
 
 #include "output_files.h"
 
+/* The standard pictures of a run; DRAWN_KINDS: number of them. */
 enum picture {
     DRAWN_DAMAGE,
     DRAWN_KIND,
@@ -38,8 +39,8 @@ struct path picture_path_of_frame(const char *folder, enum picture kind, int fra
  * an empty path if it would be too long. ending: "png", "svg" and so on. */
 struct path picture_path_of_field(const char *folder, const char *field, const char *ending);
 
-/* Returns true if `name` consists of the name of a picture or film that Cleave draws, such as NAME.png or
- * NAME_000012.png, and of the text `ending` after it. */
+/* Returns true if `name` is the file name of a picture or film that Cleave draws, such as NAME.png or NAME_000012.png,
+ * followed by the text `ending` ("": nothing). */
 bool file_name_is_of_picture(const char *name, const char *ending);
 
 #endif

@@ -89,7 +89,7 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
  * mesh->level, the coarsening level of each cell, has changed in some cells. source: material constants and partial
- * stresses; level_has_changed: mesh->grid.n + LANES bytes, not 0 for these cells. */
+ * stresses; level_has_changed: [mesh->grid.n + LANES] not 0 for cells whose level has changed. */
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
                                            const struct mesh_source *source, const uint8_t *level_has_changed);
 

@@ -5,7 +5,7 @@
 #include "output/output.h"
 #include "output/output_hdf5.h"
 
-/* Sources of the values of a frame: the particles, and quantities that particles do not store. */
+/* Sources of the values of a frame: the particles p, and in `extra` the quantities that particles do not store. */
 struct frame_source {
     const struct particles *p;
     struct frame_extra extra;
@@ -35,7 +35,8 @@ enum { FIELD_POINTS, FIELD_CONTACT = 6, FRAME_FIELDS = 26 };
 /* Table of all fields that frames may contain, in the order of the bits of field sets. */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
-/* Lists of the cells, one vertex for each particle, in the particles file. */
+/* Entries of the table frame_cells: datasets of the particles file (particles_file.h) that describe to VTK one cell, a
+ * single vertex, for each particle. CELL_LISTS: number of entries. */
 enum { CELLS_CONNECTIVITY, CELLS_OFFSETS, CELLS_TYPES, CELL_LISTS };
 extern const struct frame_field frame_cells[CELL_LISTS];
 

@@ -6,7 +6,7 @@
 
 enum { INDICES = 2 }; /* frames.hdf.series, frames.xdmf */
 
-/* Texts of the index files of one series of frames. */
+/* Texts of the index files of one series of frames (the frames of the whole body or of one region), owned. */
 struct frame_indices {
     char *text[INDICES];
     size_t length[INDICES]; /* [byte] */
@@ -22,15 +22,15 @@ status frame_index_files_compose(struct frame_indices *index, const char *folder
 status frame_index_files_write(const struct frame_indices *index, const char *folder,
                                const struct frame_series *series);
 
-/* Releases the texts of the index files *index of a series of frames. */
+/* Frees the texts in *index, which frame_index_files_compose has allocated. */
 void frame_index_files_free_texts(struct frame_indices *index);
 
 /* Writes the file name of frame number `frame_number` of a series, relative to the folder of the run, to
- * name[capacity]. */
+ * name[capacity]: frames/NNNNNN.hdf for the whole body, frames_REGION/NNNNNN.hdf for a region. A longer name is cut. */
 void frame_write_file_name(const struct frame_series *series, char *name, size_t capacity, int frame_number);
 
 /* Writes the name of an index file of a series, relative to the folder of the run, to name[capacity]: the name of the
- * series followed by the ending `ending`. */
+ * region, or `frames` for the whole body, followed by the ending `ending`. A longer name is cut. */
 void series_write_index_file_name(const struct frame_series *series, char *name, size_t capacity, const char *ending);
 
 #endif

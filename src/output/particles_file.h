@@ -24,7 +24,8 @@ struct particles_file {
 };
 
 /* Writes the name of particles file number `file_number` of a series, relative to the folder of the run, to
- * name[capacity]. */
+ * name[capacity]: frames/particles_NNNNNN.h5 for the whole body, frames_REGION/... for a region. A longer name is
+ * cut. */
 void particles_file_name(const struct frame_series *series, char *name, size_t capacity, int file_number);
 
 /* Initialises *f with the contents of a particles file, the data that do not change from frame to frame: copies the
@@ -38,7 +39,7 @@ void particles_file_collect_contents(struct particles_file *f, const struct fram
  * HDF5 failed and must not be called again. Returns FAILED if the file cannot be written. */
 status particles_file_write(const struct particles_file *f, bool *hdf5_failed);
 
-/* Releases the contents of *f, which particles_file_collect_contents has copied. */
+/* Frees the contents of *f, which particles_file_collect_contents has copied. */
 void particles_file_free(struct particles_file *f);
 
 /* Creates in the file `frame` a link to each of its fields that is stored in the particles file f. field_bits: fields
