@@ -10,8 +10,8 @@ struct colour {
     uint8_t red, green, blue, alpha;
 };
 
-/* Tables of colours for fields, in the order of COLOUR_TABLE_WORDS; by default viridis, and a diverging one for signed
- * quantities. */
+/* Tables of colours for fields, in the order of their names in COLOUR_TABLE_WORDS. COLOURS_USUAL: viridis, for signed
+ * quantities the diverging table; COLOUR_TABLES: number of tables. */
 enum colour_table {
     COLOURS_USUAL,
     COLOURS_VIRIDIS,
@@ -22,6 +22,7 @@ enum colour_table {
     COLOURS_DIVERGING,
     COLOUR_TABLES
 };
+/* Names of the tables of colours, as the user writes them, separated by |. */
 #define COLOUR_TABLE_WORDS "usual|viridis|cividis|inferno|magma|grey|diverging"
 
 /* Returns the colour at `position` in 0 .. 1 of the colour table `table`. Smaller and larger values are treated as 0
@@ -46,7 +47,8 @@ struct colour colour_on_damage_scale(double position);
  * values are treated as 0 and 1, NaN and infinity as 1. */
 struct colour colour_of_peridynamic_particle(double position);
 
-/* Returns the colour of material points in maps that distinguish them from peridynamic particles (MAP_KIND). */
+/* Returns the colour of material points in maps of the kind of particles (MAP_KIND), which distinguish them from
+ * peridynamic particles. */
 struct colour colour_of_material_points(void);
 
 /* Returns the colour of the fragment with the index `fragment`, 0 for the heaviest one. -1 denotes particles without
@@ -57,10 +59,10 @@ struct colour fragment_colour(int32_t fragment);
  * on top are visible, and repeat after nine. */
 struct colour colour_of_material_or_body(int index);
 
-/* Mixes the colour c with white. colour_weight: weight of c, 1 for c itself, 0 for white. */
+/* Returns the mixture of the colour c with white. colour_weight: weight of c, from 0 for white to 1 for c. */
 struct colour colour_mixed_with_white(struct colour c, double colour_weight);
 
-/* Mixes the colour c with black. colour_weight: weight of c, 1 for c itself, 0 for black. */
+/* Returns the mixture of the colour c with black. colour_weight: weight of c, from 0 for black to 1 for c. */
 struct colour colour_mixed_with_black(struct colour c, double colour_weight);
 
 #endif

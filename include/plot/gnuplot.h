@@ -7,10 +7,10 @@
 
 #include "output/picture_file.h"
 
-/* Endings of the file names of the picture formats. */
+/* Endings of the file names of the picture formats, such as "png"; index: enum picture_format. */
 extern const char *const picture_ending[PICTURE_FORMATS];
 
-/* Returns true for the formats of films (plot/film.h), whose single pictures are PNG files. */
+/* Returns true if `format` is a format of films (plot/film.h), which are made from PNG pictures of single frames. */
 static inline bool picture_is_film(enum picture_format format) { return format >= PICTURE_MP4; }
 
 /* A running gnuplot process that draws one picture. */
@@ -24,12 +24,13 @@ struct gnuplot {
     char *aside, *path; /* temporary and final path of the picture */
 };
 
-/* Colours of curves in gnuplot's notation, distinguishable with any colour vision (Okabe & Ito 2008). */
+/* Colours of the curves of a picture, in gnuplot's notation. They can be distinguished with any colour vision (Okabe &
+ * Ito 2008). */
 enum { CURVE_COLOURS = 7 };
 extern const char *const curve_colour[CURVE_COLOURS];
 
-/* Finds the format of pictures with the file name ending `ending`, such as png, and stores it in *format. Returns false
- * if there is none. */
+/* Finds the picture format whose file names have the ending `ending`, such as png, and stores it in *format. Returns
+ * false if no format has this ending. */
 bool picture_format_named(enum picture_format *format, const char *ending);
 
 /* Size of all pictures that this process draws, and the format of those of studies. */
@@ -70,12 +71,13 @@ int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixel
  * the key must be below them. */
 bool picture_is_too_narrow_for_key(void);
 
-/* Returns the width of the first n bytes of `text`, which is in UTF-8, over the size of its letters in points [pixel].
- * It follows from the widths of classes of letters of Helvetica. Letters of narrow pictures are smaller than stated. */
+/* Returns the estimated width of the first n bytes of `text` (UTF-8) in pixels, divided by the size of the letters in
+ * points. The estimate uses mean widths of classes of letters of Helvetica. Letters of narrow pictures are smaller than
+ * their stated size. */
 double text_width(const char *text, size_t n);
 
-/* Writes the commands for the title of a picture, which begins `left_margin` pixels from its left edge. A title that is
- * too long for one line of letters of legible size is broken into two lines. */
+/* Writes the commands for the title `text` of the picture to g. The title begins `left_margin` pixels from the left
+ * edge of the picture. It is broken into two lines if it is too long for one line of letters of legible size. */
 void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin);
 
 /* Ends the input of gnuplot, waits until the picture is complete, and renames it from its temporary name to its final

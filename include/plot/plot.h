@@ -16,7 +16,7 @@
 
 /* ---- requests ---------------------------------------------------------------------------------------------------- */
 
-/* Number of panels of a picture: PANELS by default, PANELS_MAX at most. */
+/* Number of panels (one frame each) of a picture: PANELS by default, PANELS_MAX at most. */
 enum { PANELS = 6, PANELS_MAX = 24 };
 
 /* Directions of a view of a solid: right-handed unit vectors to the right, upwards and towards the viewer. */
@@ -24,7 +24,7 @@ struct camera {
     double right[3], up[3], towards[3];
 };
 
-/* The directions of the usual outside view of a solid, an isometric view. */
+/* Directions of the view of a solid from outside that is used by default, an isometric view. */
 extern const struct camera camera_isometric;
 
 /* Returns the directions (right, up, towards the viewer) of a view along the coordinate axis `axis`, 0 .. 2 for x, y,
@@ -48,11 +48,14 @@ struct projection {
     const struct scene *scene;      /* scene as run, for its pre-cracks and rigid bodies; NULL: unknown; borrowed */
 };
 
-/* Returns true if the run computes one equilibrium: the times of its frames are those of the loads. */
+/* Returns true if the run of `projection` computes a single static equilibrium, so that the times of its
+ * frames are those of the loads. Returns false if the scene of the run is unknown. */
 bool projection_is_equilibrium(const struct projection *projection);
 
-/* Writes to `text` what a picture calls a frame of load steps or of an equilibrium: `load step 3`. Returns false and
- * writes "" for a frame of a run in time. t: time of the frame [s]; step: number of the load step. */
+/* Writes to `text` the name of a frame as in pictures, and returns true: `equilibrium` or, at t = 0, `without loads` if
+ * the run computes a single static equilibrium (`equilibrium` is true), else `load step 3` if it makes load steps
+ * (`in_steps` is true). Returns false and writes "" for a run in time. t: time of the loads [s]; step: number of the
+ * load step. */
 bool frame_write_state(char text[NAME_MAX_LENGTH], bool in_steps, bool equilibrium, double t, int64_t step);
 
 /* Options of `cleave plot`. */
@@ -148,7 +151,7 @@ struct view;
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
                            const struct plotted_particles *c, const struct view *view);
 
-/* Unit for display: displayed value = SI value / factor. */
+/* Unit for display, with its name. factor: SI value divided by displayed value. */
 struct unit {
     double factor;
     char name[32];
@@ -177,7 +180,8 @@ struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double l
  * few named values. */
 enum field_scale { FROM_ZERO, BOTH_SIGNS, FROM_LEAST, CATEGORY };
 
-/* A scalar field: one component of a field of frames or of a derived field, or the magnitude of a vector. */
+/* A scalar field that can be drawn: one component of a field stored in frames or derived from such a field, or the
+ * magnitude of a vector field. */
 struct plot_field {
     const char *name, *stored; /* name of this field; name of the field in the file from which it is computed */
     int component;             /* index of the component; -1: magnitude */
@@ -266,8 +270,8 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
 float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
                                                   double displacement_factor, const struct scene *scene);
 
-/* Computes the inverse of the 3 x 3 matrix `matrix`. Returns false, and leaves *inverse undefined, if its determinant
- * is 0 or not a number. */
+/* Computes the inverse of the 3 x 3 matrix `matrix` and returns true. Returns false, with undefined `inverse`, if the
+ * determinant is 0 or not a number. */
 bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
 
 /* Releases the arrays of the drawn particles *c. */
@@ -283,8 +287,8 @@ status projection_complete_slice_from_particles(struct projection *projection, c
  * of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
 double frame_particle_spacing(const struct output_frame *f);
 
-/* Quantity that the colours of a map show: damage, kind or fragment of the particles, a field, named values, or cracks.
- */
+/* Quantity that the colours of a map (picture of particles) show: damage, kind or fragment of the particles, a field,
+ * named values such as bodies, or cracks (particles with damage above CRACK_DAMAGE). */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
 
 /* Returns the kind of map (MAP_...) that shows the field `field`, e.g. MAP_DAMAGE for the damage. */
@@ -301,7 +305,7 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
 void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const struct scene *s,
                                            const struct rigid_placement *placement, const real *low, const real *high);
 
-/* Number of named values that colour_of_material_or_body can distinguish. */
+/* Number of named values, such as materials or bodies, with different colours (colour_of_material_or_body). */
 enum { CATEGORIES_MOST = 9 };
 
 /* A named value, such as a material or a body, and its colour in pictures. */
@@ -310,8 +314,8 @@ struct category {
     char name[NAME_MAX_LENGTH];
 };
 
-/* The named values (of bodies, materials and so on) that occur in a picture, of[n]; `more` further values are not
- * listed. */
+/* The named values, such as bodies or materials, that occur in a picture. of: [n] the values that are listed; more:
+ * number of further values, which have no entry. */
 struct categories {
     int n, more;
     struct category of[CATEGORIES_MOST];
@@ -323,8 +327,8 @@ struct categories {
 void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
                                   const struct plotted_particles *cloud, int frame_count);
 
-/* Returns the colour of one value of a field whose values have names, such as bodies or materials. category_value:
- * index of the body, material and so on. */
+/* Returns the colour of one value of a field whose values have names, such as bodies or materials. category_value: the
+ * value, which is the index of the body or material. */
 struct colour category_colour(const struct plot_field *field, float category_value);
 
 /* View of a map: the rectangle of the body, the range of the colours, and further options. */
@@ -342,8 +346,8 @@ struct view {
         notch; /* [notches] pre-cracks of a plane scene, whose faces are lines in maps of damage and fields; borrowed */
 };
 
-/* Particles with at least this damage are cracks in MAP_CRACKS; a plane that cuts all bonds of a family across it
- * causes damage 1/2. */
+/* Particles with at least this damage (broken share of their bonds) are drawn as cracks in MAP_CRACKS. A plane through
+ * a particle that cuts all bonds across it causes the damage 1/2. */
 #define CRACK_DAMAGE 0.35
 
 /* Returns a view whose rectangle shows all of cloud[frame_count], the particles of several frames: the bounding box of
@@ -362,7 +366,8 @@ void view_set_field_and_colour_range(struct view *v, const struct plot_field *fi
 status view_make_for_request(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud,
                              int frame_count);
 
-/* Returns the colour of particle i of c in a map of the kind `map`. v: view with the range of the colour scale. */
+/* Returns the colour of particle number i of c in a map of the quantity `map`. v: view, with the values at the ends of
+ * the colour scale. */
 struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
 
 /* Returns the colour at `position` in 0 .. 1 on the colour scale of a map of the kind `map`. v: view, whose field and
@@ -393,7 +398,7 @@ void notches_paint_crack_faces(struct colour *pixel, int width, int height, cons
  * deformable bodies are faded, too. */
 struct colour rigid_body_colour(enum map map);
 
-/* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles. */
+/* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles of c. */
 void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c);
 
 /* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body

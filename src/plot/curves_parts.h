@@ -4,7 +4,7 @@
 
 #include "plot/plot.h"
 
-/* Data of curves over time: one row per sample, sent as the gnuplot data block $data. */
+/* Data of curves against time or load step, as sent to gnuplot in the data block $data, and properties of the run. */
 struct series {
     const struct history *h;
     int time;           /* column of the time, or of the number of the load step */
@@ -35,6 +35,7 @@ struct value_range history_value_range(const struct history *history, const int 
 void curves_write_data(FILE *gnuplot, const struct series *series, const int *column_index, const double *factor,
                        int column_count);
 
+/* Capacity of a colour in gnuplot's notation, #rrggbb, with its terminator [byte]. */
 enum { COLOUR_ROOM = 8 };
 
 /* Writes the colour of curve number k, from 0, of `times` curves that show successive times to `text`, in gnuplot's
@@ -65,14 +66,15 @@ double curves_layout_height_of_all_panels(const struct curves_layout *layout);
 void curves_write_panel_margins(FILE *gnuplot, const struct curves_layout *layout, double upper_edge,
                                 double lower_edge);
 
-/* Writes the gnuplot command for the position of the key (legend) in the layout. */
+/* Writes the gnuplot command for the position of the key (legend) in the layout to the stream `gnuplot`. */
 void curves_write_key_position(FILE *gnuplot, const struct curves_layout *layout);
 
-/* Writes the gnuplot commands for the margins and the key (legend) of a picture with one panel. */
+/* Writes the gnuplot commands for the margins and the key (legend) of a picture with one panel and the given layout to
+ * the stream `gnuplot`. */
 void curves_write_margins_and_key(FILE *gnuplot, const struct curves_layout *layout);
 
-/* Edges of two panels, one above the other, measured from the upper edge of the first one [pixel]. The lower panel has
- * about a fourth of the height. */
+/* Edges of two panels, one above the other, as distances from the upper edge of the upper panel [pixel]: lower edge of
+ * the upper panel, upper and lower edge of the lower panel. The lower panel takes about a fourth of the height. */
 struct two_panels {
     double upper_end, lower_from, lower_end;
 };
@@ -93,8 +95,8 @@ void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, dou
  * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
-/* Writes the gnuplot commands for a heading above the picture: `title`, followed by `quantity` if it ends in a space.
- */
+/* Writes the gnuplot commands for the heading of a picture: `title`, followed by `quantity`, the name of what is shown,
+ * if `title` ends in a space. */
 void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity);
 
 /* Writes `title` into text[TITLE_LENGTH] and appends `outside`, the number of particles that are outside the picture,

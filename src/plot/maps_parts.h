@@ -4,7 +4,8 @@
 
 #include "plot/plot.h"
 
-/* Entries of the key of a picture of maps: colours and what they mean. A transparent colour: text alone. */
+/* Entries of the key (legend) of a picture of maps: colours and their names, of[n]. An entry of transparent colour is
+ * a line of text without a coloured square. */
 struct map_key {
     int n;
     struct category of[CATEGORIES_MOST + 2];
@@ -54,7 +55,8 @@ struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count
  * user has chosen. A single panel is not refused. Arguments as of maps_layout_choose. */
 status maps_layout_check_panels_fit(const struct maps_shown *shown, int panel_count, double height_over_width);
 
-/* Returns true if a map of the kind `map` has a colour bar. */
+/* Returns true if a map of the quantity `map` has a colour bar; maps of fragments and of named
+ * values have none. */
 bool map_has_colour_bar(enum map map);
 
 /* Returns the width [pixel] of the longest number at the tics (labelled marks) of an axis. low, high: values at the
@@ -95,8 +97,8 @@ void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_e
  * distances of the upper left corner of the panel from the left and upper edge of the picture [pixel]. */
 void panel_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge);
 
-/* Returns the unit of length of the axes of panels, chosen by the length of the longer edge of the view, not by the
- * coordinates of the body. */
+/* Returns the unit of length of the axes of panels. It is chosen such that the longer edge of the rectangle of `view`
+ * has a convenient length, regardless of the coordinates of the body. */
 struct unit panel_axis_unit(const struct view *view);
 
 /* Returns the width [pixel] of the longest number at the tics of the horizontal axis of a panel. view: rectangle of the

@@ -5,7 +5,9 @@
 #include "engine/engine.h"
 #include "plot/plot.h"
 
-/* State of the marks. Commands with data are collected in `to`, the elements of the plot command in `plot`. */
+/* Marks of the picture of a scene while they are written. to: receives gnuplot commands and data blocks; plot: receives
+ * the elements of the plot command, which follows after all data; engine: run in its initial state, whose scene is
+ * drawn. */
 struct marks {
     FILE *to, *plot;
     const struct run *engine;

@@ -6,7 +6,7 @@
  * visible face has full brightness instead, as the colour bar. */
 static const double FACE_BRIGHTNESS[3] = {0.74, 0.87, 1};
 
-/* Share of its colour that a body keeps behind its cracks [1]. */
+/* Weight of the colour of a body, mixed with white, where it is drawn faded behind its cracks (MAP_CRACKS) [1]. */
 static const double GHOST = 0.45;
 
 #endif
