@@ -11,6 +11,8 @@
 #include "run/energies.h"
 #include "run/ledger.h"
 
+/* Energy, momentum and angular momentum of a run at the last sample (line of history.csv), and the errors of their
+ * balances. */
 struct energy_balance {
     real time; /* of the sample [s] */
     struct energy energy;
@@ -22,6 +24,7 @@ struct energy_balance {
     real spin_error;        /* largest |L - L_0| so far, divided by the largest sum |L_body| [1]; NAN: not measured */
 };
 
+/* Balances of a run, the values from which their errors are computed, and the first bonds broken. */
 struct diagnostics {
     struct energy_balance now;
     real energy_start, energy_scale; /* energy minus work at the start; largest energy or work so far [J] */
@@ -92,12 +95,14 @@ status diagnostics_check_divergence(const struct particles *p, bool check_peridy
  * missing or has another size. */
 status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
 
-/* Returns true if the energies of the run so far are mere round-off: below 1e-24 of the kinetic energy of the whole
- * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
+/* Returns true if the energies of the run so far are mere round-off, so that relative energy errors mean nothing: they
+ * are below 1e-24 of the kinetic energy of the whole body at the wave speed. mass: mass of the body [kg]; wave_speed:
+ * speed of the fastest wave [m/s]. */
 bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
 
-/* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored, 0 if there is
- * no excess. Bonds of state-based models can have such an excess. */
+/* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored: minus the
+ * fracture energy of the last sample if that is negative, else 0. Only bonds of state-based models can have such an
+ * excess. */
 real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
 
 #endif

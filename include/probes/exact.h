@@ -17,6 +17,7 @@
 #include "data/region.h"
 #include "scene/requests.h"
 
+/* A closed-form solution for a bar, with its parameters. Capitals in comments: the forms that use a member. */
 struct exact {
     enum exact_form form;
     real left, right;                    /* ends of the bar [m] */
@@ -29,6 +30,7 @@ struct exact {
     real amplitude, period, wavelength, origin; /* MANUFACTURED: U [m], T [s], lambda [m], [m] */
 };
 
+/* Values of a closed-form solution at one position and time. */
 struct exact_values {
     real displacement; /* [m] */
     real velocity;     /* [m/s] */
@@ -47,6 +49,7 @@ struct exact_front {
     int ahead;           /* direction of its motion: -1 towards smaller x, +1 towards greater x */
     real before, behind; /* stress ahead of the front and behind it [Pa] */
 };
+/* Largest number of stress fronts of a closed-form solution. */
 enum { EXACT_FRONTS = 2 };
 
 /* Computes the stress fronts (jumps) of the closed-form solution at time t [s] and stores them in front[]. An elastic

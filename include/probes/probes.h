@@ -69,6 +69,8 @@ struct observed_run {
 };
 
 struct probe; /* probes_parts.h */
+
+/* The probes of a run, and the values of the columns of history.csv that they add. */
 struct probes {
     int n;
     struct probe *probe;
@@ -78,7 +80,8 @@ struct probes {
     real sampled; /* time of the last sample; NAN if none [s] */
 };
 
-/* Time of the velocities that are used at the end of a sample, and a factor on velocities. */
+/* Time of the velocities after a time step, and a factor on the velocities that are interpolated to the time of a
+ * sample (probes_complete_sample_after_step). */
 struct velocity_time {
     real t;     /* of the present velocities [s] */
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
@@ -92,7 +95,7 @@ struct velocity_time {
 status probes_make(struct probes *s, const struct probe_request *requests, int request_count,
                    const struct observed_run *o);
 
-/* Frees the arrays of all probes and clears *s. Does nothing to a cleared *s. */
+/* Frees all probes that probes_make has made, and sets *s to zero. Does nothing if *s is zero. */
 void probes_free(struct probes *s);
 
 /* Computes the values of a sample (a line of history.csv) at the current positions, time o->t, and stores them in
@@ -167,8 +170,9 @@ bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, st
 bool probes_locate_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real tip_position[2],
                                real *outer_radius);
 
-/* Saves the state of the probes to the archive if a->saving is set, else restores it from the archive. Returns FAILED
- * if an entry is missing or its size does not fit the probes. */
+/* Saves the state of the probes, such as times and positions of first breaks and largest forces so far, to the archive
+ * a if a->saving is set, else restores it from a. Returns FAILED if an entry is missing or its size does not fit the
+ * probes. */
 status probes_save_or_load(struct probes *s, struct archive *a);
 
 #endif

@@ -17,7 +17,7 @@ struct probing {
     real strain_stress;  /* for PATCH probes: largest component of the initial stress [Pa] */
 };
 
-/* Returns the largest absolute value [Pa] of a stress component among all particles. */
+/* Returns the largest absolute value [Pa] among all components of the stress of all particles of p. */
 real particles_largest_stress_component(const struct particles *p);
 
 /* Stores the wave pulses among the initial states of the scene s in probing->pulse, a new array, and their number in
@@ -48,7 +48,8 @@ status profiles_write_csv_files(const struct probes *s, const struct output *out
  * `out`. */
 void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *warning_list);
 
-/* Removes the profiles that an earlier run left in the folder of `out`. Call it before a new run. */
+/* Removes the profiles (CSV files of LINE and EXACT probes) that an earlier run has left in the folder of `out`. Call
+ * this function before a new run writes its own. s: probes, whose names are those of the files. */
 void profiles_remove_files_of_earlier_run(const struct probes *s, const struct output *out);
 
 #endif

@@ -5,8 +5,11 @@
 #include "bonds/bonds.h"
 #include "probes/probes.h"
 
+/* Number of quantities that a RIGID probe reports. */
 enum { RIGID_FIGURES = 5 };
-/* State of a RIGID probe, which observes the motion of a rigid body: its values at the start, and extremes so far. */
+
+/* State of a RIGID probe, which observes a rotating body: values at the start, and in `most` the largest absolute value
+ * so far of each reported quantity, for the angle its last value. */
 struct rigid_memory {
     /* at the start: angular momentum, sum of |m r x v| [kg m^2/s]; kinetic energy [J] */
     real spin, spin_scale, kinetic;
@@ -42,6 +45,8 @@ struct sampled_motion {
     real *x[DIM_MAX], *v[DIM_MAX]; /* [probe.n] in the order of probe.list [m], [m/s] */
 };
 
+/* A probe of a run: its request from the scene, the particles that it observes, and its state. Capitals in comments:
+ * the kinds of probes that use a member. */
 struct probe {
     struct probe_request request; /* its region is kept by reference */
     bool of_history;              /* REACTION: added for a support that no probe of the scene measures; no figures */
@@ -98,12 +103,11 @@ void probe_motion_store_before_step(struct probe *q, const struct observed_run *
 void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
                                              const struct velocity_time *present_velocity_time);
 
-/* Discards the positions and velocities interpolated for a sample, so that probe_particle_position_component and
- * probe_particle_velocity_component return the present values again. */
+/* Discards the positions and velocities of probe q that are interpolated to the time of a sample, so that
+ * probe_particle_position_component and probe_particle_velocity_component return the present values again. */
 void probe_motion_discard_interpolation(struct probe *q);
 
-/* Frees the copies of positions and velocities in the probe q, which its interpolation to the time of a sample needs.
- */
+/* Frees the copies of positions and velocities that probe_motion_store_before_step has made in the probe q. */
 void probe_motion_free(struct probe *q);
 
 /* Returns component `axis` of the position of particle q->list[list_index] of a probe [m]. After
@@ -126,6 +130,7 @@ static inline real probe_particle_velocity_component(const struct probe *q, cons
 
 /* ---- other kinds ------------------------------------------------------------------------------------------------- */
 
+/* Names of the axes: x, y, z. */
 extern const char *const axis_name[DIM_MAX];
 
 /* Returns the index of the particle nearest to the reference position `position`, dim components [m]. Returns -1 if
@@ -144,11 +149,12 @@ const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, con
 void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *loads, int dim, real *force,
                                         real *mean_displacement);
 
+/* Energies of the particles of an ENERGY probe. */
 struct energies {
     real kinetic, strain, fracture; /* [J] */
 };
 
-/* Returns the kinetic, strain and fracture energy [J] of the particles of a probe. */
+/* Returns the kinetic, strain and fracture energy [J] of the particles of probe q in the current state o of the run. */
 struct energies probe_energies(const struct probe *q, const struct observed_run *o);
 
 /* Returns the kinetic energy [J] of the particles of a probe, with the velocities of probe_particle_velocity_component.
@@ -178,14 +184,16 @@ struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct
  * the plane of separation and the time in q->memory; else changes nothing. */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
-/* Computes the mean velocity along x of the lighter part of a separated bar, *lighter_part_speed, and of the remaining
- * part, *remaining_part_speed [m/s]. */
+/* Computes the mean velocities along x of the two parts of the bar of a SPALL probe, which broken bonds have separated:
+ * *lighter_part_speed and *remaining_part_speed [m/s]. NAN for a part without particles. */
 void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
                                      real *remaining_part_speed);
 
 /* Number of quantities that a GROWTH probe reports of a growing crack: tip position, length, speed, equivalent
  * stress-intensity factor K_eq. */
 enum { GROWTH_FIGURES = 5 };
+
+/* Names and units of the quantities that a GROWTH probe reports: x, y, length, speed, K_eq. */
 extern const struct column growth_figure[GROWTH_FIGURES];
 
 /* Computes the reported quantities of a growing crack (position of its tip, length, speed, equivalent stress-intensity
@@ -194,7 +202,11 @@ void growing_crack_compute_probe_values(const struct growing_crack *g, real *val
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
 
+/* SIF_FIGURES: number of quantities that a SIF probe reports; SIF_CONTOURS_MAX: largest number of its integration
+ * contours around a crack tip. */
 enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
+
+/* Names and units of the quantities that a SIF probe reports: K_I, K_II, J, contour_spread. */
 extern const struct column sif_figure[SIF_FIGURES];
 
 /* Finds the crack tip of a SIF probe, its integration contours, and the material around the tip. Returns REFUSED if
@@ -202,7 +214,8 @@ extern const struct column sif_figure[SIF_FIGURES];
  * another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
-/* Frees the crack tip and the contours of a SIF probe. w may be NULL. */
+/* Frees w, the crack tip and the contours of a SIF probe, which sif_probe_find_tip_and_contours has made; w may be
+ * NULL. */
 void sif_probe_free(struct sif_tracked *w);
 
 /* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of a SIF probe, before the
@@ -213,12 +226,12 @@ void sif_probe_store_motion_before_step(struct probe *q, const struct observed_r
  * stores them in q->memory.factors. velocity_time: time of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
 
-/* Returns true if the factors of SIF probe q at its last sample are results: there are some, and contour_spread is at
- * most 0.2. */
+/* Returns true if the stress-intensity factors of SIF probe q at its last sample are reliable: they were computed, and
+ * contour_spread, their relative difference between the integration contours, is at most 0.2. */
 bool sif_probe_factors_are_meaningful(const struct probe *q);
 
-/* Returns result `figure` of SIF probe q at its last sample, in the order of sif_figure: NAN for K_I, K_II and J that
- * are not meaningful. */
+/* Returns quantity `figure` (0 to 3: K_I, K_II, J, contour_spread) of SIF probe q at its last sample. Returns NAN for
+ * K_I, K_II and J if they are not reliable (sif_probe_factors_are_meaningful). */
 static inline real sif_probe_result(const struct probe *q, int figure)
 {
     const bool valid = figure == SIF_FIGURES - 1 || sif_probe_factors_are_meaningful(q);
@@ -227,6 +240,8 @@ static inline real sif_probe_result(const struct probe *q, int figure)
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
 
+/* Names and units of the quantities that a RIGID probe reports: angle, stress_max, shear_max, and the relative changes
+ * of angular momentum and kinetic energy. */
 extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores the angular momentum and the kinetic energy of the particles of a RIGID probe at the start. Returns REFUSED
@@ -245,6 +260,7 @@ void rigid_probe_compute_conservation_errors(struct probe *q, const struct parti
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
 
+/* The bar that an EXACT probe compares with a closed-form solution, and the measured fields of its particles. */
 struct bar {
     struct exact exact;
     int64_t n;
@@ -257,7 +273,7 @@ struct bar {
  * the bar or its loads differ from what the closed-form solution describes. */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
-/* Frees the bar that an EXACT probe observes, and its arrays. `bar` may be NULL. */
+/* Frees the bar of an EXACT probe, which bar_probe_find_bar_and_load has made, with its arrays; `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
@@ -284,8 +300,10 @@ struct column bar_probe_value_column(enum exact_form closed_form, int value_numb
  * stores the reported quantities in value[bar_probe_value_count], in the order of bar_probe_value_column. */
 void bar_probe_compute_values(struct bar *bar, const struct observed_run *o, real *value);
 
-/* Number of columns of the profile of a bar, with their names and units in bar_reading. */
+/* Number of columns of the profile of a bar, the table of values along the bar that is written with each frame. */
 enum { BAR_READINGS = 12 };
+
+/* Names and units of the columns of the profile of a bar. */
 extern const struct column bar_reading[BAR_READINGS];
 
 /* Computes the line of the profile of a bar for one particle and stores it in value[BAR_READINGS], in the order of
