@@ -12,8 +12,9 @@ struct statics;
  * or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_solve_single_equilibrium(struct run *e);
 
-/* Makes the load steps of a scene (`solver: static` with `steps`), from the present one to the last. Returns FAILED if
- * an equilibrium is not found or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
+/* Computes the load steps of the scene of run e (`solver: static` with `steps`; a sequence of equilibria under changing
+ * loads), from the present step to the last. Returns FAILED if an equilibrium is not found or a file cannot be written,
+ * INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_run_load_steps(struct run *e);
 
 /* Initialises e->solver, with which engine_solve_single_equilibrium finds one static equilibrium under the loads at the
@@ -55,8 +56,8 @@ status sif_growth_check_scene_allows_it(const struct run *e);
  * missing or has another size. */
 status statics_save_or_load(struct run *e, struct archive *a);
 
-/* Frees the storage of the equilibrium solver in s, except the state of cracks driven by stress-intensity factors
- * (s->sif), which sif_cracks_free frees. */
+/* Frees the arrays in s: system of equations, preconditioner, saved plastic state and bonds of the next crack
+ * increment. The state of cracks driven by stress-intensity factors (s->sif) remains; sif_cracks_free frees it. */
 void statics_free(struct statics *s);
 
 #endif

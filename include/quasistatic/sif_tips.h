@@ -53,15 +53,16 @@ struct sif_plane {
         *body_mirror; /* [body_mirrors] symmetry planes of the body; `axis` is one of space; borrowed */
 };
 
+/* Largest number of tips of SIF-driven cracks. */
 enum { SIF_TIPS_MAX = 64 };
 
-/* A straight segment of the path of a tip, which bonds do not cross. */
+/* A straight segment of the path along which a crack tip has grown; the bonds that crossed it are broken. */
 struct path_segment {
     real at[2][DIM_MAX]; /* its ends, in the plane of the tips [m] */
     int tip;             /* number of the tip */
 };
 
-/* The cracks whose growth direction follows from their stress-intensity factors. */
+/* The SIF-driven cracks of a run: the direction of their growth follows from their stress-intensity factors. */
 struct sif_cracks {
     const struct scene *scene;        /* borrowed */
     const struct bond_source *source; /* borrowed: pre-cracks, family and critical stretches */

@@ -12,7 +12,8 @@
 #include "scene/scene.h"
 #include "solver/equilibrium.h"
 
-/* A directed bond broken in a trial, with the values of its row and its particle that breaking it changes. */
+/* A broken directed bond from particle i to j, with the values before it broke of its row (all bonds of particle i) and
+ * of particle i, from which it can be restored after a trial. */
 struct broken_bond {
     int32_t i, j;       /* particle of the row; neighbour */
     int64_t row, entry; /* of the bond in the bond storage */
@@ -28,7 +29,7 @@ struct broken_bond {
 };
 _Static_assert(sizeof(struct broken_bond) == 80, "a record without bytes that no member sets");
 
-/* A list of directed bonds in the order in which they break. */
+/* A list of directed bonds, in the order in which they break; a pair of particles has two. `bond` is owned. */
 struct break_list {
     int64_t n;
     struct broken_bond *bond; /* [n] */
@@ -55,7 +56,7 @@ struct steps_record {
     int64_t solutions;           /* equilibria until the last record */
 };
 
-/* A fragment of the body that supports, bonds and contact leave free in some rigid motions. */
+/* A fragment (connected part) of the body with rigid motions that neither supports nor bonds nor contact resist. */
 struct unconstrained_fragment {
     int64_t n;
     int32_t *node;        /* [n] its unknowns */

@@ -12,8 +12,8 @@ struct account {
     real *x[DIM_MAX];       /* [particles of the body] positions [m] */
 };
 
-/* Stores a copy of the present applied forces in applied[dim], arrays with a value for each particle of the body [N]; 0
- * before the first solution. The caller frees the arrays. */
+/* Allocates the dim arrays applied[0 .. dim - 1] and copies the present applied forces to them, a value for each
+ * particle of the body [N]; 0 before the first solution. The caller frees the arrays. */
 void applied_forces_copy(real **applied, const struct statics *s, const struct particles *particles);
 
 /* Copies the present positions, displacements and forces into *account, for work_account_end_and_estimate_error. The

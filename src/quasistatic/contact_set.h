@@ -8,8 +8,8 @@
 struct contact;
 struct rigid_set;
 
-/* Returns true if contact acts between all particles, crack faces included, and any particles are in contact at
- * present. */
+/* Returns true if contact forces act between any two particles of a body, so that crack faces can press on each other,
+ * and some particles are in contact at present. */
 bool crack_faces_are_in_contact(const struct contact *c);
 
 /* Returns true if any particles or rigid bodies were in contact before the present solution or are in contact now. */
@@ -43,8 +43,8 @@ void statics_contact_select_acting_contacts(void *run, bool set_is_fixed);
  * work with one of these forces. */
 real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, real solver_loss);
 
-/* Updates the largest contact force so far of each of the `rigid_body_count` rigid bodies by that of the present
- * equilibrium. */
+/* Raises the largest contact force so far [N], which `rigid` stores for each of its `rigid_body_count` rigid bodies, to
+ * the contact force of the present equilibrium if that is larger. */
 void rigid_forces_update_largest(struct rigid_set *rigid, int rigid_body_count);
 
 /* Adds a warning to *warnings for each of the `rigid_body_count` rigid bodies that is driven (has a prescribed motion)

@@ -12,8 +12,8 @@ real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct 
                                     int plane_axis);
 
 /* Returns the crack area [m^2] that is created if all cracks grow by one spacing along their whole fronts, halved on
- * planes of symmetry. Without a pre-crack the front in space is the shortest side of the body. A bar in space: line
- * counts as 25 spacings wide. */
+ * planes of symmetry. Without a pre-crack the front in three dimensions is the shortest side of the body. A bar in one
+ * dimension (`space: line`) counts as 25 spacings wide. */
 real crack_area_of_growth_by_one_spacing(const struct run *e);
 
 /* Determines the next crack increment from trial equilibria, unless it is already known. Stores its bonds in

@@ -6,11 +6,12 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns REFUSED, with a message, if a gauge position of the scene is far from the body, or if both are at one
- * particle. */
+/* Checks the two gauge positions of the scene, whose distance the load steps control. Returns REFUSED, with a message,
+ * if one of them is far from the body, or if the same particle is nearest to both. part: particles of the body. */
 status gauge_check_positions(const struct scene *scene, const struct particles *part);
 
-/* Returns the opening: the increase of the distance between the two gauge particles since the start [m]. */
+/* Returns the opening: the increase of the distance between the two gauge particles (statics->gauge, on both sides of a
+ * crack) since the start [m]. */
 real gauge_opening(const struct particles *part, const struct statics *statics);
 
 /* Returns true if material points or bonds of the body may yield (have plastic strain). */

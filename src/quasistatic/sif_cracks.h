@@ -63,7 +63,8 @@ static inline real sif_plane_point_distance(const real *point, const real *other
 
 /* ---- tips (sif_cracks.c) ----------------------------------------------------------------------------------------- */
 
-/* Returns true if the straight crack segment that ends at the tip `tip` lies on a plane of symmetry of the body. */
+/* Returns true if the straight crack segment that ends at the tip `tip` lies on a plane of symmetry of the body, so
+ * that only half of its crack area belongs to the modelled body. */
 bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
@@ -106,7 +107,7 @@ void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real posi
  * since the tips then no longer describe the cracks. */
 void sif_tips_stop_all(struct sif_cracks *cracks);
 
-/* Frees the stored path of the cracks and clears *cracks. */
+/* Frees the stored path of the cracks and sets *cracks to zero. */
 void sif_cracks_free(struct sif_cracks *cracks);
 
 /* ---- increments (sif_cut.c) -------------------------------------------------------------------------------------- */
@@ -127,8 +128,9 @@ void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */
 
-/* Finds the plane and the tips of the pre-cracks on the first call. Returns true if a tip can grow. Returns false if
- * none can, or if the cracks of the scene are not SIF-driven; the reason is then in sif.fault of e->statics. */
+/* Finds, on the first call only, the tips of the pre-cracks of run e and the plane in which they move. Returns true if
+ * at least one tip can grow. Returns false if no tip can grow, or if the cracks of the scene are not SIF-driven; in the
+ * latter case e->statics->sif.fault is the reason. */
 bool sif_cracks_initialise_and_can_grow(struct run *e);
 
 #endif

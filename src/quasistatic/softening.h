@@ -15,6 +15,7 @@ struct softening_bond {
     real settled, onset, end, energy; /* k of the last equilibrium, at least the onset [1] */
 };
 
+/* The bonds of a run that soften or may begin to. curve: shape of softening, kept by reference. */
 struct softening_list {
     int64_t n;
     struct softening_bond *bond; /* [n] owned */
@@ -27,8 +28,8 @@ struct softening_list {
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
                          real stretch_divisor);
 
-/* Returns the energy [J] that the bonds of the list would have dissipated since the last equilibrium if their stretches
- * were `stretch_factor` times those stored in the list. */
+/* Returns the energy [J] that the bonds of the list would have dissipated by softening since the last equilibrium if
+ * their stretches were `stretch_factor` times the stretches stored in the list. */
 real softening_list_dissipated_energy(const struct softening_list *l, real stretch_factor);
 
 /* Returns the smallest factor on the stretches of the list, between 0 and `max_factor`, at which the bonds have

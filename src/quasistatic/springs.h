@@ -20,7 +20,7 @@ void statics_preconditioner_make(struct run *e);
  * number in the first solution with the preconditioner, plus 8 (empirical). */
 void statics_preconditioner_free_if_costly(struct statics *s, int64_t search_directions);
 
-/* Frees the preconditioner in *s. Does nothing if there is none. */
+/* Frees the multigrid preconditioner in *s, so that its next use makes a new one. Does nothing if there is none. */
 void statics_preconditioner_free(struct statics *s);
 
 #endif

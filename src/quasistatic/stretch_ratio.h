@@ -6,7 +6,8 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the largest ratio [1] of stretch to critical stretch among all intact bonds. limit: critical stretches. */
+/* Returns the largest ratio [1] of stretch to critical stretch among all intact bonds b; bonds must break if it exceeds
+ * 1. limit: critical stretches. */
 real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the
@@ -25,7 +26,7 @@ void bonds_break_listed(struct run *e, const struct break_list *l);
  * of their rows (all bonds of one particle) and particles from the records of the list. */
 void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
 
-/* Appends a copy of *record to the list l, which grows as needed. */
+/* Appends a copy of *record to the list l, whose array grows as needed; free l->bond with memory_free. */
 void break_list_add(struct break_list *l, const struct broken_bond *record);
 
 /* Returns a record of the intact bond `bond`, from which bonds_restore_broken can restore it after it has been broken.

@@ -5,9 +5,9 @@
 #include "bonds/family.h"
 #include "scene/scene.h"
 
-/* Returns the crack energy per area of a material [J/m^2]. For a bond-based `model` it is the energy of all bonds of
- * the lattice family that cross a plane of the lattice, each at its critical stretch, per area; for state-based models
- * the fracture energy G_c of the material. */
+/* Returns the crack energy per area of the material m [J/m^2]. For a bond-based `model` it is the energy per area of
+ * all bonds that cross a plane of the lattice, each at its critical stretch; for state-based models the fracture energy
+ * G_c of the material. family: rules that select the neighbours of a particle and the weights of its bonds. */
 real toughness_of_material(const struct family *family, enum model model, const struct material *m);
 
 /* Returns the crack energy per area [J/m^2] between the particles `particle` and `other_particle`: that of their common

@@ -6,8 +6,8 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Begins a trial equilibrium: saves the present equilibrium in *saved, and the present plastic state as the start of
- * the next solutions. */
+/* Begins a trial equilibrium: saves the present equilibrium of run e in *saved, and the present plastic state as the
+ * start of the next solutions. trial_equilibrium_end frees *saved. */
 void trial_equilibrium_begin(struct run *e, struct memory_archive *saved);
 
 /* Ends a trial equilibrium and frees *saved. kept: true to keep the result of the trial. Otherwise restores the

@@ -5,7 +5,7 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Largest number of rigid motions of a fragment, and columns of the list of its free ones. */
+/* Largest number of rigid motions of a fragment; also the number of columns of unconstrained_fragment.motion. */
 enum { MODES_MOST = 6 };
 
 /* Finds the unconstrained fragments for the present bonds, supports and contacts, and stores them with their free rigid
@@ -13,7 +13,7 @@ enum { MODES_MOST = 6 };
  * rigid motions. The list found before is freed. */
 void unconstrained_fragments_find(struct run *e);
 
-/* Frees the list of unconstrained fragments in *s. */
+/* Frees the list of unconstrained fragments in *s (parts of the body that can move freely as rigid bodies). */
 void unconstrained_fragments_free(struct statics *s);
 
 /* Checks that the applied forces on each unconstrained fragment are balanced along its free rigid motions.

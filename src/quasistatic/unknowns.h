@@ -15,7 +15,7 @@ struct contact;
 void unknowns_list_particles_and_nodes(struct statics *s, const struct particles *p, const struct mesh *mesh,
                                        const struct loads *loads);
 
-/* Frees the lists and fields that unknowns_list_particles_and_nodes has allocated. */
+/* Frees the lists and fields in *s that unknowns_list_particles_and_nodes has allocated. */
 void unknowns_free(struct statics *s);
 
 /* Stores the reference position of unknown number `unknown_number`, a particle or a mesh node, in position[] [m]. */
