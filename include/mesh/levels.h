@@ -22,6 +22,7 @@
 #include "loads/loads.h"
 #include "mesh/mesh_make.h"
 
+/* LEVELS_MAX: largest number of levels of coarse cells; MASTERS_MAX: of nodes that determine a hanging node. */
 enum { LEVELS_MAX = 4, MASTERS_MAX = 4 };
 
 /* Largest ratio of the time step to the critical time step in a mesh with coarse cells [1]. The eigenvalues of a bar
@@ -198,7 +199,7 @@ void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct p
 real levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, real dt_velocity, int highest_level,
                                                real impulse[DIM_MAX], real *work);
 
-/* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
+/* Returns the kinetic energy of the nodes of all levels of coarse cells [J], without those of level 0 (the finest). */
 real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l);
 
 /* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. elastic: array of the

@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 
+/* Length of the footer that is appended to HDF5 files [byte]. */
 enum { FOOTER_BYTES = 24 };
 
 /* Appends the footer (magic number, number of the bytes before it, their hash) to PATH.cleave.tmp, the temporary file

@@ -39,9 +39,10 @@ struct picture_size {
     int width, height; /* [pixel]; 0: the usual size of each picture; height 0 beside a width: what each needs */
     double dpi;        /* pixels of a PNG per inch, at PICTURE_DPI pixels of its size */
 };
-enum {
-    PICTURE_DPI = 144
-}; /* a picture of 1000 pixels is as wide as a text page, with letters of the size of the text */
+
+/* Resolution for which pictures are laid out [pixel per inch]: a picture of 1000 pixels is as wide as a text page, with
+ * letters of the size of the text. */
+enum { PICTURE_DPI = 144 };
 
 /* Sets the size of all pictures that this process draws from now on. size: width and height [pixel], resolution and,
  * for pictures of studies, the format. */

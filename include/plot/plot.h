@@ -115,14 +115,14 @@ struct run_frames {
  * list of frames. Release f with run_frames_free. */
 status run_frames_list_and_select(struct run_frames *f, const struct plot_request *r);
 
-/* Releases the lists of frames in *f. */
+/* Frees the lists of frames in *f, which run_frames_list_and_select has allocated. */
 void run_frames_free(struct run_frames *f);
 
 /* Reads all selected frames of a run. folder: folder of the run. Stores an allocated array of frames->shown frames in
  * *f, which is released with frames_free. Returns FAILED, with no memory to release, if a frame cannot be read. */
 status frames_read_selected(struct output_frame **f, const char *folder, const struct run_frames *frames);
 
-/* Releases the frames frames[frame_count] and their array. */
+/* Frees the frames frames[frame_count] and the array itself, which frames_read_selected has allocated. */
 void frames_free(struct output_frame *frames, int frame_count);
 
 /* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a symbolic link has this name. Also
@@ -140,7 +140,9 @@ status picture_choose_path(struct path *path, const char *option_argument, const
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
 status report_picture_not_drawn(const char *path, const char *reason);
 
+/* Capacity of the title of a picture, with its terminator [byte]. */
 enum { TITLE_LENGTH = 256 };
+
 struct plotted_particles;
 struct view;
 
@@ -274,7 +276,8 @@ float *deformation_gradients_fit_to_displacements(const struct output_frame *f, 
  * determinant is 0 or not a number. */
 bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
 
-/* Releases the arrays of the drawn particles *c. */
+/* Frees the arrays of *c, the drawn particles of a frame, which plotted_particles_read or
+ * plotted_particles_select_from_frame has allocated. */
 void plotted_particles_free(struct plotted_particles *c);
 
 /* Completes the slice *projection through a body in three dimensions from the particles of the frame f: sets the normal

@@ -44,8 +44,8 @@ void patch_test_include_mesh_residual_force(struct probing *q, const struct scen
  * written to it in their names. o: view of the current state of the run. Returns FAILED if a file cannot be written. */
 status profiles_write_csv_files(const struct probes *s, const struct output *out, const struct observed_run *o);
 
-/* Adds a warning to *warning_list if profiles that belong to the frames of a resumed run are missing in the folder of
- * `out`. */
+/* Adds a warning to *warning_list if profiles (CSV files of LINE and EXACT probes, one for each frame) of the frames
+ * that a resumed run has already written are missing in the folder of `out`. s: probes of the run. */
 void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *warning_list);
 
 /* Removes the profiles (CSV files of LINE and EXACT probes) that an earlier run has left in the folder of `out`. Call

@@ -4,7 +4,8 @@
 
 #include "output/output.h"
 
-enum { INDICES = 2 }; /* frames.hdf.series, frames.xdmf */
+/* Number of index files of a series of frames: frames.hdf.series and frames.xdmf. */
+enum { INDICES = 2 };
 
 /* Texts of the index files of one series of frames (the frames of the whole body or of one region), owned. */
 struct frame_indices {

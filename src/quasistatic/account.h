@@ -28,7 +28,7 @@ void work_account_start(struct account *account, const struct statics *s, const 
 real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
                                          struct loads *loads, real curved_path_work);
 
-/* Frees the stored displacements and forces of an equilibrium in *account. */
+/* Frees the arrays in *account that work_account_start has allocated, if the work is not to be computed. */
 void work_account_free(struct account *account);
 
 #endif
