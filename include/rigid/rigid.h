@@ -44,15 +44,17 @@ struct rigid_body {
     real kinetic;
 };
 
-/* Initialises rigid body r, whose name must be set and whose other members must be 0. shape: kept by reference; mass:
- * of a free body, which moves under forces [kg], 0 for a fixed or driven one; velocity: initial velocity of a free
- * body, prescribed velocity of a driven one (dim components [m/s]); spacing: of the particles [m]. Returns REFUSED,
- * with a message, if a moving body is unbounded or a bounded body has no volume. */
+/* Initialises the rigid body *r, whose name must be set and whose other members must be 0. shape: region at t = 0, kept
+ * by reference; dim: dimension of space; mass: of a free body, which moves under forces [kg], 0 for a fixed or driven
+ * one; velocity: initial velocity of a free body, prescribed velocity of a driven one (dim components [m/s]); spacing:
+ * of the particles [m]. Returns REFUSED, with a message, if a moving body is unbounded or a bounded body has no volume.
+ */
 status rigid_make(struct rigid_body *r, const struct region *shape, int dim, real mass, const real *velocity,
                   real spacing);
 
-/* Tests by bounding spheres whether a point of the body may be within `reach` [m] of the current position x (r->dim
- * components [m]). Returns false if that is impossible; always true for a fixed body, which may be unbounded. */
+/* Tests by the bounding sphere of the rigid body r whether a point of the body may be within `reach` [m] of the current
+ * position x (r->dim components [m]). Returns false if that is impossible; always true for a fixed body, which may be
+ * unbounded. */
 static inline bool rigid_may_be_within_reach(const struct rigid_body *r, const real *x, real reach)
 {
     real far2 = 0;
@@ -64,52 +66,54 @@ static inline bool rigid_may_be_within_reach(const struct rigid_body *r, const r
  * negative inside [m]. normal: receives the outward unit normal of the nearest surface point. */
 real rigid_signed_distance(const struct rigid_body *r, const real *x, real *normal);
 
-/* Computes the current position x of the point of the body that was at X at t = 0 (DIM_MAX components each [m]). */
+/* Computes the current position x of the point of the rigid body r that was at X at t = 0. X, x: DIM_MAX components
+ * each [m]. */
 void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x);
 
-/* Computes the velocity of the point of the rigid body at the present position x [m/s], from the velocity of the centre
- * and the angular velocity. */
+/* Computes the velocity of the point of the rigid body r that is at the position x (r->dim components [m]), from the
+ * velocity of the centre and the angular velocity of the body. velocity: receives DIM_MAX components [m/s]. */
 void rigid_compute_velocity_at_point(const struct rigid_body *r, const real *x, real *velocity);
 
-/* Computes the velocity that is prescribed for a driven rigid body at time t [s] (dim components [m/s]). */
+/* Computes the velocity that is prescribed for the driven rigid body r at time t [s]. velocity: receives r->dim
+ * components [m/s]. */
 void rigid_compute_prescribed_velocity(const struct rigid_body *r, real t, real *velocity);
 
-/* Computes the displacement that is prescribed for a driven rigid body between the times 0 and t [s] (dim components
- * [m]); 0 for other bodies. Returns its length [m]. */
+/* Computes the displacement that is prescribed for the driven rigid body r between the times 0 and t [s]; 0 for other
+ * bodies. displacement: receives r->dim components [m]. Returns the length of the displacement vector [m]. */
 real rigid_compute_prescribed_displacement(const struct rigid_body *r, real t, real *displacement);
 
-/* Moves a driven body to its prescribed position at time t [s], and adds the displacement to r->increment, from which
- * rigid_add_work_of_prescribed_motion computes the work of the drive. Does nothing for other bodies. */
+/* Moves the driven rigid body r to its prescribed position at time t [s], and adds the displacement to r->increment,
+ * from which rigid_add_work_of_prescribed_motion computes the work of the drive. Does nothing for other bodies. */
 void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
 
-/* Advances a rigid body by one leap-frog step: a free body under r->force, r->moment and its weight, a driven one with
- * its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the middle of the
- * step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
+/* Advances the rigid body r by one leap-frog step: a free body under r->force, r->moment and its weight, a driven one
+ * with its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the middle of
+ * the step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
 void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
-/* Adds to r->work the work done since the last call by the drive of a driven body, i.e. by the force that enforces its
- * prescribed motion: minus the displacement since then times the mean of the contact forces then and now. Does nothing
- * for other bodies. */
+/* Adds to r->work the work done since the last call by the drive of the rigid body r, i.e. by the force that enforces
+ * its prescribed motion [J]: minus the displacement since the last call times the mean of the contact forces at the
+ * last call and now. Does nothing for other bodies. */
 void rigid_add_work_of_prescribed_motion(struct rigid_body *r);
 
 /* Sets r->force_most, the largest magnitude of the contact force on the body so far [N], to the magnitude of r->force
  * if this is larger. */
 void rigid_update_largest_force(struct rigid_body *r);
 
-/* Returns the work done on the body since t = 0 [J] by its drive, the force that enforces a prescribed motion, and by
- * its weight, up to the present position. */
+/* Returns the work done on the rigid body r since t = 0 [J] by its drive, the force that enforces a prescribed motion,
+ * and by its weight, up to the present position. */
 real rigid_work_of_drive_and_weight(const struct rigid_body *r);
 
-/* Returns the kinetic energy of a rigid body at its present velocity and angular velocity [J]. */
+/* Returns the kinetic energy of the rigid body r at its present velocity and angular velocity [J]. */
 real rigid_kinetic_energy(const struct rigid_body *r);
 
-/* Returns by how much the kinetic energy of a free body changes in half a time step under its current force, weight and
- * moment, to first order [J]; 0 for other bodies. dt: whole time step [s]. */
+/* Returns by how much the kinetic energy of the free rigid body r changes in half a time step under its current contact
+ * force, weight and moment, to first order in dt [J]; 0 for other bodies. dt: whole time step [s]. */
 real rigid_half_step_kinetic_energy_change(const struct rigid_body *r, real dt);
 
-/* Saves the motion of a rigid body to the archive `a` if a->saving, else restores it from it. body_number: number of
- * the body in the scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a
- * stored size differs. */
+/* Saves the motion of the rigid body r to the archive `a` if a->saving is set, else restores the motion from the
+ * archive. body_number: number of the body in the scene, which the names of the entries in the archive contain. Returns
+ * FAILED if the archive cannot be read or written or a stored size differs. */
 status rigid_save_or_load(struct rigid_body *r, int body_number, struct archive *a);
 
 #endif

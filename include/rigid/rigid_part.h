@@ -18,15 +18,16 @@ struct rigid_set {
     bool met;                      /* the warning of two rigid bodies inside each other has been given */
 };
 
-/* Makes all rigid bodies of scene s at the start, and lists the shapes of the deformable bodies for contact. Returns
- * REFUSED, with a message, if a rigid body is unbounded while it moves or has no volume (rigid_make). */
+/* Makes all rigid bodies of scene s at t = 0 in *rigid, and lists the shapes of the deformable bodies for contact.
+ * Returns REFUSED, with a message, if a rigid body is unbounded while it moves or has no volume (rigid_make). */
 status rigids_make(struct rigid_set *rigid, const struct scene *s);
 
 /* Checks the positions of all rigid bodies at the start. Returns REFUSED, with a message, if one overlaps particles, or
- * if a freely moving one touches a mirror plane of the scene. */
+ * if a freely moving one touches a mirror plane of the scene s. p: particles of the run. */
 status rigids_check_start_positions(const struct rigid_set *rigid, const struct scene *s, const struct particles *p);
 
-/* Moves all driven rigid bodies to their prescribed positions at time t [s]. */
+/* Moves all driven rigid bodies (those with a prescribed velocity) of the set `rigid` to their prescribed positions at
+ * time t [s]. */
 void rigids_move_to_prescribed_positions(struct rigid_set *rigid, real t);
 
 /* Updates, from the contact forces on all rigid bodies in the last step, the work of the drives (the forces that
@@ -39,8 +40,9 @@ void rigids_subtract_impulse_and_update_work(struct rigid_set *rigid, real dt_ve
  * advance [s]. */
 void rigids_advance_one_step(struct rigid_set *rigid, real t_middle, real dt, real dt_velocity);
 
-/* Returns FAILED if a body moves more than half a spacing in a step, so that particles would be inside it before
- * contact acts. */
+/* Checks the speeds of all rigid bodies. Returns FAILED, with a message, if one moves more than half a particle spacing
+ * of the scene s in a time step, so that particles would be inside the body before contact acts. clock: time and time
+ * step of the run. */
 status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock);
 
 /* Adds a warning to `warning_list`, once in a run, if a freely moving rigid body is more than half a spacing inside
@@ -57,17 +59,18 @@ struct rigid_energy {
  * motion and forces [J]. dt: time step [s]. */
 struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt);
 
-/* Stores names and units of the columns of rigid bodies in history.csv in the array `column`; NULL: counts them only.
- * Returns their number: force [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
+/* Stores names and units of the columns of the rigid bodies of the run e in history.csv in the array `column`; if
+ * `column` is NULL, only counts the columns. Returns the number of columns: force [N], moment [N m], position of the
+ * centre [m] and velocity [m/s] of each body. */
 int rigids_list_history_columns(const struct run *e, struct column *column);
 
-/* Writes the values of the columns of rigid bodies in history.csv to `record`, in the order of
+/* Writes the values of the history.csv columns of the rigid bodies of the run e to the array `record`, in the order of
  * rigids_list_history_columns: for each body the forces and moments of the last step, then position and velocity at the
  * time of the sample, which rigids_store_motion_for_sample has stored. */
 void rigids_write_history_values(struct run *e, real *record);
 
-/* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample at time t
- * [s]. The stored velocity of a driven body is the prescribed one at t. */
+/* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample (line of
+ * history.csv) at time t [s]. The stored velocity of a driven body is the prescribed one at t. */
 void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
 
 /* Replaces the velocities of free bodies that rigids_store_motion_for_sample stored before the step by the mean of
@@ -76,7 +79,7 @@ void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
 void rigids_average_velocities_for_sample(struct rigid_set *rigid);
 
 /* Replaces the velocities stored by rigids_store_motion_for_sample by those at time t [s], extrapolated from the
- * current ones, for the sample after the last time step. dt: time step [s]. */
+ * current ones, for the sample (line of history.csv) after the last time step. dt: time step [s]. */
 void rigids_extrapolate_velocities_for_sample(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body number `body` at time t [m/s], dim components: for a free body from its

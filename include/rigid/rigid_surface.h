@@ -16,9 +16,9 @@ struct rigid_surface {
     int32_t *corner; /* [faces][corners] indices of points */
 };
 
-/* Approximates the surface of a region by polygons between points on it, on a grid of at most about 24 (in the plane
- * 200) cells along the longest edge of the region. low, high: corners of a box to which an unbounded region is cut [m];
- * dim: 2 or 3. Release with rigid_surface_free. */
+/* Approximates the surface of the region `shape` by polygons between points on the surface and stores them in *s. The
+ * points are found with a grid of at most about 24 (in the plane 200) cells along the longest edge of the region. low,
+ * high: corners of a box to which an unbounded region is cut [m]; dim: 2 or 3. Release with rigid_surface_free. */
 void rigid_surface_approximate_by_polygons(struct rigid_surface *s, const struct region *shape, int dim,
                                            const real *low, const real *high);
 
@@ -28,7 +28,7 @@ void rigid_surface_approximate_by_polygons(struct rigid_surface *s, const struct
  * edge, and extended to the nearest part of the body if that is farther away. Returns true if the body is bounded. */
 bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, real *high);
 
-/* Releases the arrays of *s. */
+/* Releases the points and polygons in *s, which rigid_surface_approximate_by_polygons has allocated. */
 void rigid_surface_free(struct rigid_surface *s);
 
 /* Writes the surfaces of all rigid bodies at their present positions, and their motion, to a file beside the latest
@@ -37,7 +37,9 @@ void rigid_surface_free(struct rigid_surface *s);
  * file cannot be written. */
 status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part);
 
-/* Position and rotation of a rigid body: a point that was at X at t = 0 is at x + turn (X - centre) [m]. */
+/* Position and rotation of a rigid body in a frame: a point of the body that was at X at t = 0 is at x + turn (X -
+ * centre) [m]. centre: centre of the body at t = 0 [m]; x: centre at the time of the frame [m]; turn: rotation matrix
+ * [1]. */
 struct rigid_placement {
     real centre[DIM_MAX], x[DIM_MAX], turn[DIM_MAX][DIM_MAX];
 };

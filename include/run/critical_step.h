@@ -22,8 +22,8 @@ struct bond_operator {
 struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bond_force_fn *force,
                                         const struct loads *loads, real spacing);
 
-/* Frees the square roots of the masses that bond_operator_make allocated; the bonds, particles and loads stay with the
- * caller. */
+/* Frees the square roots of the masses in *body, which bond_operator_make has allocated; the bonds, particles and loads
+ * stay with the caller. */
 void bond_operator_free(struct bond_operator *body);
 
 /* Computes result = M^-1/2 K M^-1/2 displacement [1/s^2] with the mass matrix M and the tangent stiffness K of a body

@@ -4,13 +4,15 @@
 
 #include "run/run.h"
 
-/* Returns the share of its strain energy density that material point i keeps while bonds across its cell carry the
- * rest [1]: 1 - tr M/n, with M the matrix of its partial stress and n the number of components of a symmetric tensor;
- * exact if M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
+/* Returns the share [1] of the strain energy density of the material point with index i that remains with the point
+ * while bonds across its grid cell carry the rest: 1 - tr M/n, with M the matrix by which the partial stress of the
+ * point follows from the full stress and n the number of components of a symmetric tensor in `dim` dimensions; exact if
+ * M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
 real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *partial, int dim, int64_t i);
 
-/* Returns the kinetic energy 1/2 sum m v^2 of all particles [J], except material points of a mesh in the reference
- * frame, whose kinetic energy is that of the mesh nodes (reference_frame_kinetic_energy). */
+/* Returns the kinetic energy 1/2 sum m v^2 of all particles p [J], with mass m and velocity v of each, except material
+ * points of a mesh in the reference frame, whose kinetic energy is that of the mesh nodes
+ * (reference_frame_kinetic_energy). */
 real particles_kinetic_energy(const struct particles *p);
 
 /* Returns the elastic strain energy of the material points on the background grid [J]: 1/2 sum sigma : C^-1 : sigma V,
@@ -37,7 +39,7 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
  * dt f/m from the forces p->f. dt: time step [s]. */
 real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt);
 
-/* Computes the linear momentum of all particles and mesh nodes. nodes: `grid_count` pointers to the grids of the
+/* Computes the linear momentum of all particles p and all mesh nodes. nodes: `grid_count` pointers to the grids of the
  * meshes; momentum: receives dim components [kg m/s]; momentum_scale: receives the sum of the magnitudes |m v| of all
  * contributions [kg m/s], to which round-off errors of the momentum can be compared; NULL: not computed. */
 void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grid_count,

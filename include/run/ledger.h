@@ -55,10 +55,11 @@ struct ledger_row {
 enum { LEDGER_WORK = ENERGIES, LEDGER_ROWS };
 extern const struct ledger_row ledger[LEDGER_ROWS];
 
-/* Returns the sum of all energies of u, in the order of ENERGY_ROWS [J]. */
+/* Returns the sum of all energies in *u [J], added in the order of ENERGY_ROWS. */
 real energy_sum(const struct energy *u);
 
-/* Returns the sum of the absolute values of all energies of u [J], with which errors of their balance are compared. */
+/* Returns the sum of the absolute values of all energies in *u [J]. Errors of the energy balance are compared with this
+ * sum. */
 real energy_sum_of_magnitudes(const struct energy *u);
 
 #endif

@@ -4,9 +4,10 @@
 
 #include "run/run.h"
 
-/* Reduces elastic[m].trigger, the stress at which points of material m are converted to peridynamic particles, to that
- * of its weakest particle, if the strength of particles is random (p->strength). Does nothing if strength is uniform.
- * elastic: array of the constants of all materials, changed in place. */
+/* Reduces elastic[m].trigger, the stress at which material points of material m are converted to peridynamic particles
+ * [Pa], to the conversion stress of the weakest particle of this material, if the strength of particles is random
+ * (p->strength). Does nothing if strength is uniform. elastic: array of the constants of all materials, changed in
+ * place; p: particles of the run. */
 void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials]: for each material and for
@@ -20,11 +21,12 @@ struct impedance *absorbing_boundary_impedances(const struct scene *s, const str
 bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
 /* Returns the largest distance across which particles interact [m], through bonds, which are shorter than `cutoff` [m],
- * or through common cells of the mesh. Voids narrower than this distance must be handled explicitly. */
+ * or through common cells of the mesh. s: scene. Voids narrower than this distance must be handled explicitly. */
 real voids_interaction_distance(const struct scene *s, real cutoff);
 
-/* Returns true if the surface of a body and of all bodies joined to it is given by solids: none of them is made from a
- * particle list or an image. first_body: number of the first of the joined bodies. */
+/* Returns true if solids define the surfaces of a body and of all bodies that interfaces join to it, i.e. if none of
+ * these bodies is made from a particle list or an image. first_body: index, in the scene s, of the first of the joined
+ * bodies. */
 bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_body);
 
 /* Computes factors on the weights of bonds near free surfaces into w, by moments of the bond weights (key `pd.surface:
@@ -35,9 +37,9 @@ status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct
                                                const struct particles *p, const struct loads *loads,
                                                const struct scene *s);
 
-/* Checks that bodies which the scene joins by an interface are close enough for bonds. cells: search cells of the
- * particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one body is
- * within `cutoff` of a particle of the other. */
+/* Checks that bodies which the scene s joins by an interface are close enough for bonds. p: particles; cells: search
+ * cells of the particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one
+ * body is within `cutoff` of a particle of the other. */
 status joined_bodies_check_close_enough(const struct scene *s, const struct particles *p, const struct cells *cells,
                                         real cutoff);
 

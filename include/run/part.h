@@ -25,8 +25,8 @@ struct part {
     void (*summary)(const struct run *run, struct json *json); /* writes its results to summary.json */
 };
 
-/* Initialises name, offset and size of a part. member: member of struct run that points to the part; type: name of the
- * structure of the part, without `struct`. */
+/* Initialises the members `name`, `at` (offset) and `size` of a struct part, in an initialiser. member: member of
+ * struct run that points to the part; type: name of the structure of the part, without `struct`. */
 #define PART(member, type) .name = #member, .at = offsetof(struct run, member), .size = sizeof(struct type)
 
 #endif

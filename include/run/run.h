@@ -12,7 +12,7 @@
 #include "run/ledger.h"
 #include "scene/scene.h"
 
-/* Time and steps of a run. */
+/* Time, time steps and load steps of a run. */
 struct run_clock {
     real t, dt, dt_critical; /* time, time step, critical time step [s] */
     int64_t step, steps;     /* steps done; steps of the whole run */

@@ -34,12 +34,12 @@ void fill_mark_cells_inside_body(struct cells_without_particles *hollow, const s
  * to be in another length unit, or if there would be more bonds than memory can hold. */
 status fill_check_particle_lists_fit_spacing(const struct particles *p, const struct scene *s);
 
-/* Sets the factor on the strength of each particle, p->strength [1]: a random number if the strength of its material
- * scatters, else 1. Does nothing if p->strength is NULL. */
+/* Sets p->strength, the factor on the strength of each particle [1]: a random number if the scene s gives the material
+ * of the particle a random strength, else 1. Does nothing if p->strength is NULL. */
 void fill_set_particle_strength_factors(struct particles *p, const struct scene *s);
 
-/* Sets the temperature of each particle, p->temperature [K]: the room temperature that the flow law of its material
- * gives, or ROOM_TEMPERATURE if it gives none. Does nothing if p->temperature is NULL. */
+/* Sets the temperature of each particle, p->temperature [K]: the room temperature in the flow law of its material in
+ * the scene s, or ROOM_TEMPERATURE if it gives none. Does nothing if p->temperature is NULL. */
 void fill_set_initial_temperatures(struct particles *p, const struct scene *s);
 #define ROOM_TEMPERATURE 293.15
 

@@ -43,7 +43,8 @@ struct particle_list_form {
                           * names them */
 };
 
-/* Particles read from a file. Arrays have n entries; an array is NULL if the file has no such column. */
+/* Particles read from a file, in SI units. Arrays have one entry for each of the n particles; an array is NULL if the
+ * file has no such column. */
 struct particle_list {
     struct particle_list_head head;
     struct particle_list_form form;
@@ -75,7 +76,7 @@ status particle_list_read_column_names(struct particle_list_head *head, const ch
  * .hdf, or one of Exodus II. */
 bool path_has_particle_list_extension(const char *path);
 
-/* Releases the arrays of the list l. */
+/* Releases the arrays of the particle list l, which particle_list_read has allocated. */
 void particle_list_free(struct particle_list *l);
 
 #endif

@@ -27,7 +27,7 @@ enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
-/* A region of a body that consists of another material than the body. */
+/* A region of a body that consists of another material than the rest of the body. */
 struct scene_part {
     struct region region;
     int material; /* index into scene.material */
@@ -63,7 +63,7 @@ struct scene_interface {
     real critical_stretch;    /* that follows from energy_release_rate [1]; 0: none */
 };
 
-/* A region with a name; solids that refer to the name get a copy of the region. */
+/* A region with a name in the scene; solids that refer to the name receive a copy of the region. */
 struct named_region {
     char name[NAME_MAX_LENGTH];
     struct region region;
@@ -84,7 +84,8 @@ struct scene_initial {
     struct wave_pulse pulse;
 };
 
-/* Series of frames of a region, with a time interval of its own. */
+/* A series of frames (files with the state at one time) of the particles in a region, with a time interval of its own.
+ */
 struct scene_series {
     char name[NAME_MAX_LENGTH];
     struct region region;
@@ -96,7 +97,8 @@ struct scene_series {
  * increment, or the opening, the distance of two points. */
 enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
 
-/* Continuation after unstable crack growth: the next equilibrium, or explicit integration in time. */
+/* Continuation of a run with load steps after unstable crack growth. EQUILIBRIUM: the next equilibrium; EXPLICIT:
+ * explicit integration in time. */
 enum steps_then { THEN_EQUILIBRIUM, THEN_EXPLICIT };
 
 /* Criterion of the crack path: bonds with the largest ratio of stretch to critical stretch, or the largest hoop stress.
@@ -118,7 +120,8 @@ struct scene_steps {
                     by no more than this share [1] */
 };
 
-/* A key of a scene and, as text, where it is given: file, line and column, or the override. */
+/* A key of a scene and the location at which it is given, as text: `file:line:column`, or the override of the command
+ * line. */
 struct key_place {
     char key[104], place[408];
 };
@@ -227,7 +230,8 @@ struct scene {
     char *text;        /* the scene as run, in YAML: every key with its value or default */
 };
 
-/* An option `-s key=value` of the command line. */
+/* An override of a scene by the option `-s key=value` of the command line. Texts belong to whoever made the override.
+ */
 struct scene_override {
     const char *key, *value;
 };
@@ -260,7 +264,7 @@ static inline bool scene_has_moving_rigid_body(const struct scene *s)
     return moves;
 }
 
-/* Returns true if the bonds of a material or of an interface have a critical stretch. */
+/* Returns true if bonds can break in the scene s: at least one material or interface has a finite critical stretch. */
 static inline bool scene_bonds_break(const struct scene *s)
 {
     bool breaks = false;
@@ -323,8 +327,8 @@ static inline real scene_section_or_thickness(const struct scene *s)
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
 
-/* Returns the index of the part of body b at the position X (dim components [m]): of the last one that contains X; -1
- * if none does. */
+/* Returns the index, in b->part, of the last part of the body b (region with a material of its own) that contains the
+ * position X (s->dim components [m]); -1 if no part contains it. */
 int scene_part_at_position(const struct scene *s, const struct scene_body *b, const real *X);
 
 /* Returns the index of the material at the position X (dim components [m]) in body b: that of the last part of the body

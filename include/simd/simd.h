@@ -19,11 +19,12 @@ struct simd_set {
 extern const struct simd_set simd_sets[];
 extern const int simd_set_count;
 
-/* Makes all kernel calls use the set of kernels `set` from now on. The processor must support it (set->runs()). Must
- * not be called while kernels run. */
+/* Makes all kernel calls use the set of kernels `set` (hot loops compiled for one set of vector instructions) from now
+ * on. The processor must support it (set->runs()). Must not be called while kernels run. */
 void simd_use_kernels(const struct simd_set *set);
 
-/* Returns the set of kernels that kernel calls currently use. */
+/* Returns the set of kernels (hot loops compiled for one set of vector instructions) that kernel calls currently use.
+ */
 const struct simd_set *simd_current_kernels(void);
 
 /* Selects the set of kernels named by the environment variable CLEAVE_SIMD, or, if it is not set, the one with the

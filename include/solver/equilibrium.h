@@ -53,11 +53,12 @@ struct newton_solver {
     int64_t worst;     /* node with the largest residual */
 };
 
-/* Allocates all vectors of q for `node_count` nodes in `dim` space dimensions and sets them to 0. Functions and
- * tolerances are set by the caller. Release with newton_solver_free. */
+/* Initialises the Newton solver *q for `node_count` nodes (particles or nodes of a mesh) in `dim` space dimensions:
+ * allocates all vectors and sets them to 0. Functions and tolerances are set by the caller. Release with
+ * newton_solver_free. */
 void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count);
 
-/* Frees the vectors of the solver q, which newton_solver_make has allocated. */
+/* Frees the vectors of the Newton solver *q, which newton_solver_make has allocated. */
 void newton_solver_free(struct newton_solver *q);
 
 /* Finds the static equilibrium under the present loads by Newton's method. On entry q->u and q->f are displacement and

@@ -6,8 +6,8 @@
 
 #include "base/base.h"
 
-/* A sparse symmetric matrix of dim x dim blocks, one row of blocks for each node: block k, first[i] <= k < first[i +
- * 1], is in row i and column column[k]. */
+/* A sparse symmetric matrix of dim x dim blocks, one row of blocks for each node (particle or node of a mesh). Block k
+ * is in row i if first[i] <= k < first[i + 1], and in the column column[k]. All arrays belong to the caller. */
 struct block_matrix {
     int dim;         /* space dimension, 1 to 3 */
     int64_t n;       /* number of nodes */
@@ -28,12 +28,14 @@ struct multigrid;
 status multigrid_make(struct multigrid **m, const struct block_matrix *matrix, real *const *position,
                       const uint8_t *constrained);
 
-/* Computes z = M^-1 r by one V-cycle of the preconditioner m. residual: dim arrays of n forces [N], unchanged; result:
- * dim arrays of n displacements [m], 0 on constrained components. M is symmetric and positive definite on all others.
- * The result is bit-identical for any number of threads. */
+/* Computes z = M^-1 r by one multigrid V-cycle of the preconditioner m, with M the approximate stiffness matrix of
+ * multigrid_make. residual: r, dim arrays of n forces [N], unchanged; result: receives z, dim arrays of n displacements
+ * [m], 0 on constrained components. M is symmetric and positive definite on all others. The result is bit-identical for
+ * any number of threads. */
 void multigrid_apply_v_cycle(struct multigrid *m, real *const *residual, real *const *result);
 
-/* Frees a preconditioner of multigrid_make; does nothing if m is NULL. The matrix stays with the caller. */
+/* Frees the preconditioner m, which multigrid_make has allocated; does nothing if m is NULL. The stiffness matrix stays
+ * with the caller. */
 void multigrid_free(struct multigrid *m);
 
 #endif

@@ -37,7 +37,8 @@ struct static_solver {
     int stalls;                 /* successive restarts that did not halve the residual */
 };
 
-/* The body whose static equilibrium is computed; all pointers are borrowed. */
+/* The particles, bonds and loads whose static equilibrium is computed. All pointers are borrowed. force: kernel of the
+ * bond forces; material: array of the materials; bodies: number of bodies of the scene. */
 struct static_body {
     struct particles *part;
     struct bonds *bonds;
@@ -62,19 +63,19 @@ status static_solver_make(struct static_solver *s, const struct static_body *bod
 void static_solver_make_iteration_vectors(struct static_solver *s, const struct static_body *body,
                                           bool conjugate_gradients);
 
-/* Frees the vectors of the solver *s, which static_solver_make and static_solver_make_iteration_vectors have allocated,
- * and sets all its members to 0. */
+/* Frees the vectors of the static solver *s, which static_solver_make and static_solver_make_iteration_vectors have
+ * allocated, and sets all its members to 0. */
 void static_solver_free(struct static_solver *s);
 
 /* Type of a function that does step number `step`, from 0, of an iteration for static equilibrium: relaxation_step by
- * dynamic relaxation, cg_step by conjugate gradients. body: particles, bonds and loads; *done: false on entry, receives
- * true if the equilibrium is reached, with a residual of at most body->tolerance. Returns FAILED, with a message, if
- * the iteration stalls or a part of the body moves without resistance. */
+ * dynamic relaxation, cg_step by conjugate gradients. s: state of the iteration; body: particles, bonds and loads;
+ * *done: false on entry, receives true if the equilibrium is reached, with a residual of at most body->tolerance.
+ * Returns FAILED, with a message, if the iteration stalls or a part of the body moves without resistance. */
 typedef status static_solver_step_fn(struct static_solver *s, const struct static_body *body, int64_t step, bool *done);
 static_solver_step_fn relaxation_step, cg_step;
 
-/* Returns the largest absolute value of all components of the vectors in `vectors`, in the unit of the vectors. dim:
- * number of components of a vector; vector_count: number of vectors. */
+/* Returns the largest absolute value of all components of the vectors `vectors`, in the unit of the vectors; 0 if there
+ * are none. dim: number of components of a vector; vector_count: number of vectors (particles or nodes). */
 real field_largest_component(const struct field *vectors, int dim, int64_t vector_count);
 
 /* Sets the scale of forces s->scale = max(s->applied, reaction_norm) [N] and the residual s->residual =

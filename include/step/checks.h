@@ -5,37 +5,38 @@
 #include "base/rise.h"
 #include "run/run.h"
 
-/* Stores the largest speed of the particles at t = 0 in s->start_speed. Messages about unstable runs compare later
- * speeds with it. */
+/* Stores the largest speed of the particles p at t = 0 in s->start_speed [m/s]. Messages about unstable runs compare
+ * later speeds with it. */
 void stability_store_start_speed(struct stability *s, const struct particles *p);
 
-/* Checks the state of the run after a time step. Returns FAILED if a particle is faster than the fastest wave or its
- * position is not finite, a cell of a mesh is inverted, bodies in contact overlap, a rigid body is too fast, or a
- * formula of a load has no finite value; the message states position, step, cause and remedy. */
+/* Checks after a time step whether the run e has become unstable. Returns FAILED if a particle is faster than the
+ * fastest wave or its position is not finite, a cell of a mesh is inverted, bodies in contact overlap, a rigid body is
+ * too fast, or a formula of a load has no finite value; the message states position, step, cause and remedy. */
 status stability_check_after_step(struct run *e);
 
-/* Checks whether a particle moves faster than the fastest wave, or has a position or velocity that is not finite.
- * check_peridynamic: check the peridynamic particles too; check_mesh_points: check the material points of a mesh too.
- * Both may be false in a step in which the functions that move these particles detected no divergence. Returns FAILED
- * if there is such a particle; the message names its position, the step, the cause and a remedy. */
+/* Checks whether a particle of the run e moves faster than the fastest wave, or has a position or velocity that is not
+ * finite. check_peridynamic: check the peridynamic particles too; check_mesh_points: check the material points of a
+ * mesh too. Both may be false in a step in which the functions that move these particles detected no divergence.
+ * Returns FAILED if there is such a particle; the message names its position, the step, the cause and a remedy. */
 status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points);
 
-/* Checks the energies of the last sample, if a sample was due in this step. Returns FAILED, with a remedy in the
- * message, if the body has gained energy that neither loads nor supports have supplied, if the velocities change sign
- * in every step, or if an energy is not finite. */
+/* Checks the energies of the last sample (line of history.csv) of the run e, if a sample was due in this step; else
+ * returns OK. Returns FAILED, with a remedy in the message, if the body has gained energy that neither loads nor
+ * supports have supplied, if the velocities change sign in every step, or if an energy is not finite. */
 status energy_check_last_sample(struct run *e);
 
-/* Warns in *to, and prints, that the fracture energy of the last sample is below 0 by more than 1e-3 of the largest
- * energy of the run. w: energies of the last sample of a run of scene s. Returns true if it is. */
+/* Adds a warning to *to and prints it if the fracture energy of the last sample (line of history.csv) is below 0 by
+ * more than 1e-3 of the largest energy of the run. s: scene of the run; w: energies of the last sample. Returns true if
+ * there was reason to warn. */
 bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *w, struct warnings *to);
 
 /* Capacity of the text of stability_describe_remedy [byte]. */
 enum { REMEDY_LENGTH = 640 };
 
-/* Writes to text[capacity] what the user should change in the scene: the loads, if they explain the motion of the body;
- * the time step, if `growing_value` has grown as fast as in a run whose time step exceeds the stability limit
- * (base/rise.h); else the method or model. growing_value: current value of the quantity that grows (square of a speed,
- * or an energy); earlier: its previous values. */
+/* Writes to text[capacity] what the user should change in the scene of the diverging run e: the loads, if they explain
+ * the motion of the body; the time step, if `growing_value` has grown as fast as in a run whose time step exceeds the
+ * stability limit (base/rise.h); else the method or model. growing_value: current value of the quantity that grows
+ * (square of a speed, or an energy); earlier: its previous values. */
 void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real growing_value,
                                char *text, size_t capacity);
 

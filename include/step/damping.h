@@ -5,8 +5,8 @@
 #include "loads/loads.h"
 
 /* Velocities before the velocity update of the current step [m/s]: before[0][d][i] is component d of particle i,
- * before[1][d][k] that of node k of the mesh in the reference frame. They are set in every step, so that checkpoints do
- * not contain them. */
+ * before[1][d][k] is component d of node k of the mesh in the reference frame. Checkpoints do not contain these
+ * velocities, since every step sets them. */
 struct damping_state {
     real *before[2][DIM_MAX];
 };
@@ -27,7 +27,8 @@ struct damping_shares damping_shares_of_step(real rate_times_dt, bool first_step
 real damping_apply_first_half_return_energy_loss(struct particles *p, const struct mesh *mesh, struct loads *loads,
                                                  real rate_times_dt);
 
-/* Copies all velocities of particles and mesh nodes to s->before, before the forces of a time step change them. */
+/* Copies all velocities of the particles p and the nodes of the mesh to s->before, before the forces of a time step
+ * change them. */
 void damping_store_velocities(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
 
 /* Returns the energy that bulk damping has dissipated since the previous time step [J], computed from the velocities

@@ -14,15 +14,16 @@ struct large_motion {
     bool turned; /* the warning that a pressure does not follow the rotation of its surface has been printed */
 };
 
-/* Warns once of particles of one body that have moved into each other, where the scene has contact only between bodies
- * or none, unless it accepts this. Only particles whose reference distance exceeds `horizon` [m] count: no bond holds
- * them apart. t: present time [s];
- * particles are compared at most 25 times per run. */
+/* Adds a warning to `warning_list`, once in a run, if particles of one body have moved into each other. Does nothing if
+ * the scene has contact within bodies or accepts this by its key `accept`. Only particles whose distance in the
+ * reference configuration exceeds `horizon` [m] are compared, since no bond keeps them apart. t: present time [s]; m:
+ * state of the checks, by which particles are compared at most 25 times per run. */
 void large_motion_warn_of_passing_parts(struct large_motion *m, const struct particles *p, const struct scene *s,
                                         real horizon, real t, struct warnings *warning_list);
 
-/* Warns once of a pressure that does not follow the deformation, on a surface that has turned by more than 10 degrees:
- * its direction is that of the reference surface, so that it does work on the rotation. t: present time [s]. */
+/* Adds a warning to `warning_list`, once in a run, if a pressure of the loads l that does not follow the deformation
+ * acts on a surface that has turned by more than 10 degrees: the pressure keeps the direction normal to the undeformed
+ * surface and so does work on the rotation. m: state of the checks; t: present time [s]. */
 void large_motion_warn_of_turned_pressure(struct large_motion *m, const struct particles *p, const struct loads *l,
                                           real t, struct warnings *warning_list);
 

@@ -22,17 +22,17 @@ struct weak_shape {
     const char *too_little; /* by how much the force is too small [%] */
 };
 
-/* Returns the row of the table of shape functions that transmit too little force in metal under tension; NULL if
- * `shape` is not among them. */
+/* Returns the properties of the shape function `shape` if it transmits too little force between material points of
+ * metal under tension, as a row of a constant table; else NULL. */
 const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape);
 
-/* Two neighbouring material points, by particle index. */
+/* A pair of neighbouring material points with the particle indices a and b. */
 struct point_pair {
     int32_t a, b;
 };
 
-/* Pairs of neighbouring material points on the grid of the current frame that can come apart. made: the pairs have been
- * found; this is done at the first comparison. */
+/* Pairs of neighbouring material points on the grid of the current frame that can come apart in tension. made: true
+ * once the pairs have been found, at the first comparison. */
 struct point_pairs {
     bool made;
     bool pulled;  /* the warning that stretched points transmit too little force has been printed */

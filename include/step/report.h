@@ -7,8 +7,8 @@
 #include "output/output.h"
 #include "run/run.h"
 
-/* A sample in progress. It describes the body at t_n; its quantities are computed between the phases of the step
- * from t_n (sample.h). */
+/* A sample (line of history.csv) in progress. It describes the body at t_n; its quantities are computed between the
+ * phases of the step that begins at t_n (sample.h). */
 struct sampling {
     bool due;                                      /* a sample is taken in this step */
     real kinetic, work, constraint_work, absorbed; /* at the start of the step [J] */
@@ -22,7 +22,8 @@ struct sampling {
     real momentum[DIM_MAX]; /* at the start of the step [kg m/s] */
 };
 
-/* Half-width of the 95 % interval of a figure of the summary, from a convergence study (study/uncertainty.h). */
+/* Half-width of the 95 % interval, in the unit of the figure, of a figure (number in summary.json), from a convergence
+ * study (study/uncertainty.h). */
 struct error_bar {
     char figure[NAME_MAX_LENGTH];
     double half_width;
@@ -74,41 +75,42 @@ int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock 
  * at t = 0. clock: time step and number of steps of the run. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
-/* Returns the wall-clock times of the run so far, in this process and those before a restart. timers: sections of the
- * loop in this process. */
+/* Returns the wall-clock times of the run so far [s], in this process and those before a restart. timers: sections of
+ * the loop in this process. */
 struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers);
 
-/* Returns the set of frame series that must be written after `step` time steps or load steps, one bit per series: bit
- * 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). A run that
- * finds a single equilibrium (`solver: cg, relaxation`) writes frames at its start and its end only. */
+/* Returns the set of frame series (each the frames of the whole body or of a region) that must be written after `step`
+ * time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0
+ * if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg, relaxation`) writes frames
+ * at its start and its end only. */
 unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                                          int64_t step);
 
-/* Returns true if a sample (a line of history.csv) is taken in the next time step. Samples are spread evenly over the
- * run. For a scene without time steps, returns true before the first step only; its equilibria are sampled by
- * sample_take_in_equilibrium. */
+/* Returns true if a sample (a line of history.csv) is taken in the next time step. s: scene; clock: present step and
+ * number of steps of the run. Samples are spread evenly over the run. For a scene without time steps, returns true
+ * before the first step only; its equilibria are sampled by sample_take_in_equilibrium. */
 bool report_sample_is_due(const struct scene *s, const struct run_clock *clock);
 
-/* Starts the reports of a run before the first time step of this process: opens history.csv and, unless the run is
+/* Starts the reports of the run e before the first time step of this process: opens history.csv and, unless the run is
  * resumed, writes frame 0 and the first checkpoint. Warns of missing frames of a resumed run. Returns FAILED if a file
  * cannot be written or an index of frames cannot be read. */
 status report_start_before_first_step(struct run *e);
 
-/* Reports a finished time step or load step: takes the last sample after the last step, checks the energies
- * (energy_check_last_sample), and writes the frames, the checkpoint and the progress line that are due. Returns FAILED
- * if a file cannot be written, a particle has values that are not finite, or energy_check_last_sample fails;
- * INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit time.wall stops the run. */
+/* Reports a finished time step or load step of the run e: takes the last sample after the last step, checks the
+ * energies (energy_check_last_sample), and writes the frames, the checkpoint and the progress line that are due.
+ * Returns FAILED if a file cannot be written, a particle has values that are not finite, or energy_check_last_sample
+ * fails; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit time.wall stops the run. */
 status report_finished_step(struct run *e);
 
-/* Ends the reports after the last step: prints the last progress line, waits for the thread that writes frames, and
- * writes the last checkpoint. Returns FAILED if a file cannot be written. */
+/* Ends the reports of the run e after its last step: prints the last progress line, waits for the thread that writes
+ * frames, and writes the last checkpoint. Returns FAILED if a file cannot be written. */
 status report_finish_after_last_step(struct run *e);
 
 /* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
  * peridynamic particles by the bonds b, material points by the mesh. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
-/* Warns at the end of a run if energy or angular momentum is not conserved, if interface damping dissipated much
+/* Warns at the end of the run e if energy or angular momentum is not conserved, if interface damping dissipated much
  * energy, or if bonds broke in a collision that is too fast for the particle spacing. */
 void warn_of_unconserved_quantities(struct run *e);
 
@@ -132,7 +134,7 @@ void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const st
  * frame_fields_free once the frame has been copied by output_frame_begin. */
 void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra);
 
-/* Frees the fields that frame_fields_compute_requested has allocated for a frame. */
+/* Frees the fields in *extra that frame_fields_compute_requested has allocated for a frame. */
 void frame_fields_free(struct frame_extra *extra);
 
 #endif

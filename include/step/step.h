@@ -6,8 +6,9 @@
 #include "probes/probes.h"
 #include "run/run.h"
 
-/* Advances a run by one time step dt: computes forces, breaks bonds, moves particles and nodes, and converts material
- * points. Returns FAILED if material points have left the background grid because their motion has diverged. */
+/* Advances the run e by one time step e->clock.dt: computes forces, breaks bonds, moves particles and nodes, and
+ * converts material points. Returns FAILED if material points have left the background grid because their motion has
+ * diverged. */
 status step(struct run *e);
 
 /* Marks (FLAG_NEAR) the material points that are near other bodies at their present positions, and near rigid bodies
@@ -16,26 +17,27 @@ status step(struct run *e);
  * if no rigid body can touch a material point. */
 bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t);
 
-/* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions.
+/* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions. e: run;
  * broken_bond_count: number of bonds broken since the last call, each counted once for each of its particles. Returns
  * true if points have been converted. */
 bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count);
 
-/* Computes the internal forces at the current positions without moving anything: forces of bonds in e->part.f, and
- * forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh. Material points
- * of the mesh that have bonds, and mirror images of particles, are first brought to their current positions. Bonds
- * stretched beyond their limit break. */
+/* Computes the internal forces of the run e at the current positions without moving anything: forces of bonds in
+ * e->part.f, and forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh.
+ * Material points of the mesh that have bonds, and mirror images of particles, are first brought to their current
+ * positions. Bonds stretched beyond their limit break. */
 void run_compute_internal_forces(struct run *e);
 
-/* Brings positions, velocities and stresses of all particles up to date, as frames need them: points of a mesh from
- * its nodes, stresses of peridynamic particles from their bonds. */
+/* Brings positions, velocities and stresses of all particles of the run e up to date, as frames need them: points of a
+ * mesh from its nodes, stresses of peridynamic particles from their bonds. */
 void run_update_particle_motion_and_stress(struct run *e);
 
-/* Computes the critical time step, and sets the time step dt and the number of steps in e->clock. Returns REFUSED if
- * time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
+/* Computes the critical time step of the run e, and sets the time step dt and the number of steps in e->clock. Returns
+ * REFUSED if time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
 status time_step_choose_and_count_steps(struct run *e);
 
-/* Returns a read-only view of a run, from which probes read. All its pointers refer to data of the run. */
+/* Returns a read-only view of the run e, from which probes read. All pointers of the view refer to data of e; nothing
+ * has to be freed. */
 struct observed_run observed_run_view_of(const struct run *e);
 
 #endif

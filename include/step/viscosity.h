@@ -26,9 +26,9 @@ struct viscosity {
     bool small_strain;               /* cells of the reference frame have small strains: F = 1 */
 };
 
-/* Adds the viscous forces of bonds to the forces of particles, computes the viscous pressure q of points on the grid,
- * and adds the energy dissipated since the previous step to viscosity.taken of the run. Must be called after the bond
- * forces and before the loads are added. Does nothing if no material is viscous. */
+/* Adds the viscous forces of bonds of the run e to the forces of particles, computes the viscous pressure q of points
+ * on the grid, and adds the energy dissipated since the previous step to viscosity.taken of the run. Must be called
+ * after the bond forces and before the loads are added. Does nothing if no material is viscous. */
 void viscosity_add_bond_forces_and_pressure(struct run *e);
 
 /* Changes the normal stresses of points on the grid by the viscous pressure q: subtracts it if `subtract` is true,
@@ -36,8 +36,8 @@ void viscosity_add_bond_forces_and_pressure(struct run *e);
  * material is viscous. */
 void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract);
 
-/* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy that they
- * dissipated since the previous step to viscosity.taken. Does nothing if no material is viscous. */
+/* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy dissipated by
+ * these forces since the previous step to viscosity.taken of the run e. Does nothing if no material is viscous. */
 void viscosity_add_nodal_forces(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio

@@ -8,7 +8,8 @@
  * number of runs of one level. */
 enum { LEVELS_LEAST = 3, LEVELS_MOST = 6, RUNS_MOST = 15 };
 
-/* Statistics of the runs of one level, which have about the same spacing. */
+/* Statistics of a figure (a scalar result) over the runs of one spacing level, which have about the same particle
+ * spacing. mean, deviation, error: in the unit of the figure. */
 struct level_figures {
     double spacing, mean; /* mean spacing [m]; mean of the figure */
     double deviation;     /* standard deviation of a single run */

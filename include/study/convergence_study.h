@@ -79,7 +79,7 @@ struct convergence_request {
  * coarsest run fails, INTERRUPTED if w->options.stop is set. Release s with convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 
-/* Frees the scene, runs and table of the convergence study *s. */
+/* Frees the scene, runs and table of the convergence study *s, which convergence_study_run has filled. Files remain. */
 void convergence_study_free(struct convergence_study *s);
 
 /* Determines the convergence of the figures (scalar results) of a study that describe the body and have values at all

@@ -10,7 +10,8 @@
 
 enum { CASE_NAME_ROOM = 200, CASES_MOST = 100000, UNIT_ROOM = 16, HEADER_ROOM = 8192 };
 
-/* A key of the scene and the values that it takes in a study, as text after `-s`. */
+/* A key of the scene and the values that the key has in the runs of a study. key, value[values]: owned texts, as they
+ * follow the option `-s`. */
 struct varied_key {
     char *key, **value;
     int values;
@@ -52,7 +53,7 @@ struct study {
  * include both ends. Returns REFUSED, with the reason, if the text is malformed. Release k with varied_key_free. */
 status varied_key_parse_values(struct varied_key *k, const char *text);
 
-/* Frees the key and the values of *k. */
+/* Frees the texts of the key and of the values in *k, which varied_key_parse_values has allocated. */
 void varied_key_free(struct varied_key *k);
 
 /* Returns the number at the beginning of the text `value`; NAN if there is none. Stores in *unit a pointer to the rest
@@ -113,7 +114,7 @@ char *study_options_compose_from_arguments(int argc, char *const *argv, const ch
  * caller releases the text with memory_free. */
 char *study_options_read(const char *folder);
 
-/* Prints a word for a shell, in quotes if it contains characters that a shell interprets. */
+/* Prints `word` to `out` as a word of a shell command, in quotes if it contains characters that a shell interprets. */
 void study_print_shell_word(FILE *out, const char *word);
 
 /* Frees the runs, texts and name table of the study *s and unlocks its folder. The files in the folder remain. */
@@ -139,7 +140,7 @@ status study_determine_case_states(struct study *s, bool keep_failed);
  * are none. */
 void study_print_equal_scene_count(const struct study *s, FILE *out);
 
-/* Returns the value of the key called `key` among the overrides of a run, "" if the run does not override that key.
+/* Returns the value of the key called `key` among the overrides of the run c, "" if the run does not override that key.
  * The text belongs to the run. */
 const char *study_case_value_of_key(const struct study_case *c, const char *key);
 
@@ -198,7 +199,7 @@ struct study_table {
  * read. Release t with study_table_free. */
 status study_table_read(struct study_table *t, const struct study *s);
 
-/* Frees the names and values of the table *t. */
+/* Frees the names and values in the table *t, which study_table_read has allocated. */
 void study_table_free(struct study_table *t);
 
 /* Returns the index in t->figure of the figure (number in summary.json) called `name`, or -1 if there is none. */
