@@ -71,14 +71,15 @@ static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLIN
 /* Returns true if, with the coupling method c, one grid moves all particles, peridynamic ones and material points. */
 static inline bool coupling_has_one_grid(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
-/* Representation of pre-cracks in a mesh in the reference frame (notch.h). SLIT: a gap in the mesh; BONDS: cut bonds
- * between peridynamic particles; AUTO: a choice between both by rule. */
+/* Representation of pre-cracks in a mesh in the reference frame (notch.h). SLIT: a free surface of the mesh, with cut
+ * bonds around the ends of the crack only; BONDS: cut bonds along the whole crack; AUTO: a choice between both by rule.
+ */
 enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
 
-/* Radius of the zone around the end of a slit (a pre-crack as a gap in the mesh) in which bonds are cut [spacings].
- * NOTCH_ZONE applies if conversion.tips gives no radius, NOTCH_ZONE_LEAST bounds the given radius from below. Both are
- * empirical: the first bond of the example kalthoff_winkler then breaks within 0.6 % of the time that it takes with
- * bonds cut along the whole pre-crack. */
+/* Radius of the zone around the end of a slit (a pre-crack as a free surface of the mesh) in which bonds are cut
+ * [spacings]. NOTCH_ZONE applies if conversion.tips gives no radius, NOTCH_ZONE_LEAST bounds the given radius from
+ * below. Both are empirical: the first bond of the example kalthoff_winkler then breaks within 0.6 % of the time that
+ * it takes with bonds cut along the whole pre-crack. */
 #define NOTCH_ZONE_LEAST 6.0
 #define NOTCH_ZONE 8.0
 

@@ -29,7 +29,8 @@ status option_read_picture_size(struct picture_size *size, const char *option, c
  * Returns REFUSED, with a message, unless it is a number above 0, up to 1200. */
 status option_read_dpi(struct picture_size *size, const char *option, const char *text);
 
-/* Returns true if `option` is one of the options of the pictures of a study: --size, --dpi, --format. */
+/* Returns true if `option`, a word of the command line, is an option of the pictures of a study: --size, --dpi or
+ * --format. */
 bool option_is_of_study_pictures(const char *option);
 
 /* Reads the value `option_value` of the option `option` of a study, --size, --dpi or --format, into *size.

@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 
-/* A piece: a body, or the part of a body that consists of one material. */
+/* A piece of a scene: a body, or the part of a body that consists of one material. body: index into scene.body. */
 struct piece {
     const struct scene *scene;
     int body, material; /* index into scene.material; ANY_MATERIAL: the whole body */
@@ -19,7 +19,8 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance);
  * in `lower` and `upper`. Returns false if the piece is unbounded, or if no point inside it is known. */
 bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
 
-/* Lattice cells of the bounding box of a piece, one per particle position; x varies fastest. */
+/* The lattice cells in the bounding box of a piece (a body, or its part of one material), one cell per possible
+ * particle position. n[d]: number of cells along axis d; in the arrays, the index along x varies fastest. */
 struct cover {
     int dim;
     int64_t n[DIM_MAX], cells;
@@ -34,7 +35,8 @@ struct cover {
  * cells than can be computed quickly. */
 bool piece_cell_coverage_make(struct cover *c, const struct piece *piece);
 
-/* Computes the indices index[DIM_MAX] of the cell number `cell` of c along the axes. */
+/* Computes the indices index[DIM_MAX] along the axes of cell number `cell` (0 .. c->cells - 1) of the lattice cells c.
+ */
 void piece_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
 
 /* Frees the arrays of the covered cells *c, which piece_cell_coverage_make has allocated. */

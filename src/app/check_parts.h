@@ -20,7 +20,7 @@
  * steps alone, which underestimates the time if many particles convert. */
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
-/* Quartiles of measured times [s]. */
+/* Lower quartile, median and upper quartile of a set of measured times [s]. */
 struct quartiles {
     double lower, median, upper;
 };
@@ -60,7 +60,8 @@ void print_softening_and_horizon_limits(const struct scene *s, const struct mate
  * Prints nothing if no strength is known for these bonds. */
 void print_brittle_strength(const struct scene *s, const struct material *m);
 
-/* Size of a part or a crack below which its faces or tips affect each other [horizons]. */
+/* Size of a part or length of a crack [horizons] below which the two faces of the part, or the two tips of the crack,
+ * affect each other. */
 #define FEATURE 4
 
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
@@ -80,7 +81,7 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints the solver of the load steps of run e and the rule by which cracks grow. */
+/* Prints to standard output the solver of the load steps of run e and the rule by which cracks grow. */
 void print_load_step_solver(const struct run *e);
 
 /* Writes a line to `out` for each setting that reduces the accuracy of load steps: loads, supports, lengths of
@@ -97,8 +98,8 @@ void print_load_steps_cost(const struct run *e, const struct cost *cost, int thr
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints for each file from which the scene reads a solid whether its surface is closed, and the volume that the
- * surface encloses. */
+/* Prints for each file from which the scene of run e reads a solid whether its surface is closed, and the volume that
+ * the surface encloses. */
 void print_shape_file_volumes(const struct run *e);
 
 /* Prints a line for each body of run e that consists of several pieces without bonds between them (check_pieces.c). */
@@ -165,7 +166,7 @@ void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
  * where the face lies if it is in several planes and the boundary has no region. */
 void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b);
 
-/* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
+/* Prints, for the bodies of run e that are not boxes, the volume of the particles compared with the volume of the shape
  * (check_filled.c). */
 void print_volume_filled_by_particles(const struct run *e);
 
@@ -197,7 +198,8 @@ void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_li
  * a table. surface: correction of bonds near faces. */
 void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out);
 
-/* Writes a line to `out` for each body with thin parts whose particles are read from a list and form no lattice. */
+/* Writes a line to `out` for each body of run e that has thin parts and whose particles are read from a list and form
+ * no lattice. */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
 /* Returns true if the scene equals its mirror image in the plane normal to axis `normal_axis` through the middle of its

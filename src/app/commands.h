@@ -17,7 +17,8 @@ struct command {
 extern const struct command commands[];
 extern const int commands_count;
 
-/* Forms of arguments that commands also print when a word is wrong. */
+/* Usage texts of commands: the words that may follow the name of the command. Commands also print them if a word is
+ * wrong. */
 #define RUN_WORDS "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [--report] [-q]"
 #define CHECK_WORDS "SCENE [-s KEY=VALUE]... [-t THREADS] [--no-trial]"
 #define SWEEP_WORDS                                                                                                    \
@@ -93,7 +94,7 @@ status manual_print(FILE *out);
  * to path[capacity]. Returns false if neither has one. */
 bool schema_find_file_path(char *path, size_t capacity);
 
-/* Prints the kinds of scenes that `cleave new` can write to `out`, separated by blanks. */
+/* Prints to `out` the names of the kinds of scenes that the command `cleave new` can create, separated by blanks. */
 void new_scene_kinds_print(FILE *out);
 
 /* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the

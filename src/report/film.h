@@ -35,7 +35,7 @@ struct film_set {
     bool *hidden;             /* [groups] */
 };
 
-/* A frame (state at one time) of a run that a page shows. */
+/* A frame (state of the run at one time) that was read for a page. used: the page shows the frame. */
 struct film_frame {
     struct listed_frame listed;
     int64_t step;
@@ -90,7 +90,8 @@ void film_particle_set_form_groups(struct film_set *particle_set, const struct f
  * of f->every groups is shown, so that the shown groups fill the body. */
 double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group);
 
-/* Fills the table f->field with the fields that a run of the dimension f->dim may have. */
+/* Fills the table f->field with the fields (quantities stored for each particle) that a run in f->dim dimensions may
+ * have, and sets f->fields, their number. */
 void film_fill_table_of_fields(struct film *f);
 
 /* Updates the ranges and the sampled values of all fields of the film from the frame `frame`, which was read from the
@@ -105,8 +106,8 @@ void film_choose_stored_ranges_of_fields(struct film *f);
  * sum over all fields that are shown and change with time. */
 int film_bytes_per_group_and_frame(const struct film *f);
 
-/* Returns true if the field is written to the page: its values differ between particles or frames, and it is not left
- * out to save space. */
+/* Returns true if the field `field` (a quantity of the particles) of the film f is written to the page: its values
+ * differ between particles or frames, and it is not left out to save space. */
 bool film_field_is_shown(const struct film *f, const struct film_field *field);
 
 /* Writes the values of one field in the frame `frame` to the page as an array with one value for each shown group of

@@ -21,7 +21,7 @@ struct csv_file {
  * texts are kept by reference. Returns REFUSED, with a message, if the file cannot be read. Close c with csv_close. */
 status csv_open(struct csv_file *c, const char *path, const char *line_description);
 
-/* Closes the CSV file of c. */
+/* Closes the CSV file that csv_open has opened in *c. */
 void csv_close(struct csv_file *c);
 
 /* Reads the next line that is not blank into c->text, with e for the D of Fortran exponents, as in 5.0D-01. Sets
@@ -33,13 +33,13 @@ status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comm
  * file. Returns REFUSED, with a message, if the line is too long or cannot be read. */
 status csv_read_data_line(struct csv_file *c, bool *line_was_read);
 
-/* Sets the separator of the file from the current line: a semicolon if the line contains one, else a tab if it has more
- * tabs than commas, else a comma. */
+/* Sets the separator of the CSV file c from its current line, c->text: a semicolon if the line contains one, else a tab
+ * if it has more tabs than commas, else a comma. */
 void csv_detect_separator(struct csv_file *c);
 
-/* Cuts the next field off the line *rest_of_line and returns it, ended in place, without surrounding blanks and double
- * quotes. Quoted text may contain separators. *rest_of_line receives the rest of the line, or NULL after the last
- * field. Returns NULL if *rest_of_line is NULL. */
+/* Cuts the next field off the line *rest_of_line of the CSV file c and returns the field, terminated in place, without
+ * surrounding blanks and double quotes. Quoted text may contain separators. *rest_of_line receives the rest of the
+ * line, or NULL after the last field. Returns NULL if *rest_of_line is NULL. */
 char *csv_cut_field(const struct csv_file *c, char **rest_of_line);
 
 /* Cuts the unit off the name of a column, such as `time [us]` or `time (us)`, in place, and returns a pointer to the

@@ -24,11 +24,13 @@ struct particle_draft {
 status particle_draft_append_particle(struct particle_draft *d, const real *position, real volume, int material_number,
                                       int body_number);
 
-/* Returns REFUSED with the message that a body has no particles. body: index in the scene. listed: true if its
- * particles were to come from a list; otherwise the message gives the extents of the body's shape. */
+/* Always returns REFUSED, with the message that a body of the scene d->scene has no particles. body: index of the body.
+ * listed: true if its particles were to come from a list; otherwise the message gives the extents of the body's shape.
+ */
 status particle_draft_refuse_empty_body(const struct particle_draft *d, int body, bool listed);
 
-/* Returns REFUSED with a message that names the body with the index `body_number` and ends with the text `reason`. */
+/* Always returns REFUSED, with a message that names the body with the index `body_number` in the scene d->scene and
+ * ends with the text `reason`. */
 status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason);
 
 /* Appends the particles of the body with the index `body_number` from its particle list file to d, the list of

@@ -28,14 +28,15 @@ struct compile {
     size_t room;
 };
 
-/* Writes a message about a fault, composed as by printf, to c->what. Returns false. */
+/* Writes a message about a fault in the expression, composed as by printf, to c->what, which has space for c->room
+ * bytes. Always returns false, so that callers can return the result. */
 bool compile_write_fault_and_return_false(struct compile *c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* Returns the number, from 1, of the character to which `character` points in the text c->text of the expression. */
 int compile_character_number(const struct compile *c, const char *character);
 
-/* Text of a unit for a message; a struct, so that functions can return it by value. */
+/* The name of a unit as text for a message; a struct, so that functions can return the text by value. */
 struct named {
     char text[64];
 };
@@ -46,7 +47,8 @@ struct named quantity_unit_name(const struct quantity *q);
 /* Returns true if the quantity q is a pure number, i.e. all exponents of its unit are 0. */
 bool quantity_is_dimensionless(const struct quantity *q);
 
-/* Returns the operand that is `entries_below_top` entries below the top of the stack of c; 0 for the topmost one. */
+/* Returns the operand that is `entries_below_top` entries below the topmost one on the stack of the compilation c; 0:
+ * the topmost operand. The stack must have this many entries. */
 struct operand *compile_operand_from_top(struct compile *c, int entries_below_top);
 
 /* Appends a step that pushes a value on the stack: a number or variable (`operation` is EXPRESSION_NUMBER), a

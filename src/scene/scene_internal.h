@@ -11,8 +11,8 @@
 #include "scene/units.h"
 #include "scene/words.h"
 
-/* A named region that is being read, and the region that refers to it. Following `outer` shows whether a region
- * contains itself. */
+/* A named region of the scene that is being read (`region`), and the region that refers to it and is being read, too
+ * (`outer`; NULL: none). Following `outer` shows whether a region contains itself. */
 struct naming {
     const struct yaml_node *region;
     const struct naming *outer;
@@ -265,7 +265,8 @@ enum key_type {
     KEY_GROUP   /* not a key: heads the keys of solids                          */
 };
 
-/* Allowed range of the value of a key. open: `least` itself is excluded. */
+/* Allowed range of the value of a key, from `least` to `most`. open: `least` itself is excluded; given: the key has a
+ * range. */
 struct range {
     real least, most;
     bool open, given;
@@ -292,7 +293,7 @@ struct key {
 extern const struct key keys[];
 extern const int keys_count;
 
-/* Returns the last part of the path of key k, behind the last dot. */
+/* Returns the last part of the path of key k, behind the last dot, as a pointer into the path. */
 const char *key_last_part(const struct key *k);
 
 /* Writes the meaning, type, range and default of key k to text[capacity]. */
@@ -316,8 +317,8 @@ const char *key_group_of_items(const struct key *k);
  * shows; if `wanted` is NULL or no key below k, the example shows a required key. */
 void key_write_example(const struct key *k, int dim, const char *wanted, char *text, size_t capacity);
 
-/* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of a scene), or
- * NULL. */
+/* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of a scene); NULL
+ * if there is none. */
 const struct key *key_find(const char *group_path, const char *last_part);
 
 /* Returns the key directly below the key `group_path` ("" for the top of a scene) whose last part has the smallest edit
@@ -378,10 +379,11 @@ status fault_report_exclusive_keys(const struct reader *r, const struct yaml_nod
  * which arena_free releases. */
 const char *node_text(struct reader *r, const struct yaml_node *n);
 
-/* Returns `text` as one short, printable line for messages, in memory that arena_free releases. */
+/* Returns `text` as one short, printable line for messages, in memory of the reader r that arena_free releases. */
 const char *text_for_message(struct reader *r, const char *text);
 
-/* Returns the words a|b|c of a choice as `a, b or c`, in memory of the reader that arena_free releases. */
+/* Returns the list of words `words`, of the form a|b|c, as the text `a, b or c` for a message, in memory of the reader
+ * r that arena_free releases. */
 const char *words_for_message(struct reader *r, const char *words);
 
 /* Returns REFUSED, with a message, if a key of the mapping `mapping` is unknown in the group `group_path` or occurs

@@ -29,7 +29,8 @@ status read_image_solid(struct reader *r, const struct yaml_node *solid_node, st
  * shape. Returns REFUSED, with a message, for an unknown material or invalid grey values. */
 status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body);
 
-/* Returns true if the node n is a key that moves, rotates or repeats a solid (such as `rotate`), no solid itself. */
+/* Returns true if the node n of the scene is a key that moves, rotates or repeats a solid, such as `rotate`; false if
+ * the node is a solid. */
 bool node_is_motion_key_of_solid(const struct yaml_node *n);
 
 /* Reads the keys of the node `solid_node` that move, turn and repeat a solid, and stores these motions in *solid.
@@ -91,8 +92,8 @@ status read_vector_of_formulas(struct reader *r, const struct key *k, const stru
  * one is invalid. */
 status read_boundaries(struct reader *r, const struct yaml_node *root);
 
-/* Reads the requests for probes from the tree `root` into r->scene. Returns REFUSED, with a message, if one is invalid.
- */
+/* Reads the settings of the probes (measurements during the run) from the tree `root` into r->scene. Returns REFUSED,
+ * with a message, if one is invalid. */
 status read_probes(struct reader *r, const struct yaml_node *root);
 
 /* Reads the regions for which the scene requests frames of their own from the tree `root` into r->scene. Returns
@@ -148,8 +149,8 @@ status read_softening_onset(struct reader *r, const struct yaml_node *material_n
  * tension. */
 status read_strength_surface(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
-/* Returns REFUSED if `strength` [Pa] is above a tenth of Young's modulus of `material`. strength_node: node of the
- * strength, for the message. */
+/* Checks that `strength` [Pa] is at most a tenth of Young's modulus of `material`. strength_node: node of the strength,
+ * for the location in the message. Returns REFUSED, with a message, if the strength is larger. */
 status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,
                                              const struct material *material, real strength);
 
@@ -165,16 +166,16 @@ const struct material *scene_first_material(const struct scene *s, bool (*has)(c
  * do not support with bonds that soften. root: tree of the scene. */
 status check_softening_is_supported(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED for friction where it is not supported: with the contact law between pairs of particles, or together
- * with planes of symmetry. root: tree of the scene. */
+/* Checks the friction of contact in the scene. Returns REFUSED, with a message, where friction is not supported: with
+ * the contact law between pairs of particles, or together with planes of symmetry. root: tree of the scene. */
 status check_friction_is_supported(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with a message, if a static problem has absorbing boundaries. root: tree of the scene, for the
  * location in the message. */
 status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED for loads that static solvers, or particles at randomly shifted positions, do not support. root: tree
- * of the scene. */
+/* Checks the loads of the scene with the tree `root`. Returns REFUSED, with a message, for loads that static solvers,
+ * or particles at randomly shifted positions, do not support. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root);
 
 /* Decides where shape functions are evaluated for bodies whose frame is `auto`. The frame is `current` (at the present
@@ -187,12 +188,12 @@ void resolve_automatic_frames_of_bodies(struct scene *s);
  * given. */
 void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with a message, for keys that static solvers do not support. Materials and probes must have been
- * read before. root: tree of the scene. */
+/* Checks the keys of a scene with a static solver. Returns REFUSED, with a message, for keys that static solvers do not
+ * support. Materials and probes must have been read before. root: tree of the scene. */
 status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with a message, for keys that the solver with load steps does not support. root: tree of the
- * scene. */
+/* Checks the keys of a scene that is solved in load steps. Returns REFUSED, with a message, for keys that this solver
+ * does not support. root: tree of the scene. */
 status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
 
 /* Returns true if the scene is solved in load steps and has a material whose bonds soften. */
@@ -202,8 +203,8 @@ bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
  * default values. root: tree of the scene. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
 
-/* Returns the scene with all its keys, as it is run, as YAML text. Returns NULL if there is no memory. The caller
- * releases the text with memory_free. */
+/* Returns the scene s as it is run, every key with its value or default, as YAML text. Returns NULL if there is no
+ * memory. The caller releases the text with memory_free. */
 char *scene_to_yaml(const struct scene *s);
 
 #endif

@@ -148,10 +148,11 @@ void dense_factorise(struct dense *d, const struct multigrid_level *l);
  * receives x, d->n values. */
 void dense_solve(const struct dense *d, const real *load, real *solution);
 
-/* Frees the arrays of the factorisation *d of the matrix of the coarsest level. */
+/* Frees the arrays of *d, the factorisation that dense_factorise has made of the matrix of the coarsest level. */
 void dense_free(struct dense *d);
 
-/* Computes the residual l->t = l->b - K l->x of level l with its matrix K. */
+/* Computes the residual l->t = l->b - K l->x of level l from the load l->b, the solution l->x and the matrix K of the
+ * level. */
 void multigrid_compute_residual(struct multigrid_level *l);
 
 /* Does one step of a polynomial smoother on level l: d = previous_correction_factor d + residual_factor D^-1 (b - K x)
@@ -160,10 +161,12 @@ void multigrid_compute_residual(struct multigrid_level *l);
 void multigrid_smooth(struct multigrid_level *l, real previous_correction_factor, real residual_factor,
                       bool start_from_zero);
 
-/* Computes the load of the next coarser level from the residual of level l: coarser_level->b = l->up l->t. */
+/* Computes the load of the next coarser level from the residual of level l: coarser_level->b = l->up l->t, with the
+ * restriction matrix l->up. */
 void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
-/* Adds the solution of the next coarser level to that of level l: l->x += l->down coarser_level->x. */
+/* Adds the solution of the next coarser level to the solution of level l: l->x += l->down coarser_level->x, with the
+ * prolongation matrix l->down. */
 void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *coarser_level);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include "solver/solver.h"
 
-/* Computes the bond forces at the present positions of the particles into body->part->f [N], after an update of the
- * mirror images. No bond breaks. */
+/* Computes the bond forces at the present positions of the particles of `body` into body->part->f [N]. Updates the
+ * mirror images of particles first. No bond breaks. */
 void static_body_compute_bond_forces(const struct static_body *body);
 
 /* Computes the product K u of the tangent stiffness K of the bonds at the reference positions with the displacements u,

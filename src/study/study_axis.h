@@ -5,15 +5,15 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Axis of a panel: its smallest and largest value, INFINITY and -INFINITY if there is none; whether it is logarithmic,
- * as axes of positive values over more than two decades are. */
+/* Axis of a panel of a picture. low, high: smallest and largest value, INFINITY and -INFINITY if there is none;
+ * logarithmic: the scale is logarithmic, as for positive values over more than two decades. */
 struct study_axis {
     double low, high;
     bool logarithmic;
 };
 
-/* Returns the number of characters of the longest number at the axis if its tics divide it into at most `most`
- * intervals. */
+/* Returns the number of characters of the longest number that is written at the tics of `axis`, if the tics divide the
+ * axis into at most `most` intervals. */
 int study_axis_number_length(const struct study_axis *axis, int most);
 
 /* Sends kind (linear or logarithmic), range, tics and format of the numbers of an axis to gnuplot, with so many digits

@@ -14,7 +14,7 @@
  * STUDY_HASH_START if there are none. */
 uint64_t study_hash_add_text(uint64_t hash, const char *next_text);
 
-/* Enlarges the hash table of the names of the runs of s if it has no space for one more name. */
+/* Enlarges the hash table of the names of the runs of the study s if the table has no space for one more name. */
 void study_grow_name_table(struct study *s);
 
 /* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text
@@ -27,8 +27,8 @@ void study_choose_case_name(const struct study *s, char *name, const char *wante
 void study_register_case_name(struct study *s, int case_number);
 
 /* Finds which of the keys key[key_count] of a study appear in the names of its runs: those with several values. Stores
- * their indices in key_order[], which has space for `key_count` entries, in the order of the names. Returns how many
- * they are. */
+ * their indices in key_order[], which has space for `key_count` entries, in the order of the names. Returns the number
+ * of these keys. */
 int study_list_keys_in_run_names(int *key_order, const struct varied_key *key, int key_count);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to

@@ -31,7 +31,7 @@ struct shown_key {
  * If vectors differ in a single component, this component is shown. Release the array with shown_keys_free. */
 struct shown_key *shown_keys_make(const struct study *study, const struct varied_key *key, int key_count);
 
-/* Frees the array shown[key_count] and its texts; `shown` may be NULL. */
+/* Frees the array shown[key_count], which shown_keys_make has allocated, and its texts; `shown` may be NULL. */
 void shown_keys_free(struct shown_key *shown, int key_count);
 
 /* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a figure in the unit
@@ -76,7 +76,8 @@ void panels_choose_figures(struct study_picture *picture);
  * Returns REFUSED if a name is not in picture->table. */
 status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
 
-/* Returns true if `key` is the seed of random numbers, such as material.scatter.seed. */
+/* Returns true if `key`, the path of a key of the scene, is the seed of random numbers, such as material.scatter.seed.
+ */
 bool key_is_seed(const char *key);
 
 /* Returns true if a seed is the only one of the keys key[key_count] with several values. */
@@ -126,14 +127,15 @@ int study_intervals_up(const struct study_picture *p);
  * in panels of the present size. */
 int study_intervals_across(const struct study_picture *p, const struct study_axis *axis);
 
-/* Returns true if every point of every panel has a value, i.e. at least one run with the figure. */
+/* Returns true if every point of every panel of the picture p has a value, i.e. if at least one of the runs combined to
+ * the point has the figure that the panel shows. */
 bool study_points_complete(const struct study_picture *p);
 
 /* Writes the title of line number `line` to text[capacity], such as `60, 1`: the values of those keys that distinguish
  * lines. */
 void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line);
 
-/* Writes the words of a key and the unit of its values to text[capacity], as `traction on y+ [MPa]`. */
+/* Writes the words of the varied key `key` and the unit of its values to text[capacity], as `traction on y+ [MPa]`. */
 void study_key_text(char *text, size_t capacity, const struct shown_key *key);
 
 /* Writes the words of the varied keys that have the role `role` in the picture (on the axis, as lines, held at one
