@@ -239,14 +239,24 @@ static void set_of_nodes(struct surface_builder *b, const struct element_set *se
     builder_close(b, hull, false, NULL);
 }
 
-/* Makes the surface of each set of nodes or elements of the mesh of b that is not empty, and stores it in g->set.
+/* Returns true if the set `set` of the mesh m consists of nodes and a set of elements that is not empty has the same
+ * name, as Abaqus/CAE writes the sets of a geometry: the name then stands for the elements. */
+static bool named_by_elements(const struct element_mesh *m, const struct element_set *set)
+{
+    for (int k = 0; k < m->sets && set->of_nodes; k++)
+        if (!m->set[k].of_nodes && m->set[k].n > 0 && strcasecmp(m->set[k].name, set->name) == 0) return true;
+    return false;
+}
+
+/* Makes the surface of each set of nodes or elements of the mesh of b that is not empty, and stores it in g->set. Sets
+ * of nodes that have the name of a set of elements are left out.
  * node_of: mesh node at each corner of the surface g->whole of the body. */
 static void take_sets(struct surface_builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
     for (int k = 0; k < b->m->sets; k++) {
         const struct element_set *set = &b->m->set[k];
-        if (set->n == 0) continue;
+        if (set->n == 0 || named_by_elements(b->m, set)) continue;
         struct geometry_set *to = &g->set[g->sets++];
         memcpy(to->name, set->name, sizeof to->name);
         if (set->of_nodes)

@@ -178,12 +178,13 @@ static void count_beyond(struct view *v, const struct plotted_particles *cloud, 
 {
     const bool damage = map_of_field(v->field) == MAP_DAMAGE;
     const float low = (float)(damage ? v->bottom : v->low), high = (float)(damage ? v->top : v->high);
+    const float slack = 1e-5F * (high - low); /* round-off of frames: a damage of 1 may be 1.000001 */
     v->beyond[0] = v->beyond[1] = 0;
     for (int c = 0; c < clouds && cloud[c].value; c++) {
         int64_t below = 0, above = 0;
         for (int64_t i = 0; i < cloud[c].n; i++) {
-            below += cloud[c].value[i] < low;
-            above += cloud[c].value[i] > high;
+            below += cloud[c].value[i] < low - slack;
+            above += cloud[c].value[i] > high + slack;
         }
         if (below > v->beyond[0]) v->beyond[0] = below;
         if (above > v->beyond[1]) v->beyond[1] = above;

@@ -306,7 +306,7 @@ static void bad_gmsh(void **state)
 static const char flat[] =
     "*HEADING\nanything, 1, 2\n** a comment\n*node, nset=all\n1, 0., 0.\n2, 1., 0.\n 3, 2., 0\n"
     "4, 0., 1.\n5, 1., 1.\n6, 2., 1.D0\n*Element, type=CPS4R, elset = Two\n10, 1, 2, 5, 4\n11, 2,\n"
-    " 3, 6, 5\n*NSET, NSET=left\n1, 4\n*Elset, elset=RIGHT, generate\n11, 11, 1\n"
+    " 3, 6, 5\n*NSET, NSET=left\n1, 4\n*NSET, NSET=Both\n1\n*Elset, elset=RIGHT, generate\n11, 11, 1\n"
     "*elset, elset=both\nTwo,\n*Material, name=steel\n*Elastic\n210e9, .3\n"
     "*Element, type=T3D2\n90, 1, 2\n*Step\n*Static\n0.1, 1.\n*Include, input=loads.inc\n*End Step\n";
 static const char parts[] =
