@@ -175,7 +175,7 @@ refused "a material of a rigid body" "$work/no" "cannot be given for a rigid bod
     -s "bodies=[{name: b, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}, {name: a, rigid: true, material: material, shape: {box: {from: [20 mm, 0], to: [29 mm, 9 mm]}}}]"
 refused "only rigid bodies" "$work/no" "all bodies are rigid" "$work/hit.yaml" \
     -s "bodies=[{name: a, rigid: true, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}]"
-refused "a half-space that flies" "$work/no" "its shape is infinite" "$work/hit.yaml" \
+refused "a half-space that flies" "$work/no" "has an infinite shape" "$work/hit.yaml" \
     -s "bodies=[{name: b, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}, {name: a, rigid: true, mass: 1 kg, shape: {half-space: {point: [20 mm, 0], normal: [1, 0]}}}]"
 refused "friction of pairs" "$work/no" "contact.law: surface" "$work/hit.yaml" -s contact.friction=0.1 -s contact.law=pair
 refused "rigid bodies and material points" "$work/no" "method: pd" "$work/hit.yaml" -s method=mpm
