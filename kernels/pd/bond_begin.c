@@ -205,7 +205,7 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
 /* Recomputes c->range, the stretches of onset and end of softening of candidate c (a bond that may begin to soften),
  * for the strain rate of the bond: the mean of the rates of its two particles, or the rate of one if the other does not
  * have bonds to all neighbours. limit: critical stretches and softening. Returns true if the stretch of the bond is
- * above the onset at this rate. */
+ * above the onset at this rate, or if no material has a rate table (c->range is then kept). */
 static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               struct candidate *c)
 {

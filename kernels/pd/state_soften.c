@@ -44,8 +44,9 @@ static real row_energy_of_step(const struct bonds *b, const struct particles *p,
 }
 
 /* Increases the damage of the softening bonds of one row (bonds of one particle) to that of their present stretches. A
- * bond takes part if this sets energy free and both of its particles are peridynamic; a material point whose bond
- * begins to soften converts in this step. limit: gives the time step. Sets *changed to true if the damage of a bond has
+ * bond takes part if the increase of damage releases energy and both of its particles are peridynamic; a
+ * material point whose bond begins to soften becomes peridynamic in this step. limit: limits of stretch, and the time
+ * step. Sets *changed to true if the damage of a bond has
  * changed. Returns the number of bonds that have broken, at the end of their softening. */
 static int64_t row_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
                           bool *changed)

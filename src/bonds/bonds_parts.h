@@ -334,9 +334,9 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
  * models. */
 void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *source);
 
-/* Allocates the arrays of b->state that depend on the rows (the bonds of particles p), stores the sources of mirror
- * images, and computes the weighted volumes. source: inputs of the bonds. Call after all rows were made. Does nothing
- * for bond-based models. */
+/* Allocates the arrays of b->state, the data of state-based models for each row (the bonds of one particle of p),
+ * stores which particle each mirror image is the image of, and computes the weighted volumes. source: geometry and
+ * material of the bonds. Call after all rows were made. Does nothing for bond-based models. */
 void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the arrays of b->state, the data of families in state-based models. */

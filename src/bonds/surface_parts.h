@@ -86,9 +86,10 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
     return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
 }
 
-/* Returns the offset number (index of the relative position of a neighbour) that a bond has at its other particle: that
- * of the opposite relative position. offset: offset number of the bond at its first particle; other_particle: the other
- * particle; if this is a mirror image, the relative position is reflected as well. b: particles near faces. */
+/* Returns the index, in the list of relative positions of neighbours on the lattice, of the position of the first
+ * particle of a bond as seen from its second particle: the opposite of the relative position number `offset` at the
+ * first particle. other_particle: the second particle; where it is a mirror image, the relative position is also
+ * reflected at the mirror. b: holds the list. */
 int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
 
 /* Lists the particles of p near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a

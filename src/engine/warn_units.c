@@ -283,8 +283,8 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
     for (int d = 0; d < s->dim; d++) f->least[d] = real_min(f->least[d], u[d]), f->most[d] = real_max(f->most[d], u[d]);
 }
 
-/* Updates the largest values of stress and displacement in *f by load l, evaluated at sampled times between 0 and the
- * duration and at some of its particles. */
+/* Raises the largest stress and displacement in *f to those that load l of scene s applies or prescribes, evaluated at
+ * sampled times between 0 and the duration and at some of the particles of l. Counts supports in f->supports. */
 static void load_figures_add(const struct scene *s, const struct particles *p, const struct load *l,
                              struct load_figures *f)
 {

@@ -157,8 +157,8 @@ static status touched_find(const struct exported *x, struct search *a, int64_t *
 }
 
 /* Lists in t the particles for which a->number is 1, those with a cut bond (a pair that LAMMPS would bond and the scene
- * does not). Allocates t->key, the array of their keys. Replaces a->number[i] by the index of particle i in the list,
- * or -1 for other particles. Call it after touched_find. */
+ * does not). Allocates t->key, which later holds a sort key for each. Replaces a->number[i] by the index of particle i
+ * in the list, or -1 for other particles. Call it after touched_find. */
 static void touched_list(struct touched *t, const struct exported *x, struct search *a)
 {
     const int64_t n = x->e->part.n;

@@ -38,9 +38,9 @@ struct tip_reach {
     int64_t ends, particles;
 };
 
-/* Computes for every crack of t the largest distance of its particles (of p) from its start, the position of its end,
- * and the number of separate groups of particles that are farthest within one spacing. extent: receives an element for
- * each of TIPS_MAX tips; must be 0 on entry. */
+/* Computes for every tip of t, from those particles of p that belong to its crack: the largest distance of one from the
+ * start of the crack, the position of this farthest particle, and the number of branches, the separate groups of
+ * particles at most one spacing nearer. extent: receives an element for each of TIPS_MAX tips; must be 0 on entry. */
 void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent);
 
 /* Search for particles near a position, with a result array that is reused. p: particles; c: search cells over their

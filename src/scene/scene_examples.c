@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Returns true if the value of key k is a point, a vector or its formulas. */
+/* Returns true if the value of key k is a point or a vector, whose components may be formulas. */
 static bool is_vector(const struct key *k)
 {
     return k->type == KEY_POINT || (k->type == KEY_HAND && k->words && strncmp(k->words, "list of number", 14) == 0);
