@@ -44,7 +44,7 @@ refused "is not a unit of length" check gear.yaml -s body='{mesh: {file: gear.in
 "$cleave" run fibres.yaml -q -s duration=1ns -s output.frames=1 >/dev/null 2>&1 || fail "fibres.yaml does not run"
 grep -q 'values: \["1-200", "201-255"\]' results/fibres/scene.yaml && pass || fail "the echo of fibres.yaml"
 refused "have grey values without a material, for instance" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0: void, 255: fibre}}}'
-refused "is in two of the ranges" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 128-255: fibre}}}'
+refused "in two ranges" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 128-255: fibre}}}'
 refused "the scene has no material glass" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 129-255: glass}}}'
 
 # The blade: a closed surface; half of it is refused.
