@@ -323,9 +323,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
         fprintf(to, "%s$f%d with %s lw 2 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
                 h->rows > POINTS_SHOWN ? "lines" : "linespoints pt 7 ps 0.5", curve_colour[m]);
         gnuplot_write_quoted_string(to, a->name);
-        snprintf(text, sizeof text, "sampled: %.4g %s at %.4g %s",
-                 component_at(h, a->peak, &a->force) / newton.factor, newton.name,
-                 component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
+        snprintf(text, sizeof text, "sampled: %.4g %s at %.4g %s", component_at(h, a->peak, &a->force) / newton.factor,
+                 newton.name, component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
         fprintf(to, ", $f%d every ::%lld::%lld with points pt 6 ps 2 lw 2 lc rgb '%s' title ", m, (long long)a->peak,
                 (long long)a->peak, curve_colour[CURVE_COLOURS - 1]);
         gnuplot_write_quoted_string(to, text);
