@@ -54,12 +54,12 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
     if (tangent && hardening)
         return fault(r, hardening,
                      "is given together with yield_tangent, but each determines the other; remove one of the two");
-    if ((tangent || hardening) && !yaml_node_find(n, "yield_stress"))
-        return fault(r, tangent ? tangent : hardening, "has no effect without yield_stress: add yield_stress");
     if (hardening) {
         TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
         m->yield_tangent = m->young * H / (m->young + H);
     }
+    if ((tangent || hardening) && !yaml_node_find(n, "yield_stress"))
+        return fault(r, tangent ? tangent : hardening, "has no effect without yield_stress: add yield_stress");
     if (m->yield_tangent < m->young) return OK;
     return fault(
         r, tangent ? tangent : hardening,
