@@ -35,7 +35,7 @@ struct elastic {
                      weakest point [Pa] */
     real trigger_mean; /* sigma_1 of conversion of a point of strength 1; equals `trigger` without scatter [Pa] */
     real poisson;      /* Poisson's ratio in plane strain [1] */
-    /* Where g0 is not 0, points also convert where U g0 (sqrt(J2) + g1 I1) exceeds `failure`. */
+    /* strength surface; if its g0 is not 0, points also convert where U g0 (sqrt(J2) + g1 I1) exceeds `failure` */
     struct strength_surface surface;
     real failure; /* value of U g0 at which points convert; where strength scatters, of a point of strength 1 [Pa] */
     enum space space;

@@ -230,7 +230,7 @@ struct plotted_particles {
     float *damage;             /* [1] */
     uint8_t *kind;
     int32_t *fragment;     /* NULL: unknown */
-    int32_t fragments;     /* number of fragments: largest index + 1 */
+    int32_t fragments;     /* fragments of all particles of the frame: largest index + 1 */
     float *value;          /* values of the field in SI units; NULL: none */
     struct colour *colour; /* colour of each particle for every map; NULL: determined by the map */
     int axis[2], normal;   /* axes of the map, 0 .. 2 for x y z; normal of the slice, -1: no slice */

@@ -272,7 +272,7 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
     c->gradient = deformation_gradients_fit_to_displacements(f, c->spacing, c->magnify, projection->scene);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;
-        if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1; /* of the whole body */
+        if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
         if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
         if (f->spacing) c->size[c->n] = (float)size;
         cloud_place(c, f, i);

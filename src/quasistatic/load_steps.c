@@ -317,7 +317,8 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
  * unique, and one cell takes the whole of it. m: materials of the scene, one for each index in p->material. */
 static void warn_of_flow_in_one_cell(struct warnings *to, const struct particles *p, const struct material *m)
 {
-    for (int64_t i = 0; i < p->n && p->dim == 1 && p->plastic_correction[0]; i++) {
+    if (p->dim > 1 || !p->plastic_correction[0]) return;
+    for (int64_t i = 0; i < p->n; i++) {
         const struct law *law = &m[p->material[i]].law;
         if (!(p->plastic_strain[i] > 0) || law->flow != FLOW_LINEAR) continue;
         if (law->hardening > 0 || law->kinematic.modulus > 0) continue;

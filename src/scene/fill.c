@@ -174,6 +174,14 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
         d, X, volume, scene_material_at_position(s, &s->body[body], place, s->body[body].material), body);
 }
 
+/* Returns REFUSED, with a message, if the scene of d has no spacing at which to fill the body number `body`. */
+static status check_spacing_given(const struct particle_draft *d, int body)
+{
+    if (d->scene->spacing > 0) return OK;
+    return particle_draft_refuse_body(
+        d, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
+}
+
 /* Adds the particles of the lattice in the shape of a body to d, the list of particles to be created, with x varying
  * fastest. body: index of the body. Returns REFUSED, with a message, if the scene has no spacing or the shape does not
  * fit it. */
@@ -181,9 +189,7 @@ static status fill_lattice(struct particle_draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
-    if (!(spacing > 0))
-        return particle_draft_refuse_body(
-            d, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
+    TRY(check_spacing_given(d, body));
     TRY(lattice_axes(d, body, axis));
     for (int64_t k = axis[2].first; k <= axis[2].last; k++)
         for (int64_t j = axis[1].first; j <= axis[1].last; j++)
@@ -199,9 +205,7 @@ status fill_compute_lattice_site_position(const struct scene *s, int body, real 
 {
     const struct particle_draft d = {.scene = s};
     struct axis axis[DIM_MAX] = {{0}};
-    if (!(s->spacing > 0))
-        return particle_draft_refuse_body(
-            &d, body, "particles.spacing is missing: a shape is filled with particles at this distance; add it");
+    TRY(check_spacing_given(&d, body));
     TRY(lattice_axes(&d, body, axis));
     for (int a = 0; a < s->dim; a++) X[a] = axis_place(&axis[a], axis[a].first);
     return OK;

@@ -201,6 +201,8 @@ static bool compile_variable(struct compile *c, const char *name, const char *at
     return deeper(c, 2) && keep_value(c, at, q) && compile_append_push_of_operand(c, EXPRESSION_NUMBER, q);
 }
 
+bool is_variable_of_formulas(const char *text) { return strlen(text) == 1 && strchr("xyzt", *text); }
+
 static bool compile_name(struct compile *c)
 {
     struct quantity q = {.value = 3.14159265358979323846, .bare = true};
@@ -219,7 +221,7 @@ static bool compile_name(struct compile *c)
             c, "has an unknown function %s (character %d); see `cleave help expression`", name,
             compile_character_number(c, at));
     if (f) return missing(c, "( and what it is of");
-    if (length == 1 && strchr("xyzt", *name)) return compile_coordinate(c, *name);
+    if (is_variable_of_formulas(name)) return compile_coordinate(c, *name);
     if (strcmp(name, "pi") == 0) return compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q);
     c->at = at + length;
     return quantity_read_unit_symbol(&q, name) == length ? compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q)
@@ -371,7 +373,7 @@ const char *reserved_word_meaning(const char *word)
 {
     struct quantity q;
     if (function_named(word)) return "the name of a function";
-    if (strlen(word) == 1 && strchr("xyzt", *word)) return *word == 't' ? "the time" : "a coordinate";
+    if (is_variable_of_formulas(word)) return *word == 't' ? "the time" : "a coordinate";
     if (strcmp(word, "pi") == 0 || strcmp(word, "inf") == 0) return "a number";
     const size_t length = strlen(word), digit = length > 1 && strchr("23", word[length - 1]) ? 1 : 0;
     return quantity_read_unit_symbol(&q, word) == length - digit ? "a unit" : NULL;

@@ -88,6 +88,14 @@ status fault(const struct reader *r, const struct yaml_node *at, const char *for
     return status_set(REFUSED, "%s%s", place, what);
 }
 
+status check_key_given_once(const struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
+{
+    for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
+        if (strcmp(twin->key, n->key) == 0)
+            return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
+    return OK;
+}
+
 status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other)
 {
     const struct yaml_node *late = one->origin > other->origin ? one : other;

@@ -40,10 +40,7 @@ static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR 
 static status check_twins(const struct reader *r, const struct yaml_node *map)
 {
     if (map->n > KEYS_MOST) return fault(r, map, "has %d keys, more than any mapping of a scene can have", map->n);
-    for (const struct yaml_node *n = map->first; n; n = n->next)
-        for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
-            if (strcmp(twin->key, n->key) == 0)
-                return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
+    for (const struct yaml_node *n = map->first; n; n = n->next) TRY(check_key_given_once(r, map, n));
     return OK;
 }
 

@@ -213,6 +213,9 @@ bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity 
  * or begins with a name. */
 bool looks_like_expression(const struct reader *r, const char *text);
 
+/* Returns true if `text` is x, y, z or t alone, the variables of formulas: a coordinate or the time. */
+bool is_variable_of_formulas(const char *text);
+
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
 
 /* Evaluates the variables of the scene with the tree `root` and stores them in r. Returns REFUSED, with a message, for
@@ -374,6 +377,9 @@ status fault_report_missing_key(struct reader *r, const struct yaml_node *map, c
 /* Returns REFUSED with the message that the keys of the nodes `one` and `other` exclude each other. The message gives
  * the location of the key that was set last: by an override, else in the scene file. */
 status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other);
+
+/* Returns REFUSED, with a message, if an entry of the mapping `map` before its entry n has the key of n. */
+status check_key_given_once(const struct reader *r, const struct yaml_node *map, const struct yaml_node *n);
 
 /* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader,
  * which arena_free releases. */

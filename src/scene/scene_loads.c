@@ -70,8 +70,9 @@ static status read_fixed(struct reader *r, const struct yaml_node *n, struct bou
 static status read_formula(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                            struct expression *f)
 {
-    const bool variable = n->kind == NODE_SCALAR && strlen(n->text) == 1 && strchr("xyzt", *n->text);
-    if (n->kind != NODE_SCALAR || !(variable || looks_like_expression(r, n->text))) return read_number(r, k, n, value);
+    const bool formula =
+        n->kind == NODE_SCALAR && (is_variable_of_formulas(n->text) || looks_like_expression(r, n->text));
+    if (!formula) return read_number(r, k, n, value);
     TRY(read_expression(r, k, n, of, f));
     *value = 1;
     if (f->in_space || f->in_time) return OK;

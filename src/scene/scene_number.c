@@ -137,9 +137,7 @@ status read_variables(struct reader *r, const struct yaml_node *root)
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
         TRY(expect_node_kind(r, n, NODE_SCALAR, "a number or an expression"));
-        for (int v = 0; v < r->variables; v++)
-            if (strcmp(r->variable[v].n->key, n->key) == 0)
-                return fault(r, n, "is given twice, first in line %d; remove one", r->variable[v].n->line);
+        TRY(check_key_given_once(r, map, n));
         r->variable[r->variables++] = (struct variable){.n = n};
     }
     for (struct variable *v = r->variable; v < r->variable + r->variables; v++)

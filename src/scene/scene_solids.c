@@ -203,9 +203,7 @@ static status read_names(struct reader *r, const struct yaml_node *map, struct n
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         const struct yaml_node name = {
             .text = n->key, .key = n->key, .line = n->line, .column = n->column, .origin = n->origin};
-        for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
-            if (strcmp(twin->key, n->key) == 0)
-                return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
+        TRY(check_key_given_once(r, map, n));
         TRY(read_value_of_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, named[*count].name));
         TRY(read_called(r, &name, &named[(*count)++].region));
     }

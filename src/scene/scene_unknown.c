@@ -36,9 +36,7 @@ status check_keys_known(struct reader *r, const struct yaml_node *mapping, const
             describe_unknown_key(n, group_path, text, sizeof text);
             return fault(r, n, "%s", text);
         }
-        for (const struct yaml_node *twin = mapping->first; twin != n; twin = twin->next)
-            if (strcmp(twin->key, n->key) == 0)
-                return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
+        TRY(check_key_given_once(r, mapping, n));
     }
     return OK;
 }

@@ -1,50 +1,10 @@
 #!/bin/sh
 # Pictures of fields, slices, films and of scenes before they run, checked by a copy of gnuplot's input.
-# Takes 70 s: each picture is a process of gnuplot.
+# Takes 35 s: each picture is a process of gnuplot.
 test_name=test_pictures
 . tests/support/summary.sh
-command -v gnuplot >/dev/null || { echo "gnuplot is missing: files not tested"; exit 77; }
-
-mkdir "$work/bin"
-printf '#!/bin/sh\nexec tee "%s/drawn" | "%s" "$@"\n' "$work" "$(command -v gnuplot)" >"$work/bin/gnuplot"
-chmod +x "$work/bin/gnuplot"
-PATH=$work/bin:$PATH
-small="--size 90mmx70mm"                  # a sixth of the usual pixels, where none is looked at
 margins=$(cd "${BUILD:-build}" && pwd)/tests/scenes/test_margins         # built by `make test`
-cd "$work" || exit 1
-
-drawn() { holds "$1" grep -a -q -e "$2" drawn; }
-made() { holds "$1 is made" test -s "$1"; }
-# refused WORD ARGUMENTS: checks for exit status 2 with one line that contains WORD.
-refused()
-{
-    word=$1
-    shift
-    "$cleave" plot "$@" >out 2>err
-    is "plot $*: exit status" $? 2
-    is "plot $*: lines" "$(wc -l <err)" 1
-    holds "plot $*: says $word" grep -q -e "$word" err
-}
-
-cat >strip.yaml <<'END'
-name: strip
-space: plane stress
-thickness: 1 mm
-duration: 2 us
-method: pd
-materials:
-  - {name: glass, young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 10 J/m^2}
-bodies:
-  - {name: plate, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}
-  - {name: anvil, rigid: true, shape: {box: {from: [5 mm, -3 mm], to: [8 mm, 0]}}}
-particles: {spacing: 1 mm}
-cracks: [{from: [0, 5 mm], to: [5 mm, 5 mm]}]
-boundary:
-  - {name: pull, traction: [0, 20 MPa], face: y+}
-  - {name: grip, fixed: all, region: {box: {from: [18 mm, 0], to: [20 mm, 10 mm]}}}
-probes: [{point: {name: gauge, at: [10 mm, 5 mm]}}]
-output: {frames: 4}
-END
+. tests/support/pictures.sh
 
 # ---- a scene before it runs ---------------------------------------------------------------------------------------------
 
@@ -271,22 +231,9 @@ holds "a picture that is cut short: $(cat err)" grep -q "full.png" err
 holds "the whole one stays" cmp full.png before.png
 is "nothing half drawn" "$(echo full*)" full.png
 
-# ---- curves: numbers of a history in the units of their axes ---------------------------------------------------------
+# ---- pictures for journals --------------------------------------------------------------------------------------------
 
-printf '#!/bin/sh\nexec tee -a "%s/all" | "%s" "$@"\n' "$work" "$(PATH=${PATH#*:} command -v gnuplot)" >bin/gnuplot
-mkdir curves
-cat >curves/history.csv <<'END'
-time [s],step,load_time [s],kinetic [J],strain [J],external_work [J],crack_length [m],pd_share [1],pull.force_x [N],pull.force_y [N],pull.displacement_x [m],pull.displacement_y [m]
-0,0,0,0,0,0,0,0.02,0,0,0,0
-1,1,1,0,0.0037,0.0041,0,0.03,500,1200,0,2.3e-05
-2,2,2,0,0.0052,0.0099,0.0042,0.055,0,900,0,5.7e-05
-END
-"$cleave" plot curves >out 2>err
-is "plot of a history: $(cat err)" $? 0
-for line in "2 4.2 5.5" "2 5.2 9.9" "23 1.2" "57 0.9"; do holds "numbers of a curve: $line" grep -a -q "^$line$" all; done
-holds "their sum leaves work out" grep -a -q 'using 1:(0+$2) with' all
-for label in "crack growth \[mm\]" "force y \[kN\]" "displacement y \[µm\]" "energy \[mJ\]"; do holds "an axis: $label" grep -a -q "$label" all; done
-
+keep_commands all -a
 # At the widths of journals, no label leaves the picture, axes have their labels and every curve is in the key.
 if [ -x "$margins" ]; then
     # uncut PICTURE: no text is cut off at an edge, and the label of the vertical axis is there.
@@ -418,143 +365,6 @@ END
         holds "$size: the key of the methods is in the picture" sh -c "grep -a -q 'material points' all && ! grep -a -q 'screen -' all"
     done
 fi
-
-# Figures of a sweep are those of --of, in units with a prefix.
-: >all
-"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.start_time --of energy.kinetic -o varied >out 2>err
-for title in "crack.start_time .[µnm]s." "energy.kinetic .[mµn]J."; do holds "a figure of a sweep: $title: $(cat err)" grep -a -q "set title '$title'" all; done
-is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
-"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.strat_time -o varied >out 2>err
-is "sweep --of an unknown figure: exit status" $? 2
-holds "it names the nearest" grep -q "no such figure in sweep.csv; did you mean crack\." err
-
-# Numbers of a key without a unit are in SI, which the axis says, and so does the page.
-: >all
-"$cleave" sweep strip.yaml -s materials.0.energy_release_rate=10,20 --of energy.kinetic -o tough >out 2>err
-holds "the unit of a key: $(cat err)" grep -a -q "set label 'energy release rate of glass \[J/m^2\]'" all
-"$cleave" report tough -o new/page/tough.html >out 2>err
-is "report into a folder that is not there: $(cat err)" $? 0
-holds "the page has the unit of the key" grep -q '"materials.0.energy_release_rate": "J/m^2"' new/page/tough.html
-
-# Load over displacement of a rigid body that moves, from its columns; metres where they are meant; a bar has no length of cracks.
-mkdir pressed
-cat >pressed/history.csv <<'END'
-time [s],step,hammer_force_x [N],hammer_force_y [N],hammer_moment_z [N m],hammer_x [m],hammer_y [m],crack_length [m],pd_share [1]
-0,0,0,0,0,0.1,2.5,0,1
-1e-3,1,300,400,0,0.1,2.49,1.5,1
-2e-3,2,0,1200,0,0.1,2.47,2.5,1
-END
-: >all
-"$cleave" plot pressed $small >out 2>err
-for line in "10 0.4" "30 1.2"; do holds "force over the way of a rigid body: $line" grep -a -q "^$line$" all; done
-holds "metres" grep -a -q "crack growth \[m\]" all
-holds "no axis for a share that stays the same" sh -c "! grep -a -q 'peridynamic share .%' all"
-sed -i 's/,0,1$/,0,0.5/' pressed/history.csv
-"$cleave" plot pressed -o shares/ $small >out 2>err
-holds "a share of all particles: its axis ends at 100 %" grep -a -q "set y2range \[0:104\]" all
-
-# A particle that spalls off a bar is a point, and does not stretch the axes of the others.
-cat >spall.yaml <<'END'
-space: line
-section: 4 mm^2
-duration: 12 us
-method: pd
-material: {young: 70 GPa, density: 2700, energy_release_rate: 200 J/m^2}
-body: {box: {from: 0, to: 40 mm}}
-particles: {spacing: 1 mm}
-boundary: [{traction: [300 MPa], face: x+, time: {pulse: {from: 0, until: 8 us}}}]
-output: {frames: 3}
-END
-"$cleave" run spall.yaml -q -o spall >out 2>err
-: >all
-"$cleave" plot spall $small >out 2>err
-holds "no crack.png of a bar, with the reason" grep -q "crack.png is not drawn: a crack of a bar has no length" out
-refused "colours is for maps, but a run in one dimension has curves" spall --field stress_xx --colours magma
-holds "the profiles say which component: $(cat err)" grep -a -q "set ylabel 'velocity x" all
-holds "colours of times are in order" grep -a -q "using 1:2 with lines lw 1.8 lc rgb '#440154' title '0 " all
-holds "a lone particle is a point: $(cat err)" grep -a -q '$l3 using 1:2 with points' all
-holds "and outside the axis of velocities" grep -a -q "profiles (1 particle is outside the picture)" all
-between "whose axis is that of the bar" "$(sed -n 's/^set yrange .*:\([0-9.]*\)\].*/\1/p' all | head -n 1)" 0.5 20
-
-# Load steps of a bar: profiles are named by the step, and a bar at rest has no panel of velocities.
-"$cleave" run spall.yaml -q -o slow -s solver=static -s steps.number=2 -s 'boundary=[{fixed: [x], face: x-}, {displacement: [1 um], face: x+, time: {ramp: {until: 12 us}}}]' >out 2>err
-: >all
-"$cleave" plot slow $small >out 2>err
-holds "the key names load steps: $(cat err)" grep -a -q "using 1:3 with lines lw 1.8 lc rgb '#[0-9a-f]*' title 'load step 2'" all
-"$cleave" plot slow --field stress_xx --times 1 $small -o step.png >out 2>err
-holds "a number without unit is a load step: $(cat err)" grep -a -q "title 'load step 1'" all
-refused "load step 3 is not in the run" slow --field stress_xx --times 3
-holds "no velocity of a bar at rest" sh -c "! grep -a -q 'velocity x' all"
-
-# A support that a probe measures too: one curve with both names, one peak; others stay apart.
-mkdir twice
-cat >twice/history.csv <<'END'
-time [s],step,load_time [s],probe.force_x [N],probe.displacement_x [m],up.force_x [N],up.displacement_x [m],down.force_x [N],down.displacement_x [m]
-0,0,0,0,0,0,0,0,0
-1,1,1,470,1e-5,470.001,1e-5,-300,-1e-5
-2,2,2,900,2e-5,900.001,2e-5,-700,-2e-5
-END
-: >all
-"$cleave" plot twice $small -o twice/ >out 2>err
-holds "two curves that coincide are one: $(cat err)" grep -a -q "title 'probe, up'" all
-is "their peak and the other's" "$(grep -a -o "title 'sampled: [0-9.]* N at 20 µm'" all | tr '\n' ' ')" "title 'sampled: 900 N at 20 µm' title 'sampled: 700 N at 20 µm' "
-
-# Signed components along which a body is driven: a loop goes round the origin; the part that moves without force ends the axis.
-mkdir signed
-cat >signed/history.csv <<'END'
-time [s],step,load_time [s],up.force_x [N],up.force_y [N],up.displacement_x [m],up.displacement_y [m],base.force_x [N],base.force_y [N],base.displacement_x [m],base.displacement_y [m]
-0,0,0,0,0,0,0,0,0,0,0
-1,1,1,3,-400,0,-1e-5,5,1,1e-24,0
-2,2,2,-3,300,0,1e-5,-5,1,-1e-24,0
-3,3,3,0,0,0,2e-5,0,0,0,0
-4,4,4,0,0,0,2e-4,0,0,0,0
-END
-cp strip.yaml signed/scene.yaml
-: >all
-"$cleave" plot signed $small -o signed/ >out 2>err
-holds "components are named: $(cat err)" grep -a -q "^set ylabel 'force −y \[N\]'" all
-holds "motion without force is named" grep -a -q "^set xlabel 'displacement −y \[µm\], without force up to -200 µm'" all
-holds "a curve that is signed" grep -a -q "^-10 -300$" all
-holds "round-off is no motion" sh -c "! grep -a -q \"title 'base\" all"
-
-# Numbers of five digits below the axis of a column of a journal do not touch: tics every 5000 mm^2.
-mkdir grown
-cat >grown/history.csv <<'END'
-time [s],step,load_time [s],released [J],crack_area [m^2],release_rate [J/m^2]
-0,0,0,0,0,nan
-1,1,1,1,0.01,100
-2,2,2,2,0.019,110
-END
-: >all
-"$cleave" plot grown --size 85mmx70mm -o grown/ >out 2>err
-holds "tics of areas: $(cat err)" grep -a -q "^set xtics 5000$" all
-
-# The supports of a scene without probes bear the load; a run without supports has no such curve.
-"$cleave" run strip.yaml -q -o held2 -s 'boundary=[{name: grip, fixed: all, face: y-}, {name: jaw, velocity: [0, 1 m/s], face: y+}]' >out 2>err
-: >all
-"$cleave" plot held2 $small >out 2>err
-made held2/pictures/load_displacement.png
-holds "the support that moves" grep -a -q "title .jaw" all
-holds "not the one at rest" sh -c "! grep -a -q 'title .grip' all"
-"$cleave" run strip.yaml -q -o free -s 'boundary=[{traction: [0, 1 kPa], face: y+}]' >out 2>err
-"$cleave" plot free $small >out 2>err
-holds "no support: a line says so" grep -q "load_displacement.png is not drawn: no force to draw" out
-
-# All pictures into a folder of -o, whether it is there or not; one picture into a file.
-"$cleave" plot held2 $small -o elsewhere >out 2>err
-is "plot -o FOLDER: $(cat err)" $? 0
-is "the pictures are those of DIR/pictures" "$(ls elsewhere)" "$(ls held2/pictures)"
-"$cleave" plot held2 $small -o else/where/ --format svg >out 2>err
-holds "in another format" test -s else/where/energy.svg
-holds "says where" grep -q "^pictures in else/where$" out
-echo mine >elsewhere/energy.png
-refused "energy.png" held2 -o elsewhere
-is "a picture of others" "$(cat elsewhere/energy.png)" mine
-"$cleave" plot held2 $small -o elsewhere --overwrite >out 2>err
-is "plot -o FOLDER --overwrite: $(cat err)" $? 0
-holds "it is replaced" sh -c "head -c 4 elsewhere/energy.png | grep -q PNG"
-refused "a folder with / at its end" held2 -o a.folder
-refused "5 panels do not fit into a picture of this size" held2 --field speed --size 53mmx40mm
 
 # A stand-in for ffmpeg: it reads pictures, writes a film of one box, and can fail or wait.
 cat >bin/ffmpeg <<'END'
