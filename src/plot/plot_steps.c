@@ -15,7 +15,13 @@
 #define ROUND_OFF 1e-9  /* displacements below this number of spacings are round-off */
 #define REST_SHOWN 3    /* motion without force is shown up to this multiple of that with force */
 #define LINE_WIDE 0.002 /* width of a line over the length of an axis */
-enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3, POINTS_SHOWN = 200, LABEL_ROOM = 256 };
+enum {
+    REACTIONS_SHOWN = CURVE_COLOURS - 1,
+    TOUGHNESSES_SHOWN = 3,
+    POINTS_SHOWN = 200,
+    LABEL_ROOM = 256,
+    PEAK_ROOM = 128
+};
 
 bool run_has_load_steps(const char *folder)
 {
@@ -312,6 +318,30 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
+/* Writes the largest sampled force of the curve a, and the displacement there, to text[capacity], for the key. h:
+ * history with the values; newton, metre: units of force and displacement. */
+static void write_peak(char *text, size_t capacity, const struct history *h, const struct reaction *a,
+                       struct unit newton, struct unit metre)
+{
+    snprintf(text, capacity, "sampled: %.4g %s at %.4g %s", component_at(h, a->peak, &a->force) / newton.factor,
+             newton.name, component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
+}
+
+/* Returns the number of letters of the longest entry in the key of the curves r: a name or a peak. h, newton, metre: as
+ * for write_peak. */
+static size_t longest_key_entry(const struct history *h, const struct reactions *r, struct unit newton,
+                                struct unit metre)
+{
+    size_t longest = 0;
+    for (int m = 0; m < r->n; m++) {
+        char peak[PEAK_ROOM];
+        write_peak(peak, sizeof peak, h, &r->of[m], newton, metre);
+        const size_t name = strlen(r->of[m].name), own = strlen(peak) > name ? strlen(peak) : name;
+        longest = own > longest ? own : longest;
+    }
+    return longest;
+}
+
 /* Writes to gnuplot the command that plots the curves r of force against displacement, each with a ring at its largest
  * force. h: history with the values; newton, metre: units of the vertical and the horizontal axis. */
 static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
@@ -319,12 +349,11 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
 {
     for (int m = 0; m < r->n; m++) {
         const struct reaction *a = &r->of[m];
-        char text[3 * NAME_MAX_LENGTH];
+        char text[PEAK_ROOM];
         fprintf(to, "%s$f%d with %s lw 2 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
                 h->rows > POINTS_SHOWN ? "lines" : "linespoints pt 7 ps 0.5", curve_colour[m]);
         gnuplot_write_quoted_string(to, a->name);
-        snprintf(text, sizeof text, "sampled: %.4g %s at %.4g %s", component_at(h, a->peak, &a->force) / newton.factor,
-                 newton.name, component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
+        write_peak(text, sizeof text, h, a, newton, metre);
         fprintf(to, ", $f%d every ::%lld::%lld with points pt 6 ps 2 lw 2 lc rgb '%s' title ", m, (long long)a->peak,
                 (long long)a->peak, curve_colour[CURVE_COLOURS - 1]);
         gnuplot_write_quoted_string(to, text);
@@ -399,10 +428,9 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
                       metre = unit_for_length(largest_end(r.displacement));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, history, &r, newton, metre);
-    size_t longest = 24; /* 123.4 kN at 123.4 mm */
-    for (int m = 0; m < r.n; m++) longest = strlen(r.of[m].name) > longest ? strlen(r.of[m].name) : longest;
     curves_write_title(&g, title, "load and displacement");
-    const struct curves_layout l = curves_layout_make(&g, 2 * r.n, longest, false);
+    const struct curves_layout l =
+        curves_layout_make(&g, 2 * r.n, longest_key_entry(history, &r, newton, metre), false);
     curves_write_margins_and_key(g.to, &l);
     reactions_write_axes(g.to, &l, &r, newton, metre);
     reactions_plot(g.to, history, &r, newton, metre);

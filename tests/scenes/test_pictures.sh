@@ -269,6 +269,10 @@ END
             uncut "narrow$size/$picture.pdf.png"
         done
     done
+    mkdir digits
+    sed 's/-2400,0,3e-5/-241234,0,312.3e-6/' tips/history.csv >digits/history.csv
+    "$cleave" plot digits -o digits/ >out 2>err
+    uncut digits/load_displacement.png
     "$cleave" plot results/strip --size 85mmx60mm -o maps/ >out 2>err
     "$cleave" plot --scene strip.yaml --size 85mmx90mm -o maps/scene.png >out 2>err
     for picture in damage last scene; do uncut "maps/$picture.png"; done

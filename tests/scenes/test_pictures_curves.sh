@@ -21,6 +21,19 @@ for line in "2 4.2 5.5" "2 5.2 9.9" "23 1.2" "57 0.9"; do holds "numbers of a cu
 holds "their sum leaves work out" grep -a -q 'using 1:(0+$2) with' all
 for label in "crack growth \[mm\]" "force y \[kN\]" "displacement y \[µm\]" "energy \[mJ\]"; do holds "an axis: $label" grep -a -q "$label" all; done
 
+# A crack that turns downwards by 60 degrees from (50 mm, 0), 20 mm long: the line of an experiment goes down, too, at 70 degrees: it ends
+# at 50 + 20 cos 70 = 56.840403 mm, -20 sin 70 = -18.793852 mm.
+mkdir turned
+cat >turned/history.csv <<'END'
+time [s],step,growth.K_eq [Pa m^0.5],growth.x [m],growth.y [m],growth.length [m]
+0,0,1e6,0.05,0,0
+1e-5,1,1e6,0.06,-0.0173205081,0.02
+END
+echo '{"probes": {"growth": {"angle_deg": 60, "experiment_deg": 70, "direction_deg": 0}}}' >turned/summary.json
+: >all
+"$cleave" plot turned -o turned/ $small >out 2>err
+holds "the line of an experiment is on the side of the crack: $(cat err)" grep -a -q "^56[.]84040[0-9]* -18[.]79385[0-9]*$" all
+
 # Figures of a sweep are those of --of, in units with a prefix.
 : >all
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.start_time --of energy.kinetic -o varied >out 2>err
