@@ -268,10 +268,10 @@ static real box_apart2(const struct hull_node *n, const real *X, int dim)
 
 /* Searches for the face of surface s that is nearest to X[dim], among faces whose squared distance is below *r2 [m^2].
  * If there is one, stores its squared distance in *r2 and its nearest point in nearest[dim], and returns its number;
- * else returns 0 and changes nothing. */
+ * else returns -1 and changes nothing. */
 static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, real *r2)
 {
-    int32_t wait[DEEPEST], found = 0;
+    int32_t wait[DEEPEST], found = -1;
     int waiting = 1;
     wait[0] = 0;
     while (waiting > 0) {
@@ -388,7 +388,7 @@ real hull_signed_distance(const struct hull *s, const real *X, real *normal)
     if (s->faces == 0) return INFINITY;
     const int32_t face = nearest_face(s, X, point, &r2);
     const real distance = sqrt(r2), side = hull_outside_by_last_point(s, X, distance) ? 1 : -1;
-    if (normal) hull_compute_face_area_vector(s, face, area);
+    if (normal && face >= 0) hull_compute_face_area_vector(s, face, area); /* none if X is not finite */
     const real size = sqrt(dot(area, area, s->dim));
     for (int d = 0; normal && d < s->dim; d++)
         normal[d] = distance > 1e-12 * size ? side * (X[d] - point[d]) / distance : size > 0 ? area[d] / size : 0;

@@ -155,7 +155,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *matrix,
     finest_modes(&m->level[0], position);
     level_vectors(&m->level[0]);
     multigrid_estimate_largest_eigenvalue(&m->level[0]);
-    while (m->levels < LEVELS_MOST) {
+    while (m->levels < MULTIGRID_LEVELS_MOST) {
         const struct multigrid_level *l = &m->level[m->levels - 1];
         if (m->levels > 1 && l->n * l->width <= DENSE) break;
         if (!coarsen(m)) break;

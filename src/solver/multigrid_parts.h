@@ -4,7 +4,7 @@
 
 #include "solver/multigrid.h"
 
-enum { LEVELS_MOST = 12, WIDTH_MOST = 6 };
+enum { MULTIGRID_LEVELS_MOST = 12, WIDTH_MOST = 6 };
 
 /* A sparse matrix of blocks between the nodes of a level and those of the next coarser level: the prolongation or its
  * transpose, the restriction. */
@@ -46,7 +46,7 @@ struct dense {
 
 struct multigrid {
     int levels;
-    struct multigrid_level level[LEVELS_MOST];
+    struct multigrid_level level[MULTIGRID_LEVELS_MOST];
     struct dense dense;
 };
 

@@ -95,11 +95,11 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across].shown;
-    const struct study_point *point = p->point[panel];
+    const struct figure_statistics *point = p->point[panel];
     for (int l = 0; l < p->lines; l++) {
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
-            const struct study_point *at = &point[l * across->values + v];
+            const struct figure_statistics *at = &point[l * across->values + v];
             fprintf(to, at->runs > 0 ? "%.15g %.15g %.10g\n" : "%.15g NaN NaN\n", study_value_across(p, v), at->mean,
                     at->scatter);
         }

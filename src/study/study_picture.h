@@ -36,7 +36,7 @@ void shown_keys_free(struct shown_key *shown, int key_count);
 
 /* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a figure in the unit
  * of its panel, and number of runs. The mean of a point without runs is NAN. */
-struct study_point {
+struct figure_statistics {
     double mean, scatter;
     int runs;
 };
@@ -54,7 +54,7 @@ struct study_picture {
     int figure[PANELS_MOST], panels;
     struct unit unit_of_figure[PANELS_MOST]; /* in which the figure of a panel is drawn */
     /* [panels][lines][values of the key along the horizontal axis], set by study_points_compute, owned */
-    struct study_point *point[PANELS_MOST];
+    struct figure_statistics *point[PANELS_MOST];
     bool numbers, chance;    /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
     bool seeds;              /* a random seed is the only varied key */
     const char *header;      /* header of history.csv with the units of figures */

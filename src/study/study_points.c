@@ -21,15 +21,15 @@ static int line_of(const struct study_picture *p, int run)
 /* Computes the points of a panel of p: mean and scatter over the runs of each point. value[runs]: figure (scalar
  * result) of the panel in each run, in SI units; factor: unit of the panel in SI units. Returns an array [lines][values
  * of the key along the horizontal axis], which the caller releases with memory_free. */
-static struct study_point *means_find(const struct study_picture *p, const double *value, double factor)
+static struct figure_statistics *means_find(const struct study_picture *p, const double *value, double factor)
 {
     const int across = p->key[p->across].shown.values;
-    struct study_point *point = NEW("study.points", (int64_t)p->lines * across, struct study_point);
+    struct figure_statistics *point = NEW("study.points", (int64_t)p->lines * across, struct figure_statistics);
     for (int pass = 0; pass < 2; pass++) {
         for (int c = 0; c < p->study->n; c++) {
             const int line = line_of(p, c);
             if (line < 0 || isnan(value[c])) continue;
-            struct study_point *to = &point[line * across + p->value_at[p->across][c]];
+            struct figure_statistics *to = &point[line * across + p->value_at[p->across][c]];
             if (pass == 0)
                 to->mean += value[c] / factor, to->runs++;
             else
@@ -76,7 +76,7 @@ void study_points_range(const struct study_picture *p, int panel, double *low, d
 {
     *low = INFINITY, *high = -INFINITY;
     for (int k = 0; k < p->lines * p->key[p->across].shown.values; k++) {
-        const struct study_point *at = &p->point[panel][k];
+        const struct figure_statistics *at = &p->point[panel][k];
         if (at->runs == 0) continue;
         *low = fmin(*low, at->mean - at->scatter), *high = fmax(*high, at->mean + at->scatter);
     }
