@@ -51,12 +51,12 @@ struct bond_plasticity {
 /* Value of the members `onset` and `most` of struct softened for a bond that may not soften yet, or is brittle. The
  * member `end` of this bond is then the stretch above which the bond is examined. */
 #define SOFTENING_NEVER 1e30f
-/* State of a row block (the bonds of eight particles) before the next sweep over the bonds. DUE_NOT: no bond of the row
- * block may begin to soften; DUE_NEW: a bond may begin to, and is to be examined; DUE_AGAIN, DUE_DENIED: see below. */
+
+/* State of a row block (the bonds of eight particles) before the next sweep over the bonds. */
 enum softening_due {
-    DUE_NOT,
-    DUE_NEW,
-    DUE_AGAIN,     /* a bond was examined but may not soften yet; again if bond_limit.retries */
+    DUE_NOT,       /* no bond of the row block may begin to soften */
+    DUE_NEW,       /* a bond may begin to soften and is to be examined */
+    DUE_AGAIN,     /* a bond was examined and may not soften yet; it is examined again if bond_limit.retries */
     DUE_DENIED = 4 /* bit that is set while row blocks are examined; becomes DUE_AGAIN afterwards */
 };
 /* Softening of bonds (data/softening.h): k is the largest stretch of a bond so far, s_0 and s_f are the stretches at
@@ -75,14 +75,14 @@ struct softened {
     uint8_t *due;     /* [row blocks] enum softening_due */
     bool any_due;     /* an entry of `due` is not DUE_NOT */
     bool at_points;   /* true: bonds that end at material points have begun to soften */
-    uint8_t *needed;  /* [row blocks 8] working memory: the dilatation of the row is needed */
+    uint8_t *needed;  /* [row blocks 8] working memory: 1: the dilatation of the row is needed */
     real *dilatation; /* [row blocks 8] working memory: trace of the strain of the family [1] */
     /* [row blocks 8] mean strain rate of the bonds of a particle while their stretch grows from half the onset to the
      * onset, 0 or less: outside this range [1/s]; time since half the onset was exceeded [s]. NULL: no strength depends
      * on the rate */
     real *rate, *beyond;
     bool rates_kept;           /* true: rates are to be measured in the next step */
-    const struct image *image; /* [images] borrowed */
+    const struct image *image; /* [images] origins of the mirror images, borrowed from the loads */
     real least_ratio;          /* s_f of a bond is at least the trigger of its row times this [1] */
     uint8_t *near; /* [row blocks] 1: the stretch of a bond has exceeded `gate` since the strength surfaces were
                       evaluated last (bonds_strength.c); NULL: no material has a strength surface */
@@ -128,7 +128,7 @@ struct clamped {
  * hold the bonds of eight particles. */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
-    const struct state_modulus *modulus; /* [materials]; NULL: bond-based model */
+    const struct state_modulus *modulus; /* [materials] elastic moduli, borrowed; NULL: bond-based model */
     bool local;                          /* Q is summed over the present family, not over a full one */
     real *weighted;                      /* [row blocks 8] weighted volume Q [m^2] */
     real share;                          /* V/Q of a full family, where moduli refer to it; 0: V/Q of each family [m] */
@@ -142,9 +142,10 @@ struct state {
     struct state_image *image;   /* [n_all - n] origins of the mirror images */
 };
 
-/* Number of bond lengths of a lattice that are tabulated, and an entry of the table. Entry k < BOND_SHELLS describes
- * bonds of the length r = spacing sqrt(k). */
+/* Number of bond lengths of a lattice that are tabulated. */
 enum { BOND_SHELLS = 256 };
+
+/* Entry k < BOND_SHELLS of the table of bond lengths of a lattice: bonds of the length r = spacing sqrt(k). */
 struct bond_length {
     real inverse, length, square; /* 1/r [1/m], r [m], r^2 [m^2] */
 };
@@ -181,7 +182,7 @@ struct stencil_column {
  * (bond_row_block_write_columns_from_stencil).
  */
 struct stencil {
-    int columns;
+    int columns;                   /* number of columns, i.e. of bonds of a row */
     bool whole;                    /* all lanes have all bonds, with one weight */
     bool unit;                     /* all weights are 1 */
     int32_t next;                  /* next stencil with equal hash, -1: none */
@@ -209,45 +210,45 @@ struct bond_holes {
  * together, columns: groups of eight bonds, one of each row of a row block. [columns 8]: one entry per bond, [row
  * blocks 8]: per row. */
 struct bonds {
-    int64_t rows, row_blocks, columns;
-    int64_t used, room; /* columns that are or were in use; capacity */
-    int64_t n;     /* bonds in all rows, broken ones included (a bond between two particles with rows counts twice) */
-    int32_t reach; /* largest distance of a bond's neighbour, in row blocks */
-    int32_t *particle;     /* [row blocks 8] particle of a row; padding rows repeat the last */
-    int32_t *row_of;       /* [n_all] row of a particle, -1: none */
-    int32_t *no_rows;      /* [n_all] all -1: spare array for the next row_of; NULL: none */
-    int64_t *column;       /* [row blocks] first column of a row block */
+    int64_t rows, row_blocks, columns; /* numbers of rows, of row blocks and of stored columns */
+    int64_t used, room;                /* number of columns that are or were in use; capacity of the arrays [columns] */
+    int64_t n;         /* number of bonds, broken ones included (a bond between two particles with rows counts twice) */
+    int32_t reach;     /* largest difference between the row blocks of both particles of a bond */
+    int32_t *particle; /* [row blocks 8] index of the particle of a row; padding rows repeat the last particle */
+    int32_t *row_of;   /* [n_all] row of a particle, -1: none */
+    int32_t *no_rows;  /* [n_all] all -1: spare array for the next row_of; NULL: none */
+    int64_t *column;   /* [row blocks] index of the first column of a row block */
     int32_t *column_count; /* [row blocks] number of columns */
     uint8_t *whole;        /* [row blocks 8] 1: row of a peridynamic particle, with the whole family */
     int32_t *made;         /* [row blocks] number of bonds in the rows of the row block, broken ones included */
-    uint8_t *aligned;      /* [row blocks] 1: the eight particles are consecutive */
-    int32_t *first;        /* [columns] neighbour of lane 0 if the eight are consecutive, else -1 */
-    int32_t *nbr;          /* [columns 8] neighbour */
-    real *inverse_length; /* [columns 8] 1/|X_j - X_i|; negative: broken, so that the stretch is below -1 and exceeds no
-                             limit; 0: padding [1/m] */
-    real *w; /* [columns 8] symmetric weight: beta x surface factor x V_i V_j c_ij/stiffness; 0: broken, cut or padding
-                [1] */
+    uint8_t *aligned;      /* [row blocks] 1: the eight particles have consecutive indices */
+    int32_t *first;        /* [columns] neighbour of the first row if the eight neighbours are consecutive, else -1 */
+    int32_t *nbr;          /* [columns 8] index of the neighbour j */
+    real *inverse_length;  /* [columns 8] 1/|X_j - X_i| [1/m]; negative: broken, so that the stretch is below -1 and
+                              exceeds  no limit; 0: no bond (padding) */
+    real *w; /* [columns 8] symmetric weight [1]: volume factor beta x surface factor x V_i V_j c_ij/stiffness; 0:
+                broken, cut or no bond */
     struct bond_column *common;       /* [columns] */
     struct bond_length *shell_length; /* [BOND_SHELLS] */
     const struct stencil **stencil;   /* [row blocks] stencil that a row block follows, NULL: none */
     uint8_t *implicit;                /* [row blocks] 1: the columns are not written */
     uint8_t *changed; /* [row blocks] 1: weights have changed since the row block was made; it follows no stencil */
-    struct bond_holes holes;
-    struct stencils *stencils;
-    struct site_map *site_map;            /* kept while there are material points; else NULL */
+    struct bond_holes holes;              /* free columns of removed row blocks */
+    struct stencils *stencils;            /* all stencils that row blocks may follow */
+    struct site_map *site_map;            /* particle at each lattice site; NULL: there are no material points */
     real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
     int32_t *pair;                        /* [columns 8] pair of materials, index in `yield`; NULL: no bond yields */
-    struct bond_yield yield;
-    real *trigger;         /* [row blocks 8] lower bound of the breaking stretches of the row [1] */
-    float *family_volume;  /* [row blocks 8] sum of V_j over the whole initial family [m^3] */
-    float *broken_volume;  /* [row blocks 8] sum of V_j over the broken bonds [m^3] */
-    real *fracture_energy; /* [row blocks 8] half of the energy of each broken bond [J] */
-    real *plastic_work;    /* [row blocks 8] half of the plastic work of the broken bonds [J] */
-    int32_t *broken;       /* [row blocks 8] bonds broken by load since the start */
-    struct state state;
-    struct clamped clamped;
-    struct softened soft;
-    struct active_set active; /* active row blocks */
+    struct bond_yield yield;              /* yield stretches and hardening by pair of materials */
+    real *trigger;            /* [row blocks 8] lower bound of the stretches at which bonds of the row break [1] */
+    float *family_volume;     /* [row blocks 8] sum of V_j over all initial neighbours of the particle [m^3] */
+    float *broken_volume;     /* [row blocks 8] sum of V_j over the broken bonds [m^3] */
+    real *fracture_energy;    /* [row blocks 8] half of the energy of each broken bond [J] */
+    real *plastic_work;       /* [row blocks 8] half of the plastic work of the broken bonds [J] */
+    int32_t *broken;          /* [row blocks 8] number of bonds broken by load since the start */
+    struct state state;       /* state-based models */
+    struct clamped clamped;   /* bonds to images in clamped planes */
+    struct softened soft;     /* softening */
+    struct active_set active; /* row blocks that a wave has reached, which are computed */
     real core;      /* stiffness of the repulsive cores (kernels/pd/bond_core.h) divided by that of the bonds [1] */
     real stiffness; /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };

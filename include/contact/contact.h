@@ -36,21 +36,21 @@ struct contact_profile {
 };
 
 /* Law of contact between particles: which particles can be in contact, form of the law, stiffness, friction, and the
- * geometry that these depend on. `stiffness` is owned. */
+ * geometry on which these depend. Only `stiffness` is owned; the other arrays must outlive the law. */
 struct contact_law {
     enum contact_between between;   /* allowed between: no particles, different bodies, all particles */
-    enum contact_form form;         /* surface or pair */
-    enum contact_distance distance; /* contact distance of pairs */
-    struct contact_profile profile; /* of the form `surface` */
+    enum contact_form form;         /* contact of faces (`surface`) or of pairs of particles (`pair`) */
+    enum contact_distance distance; /* form `pair`: rule for the contact distance */
+    struct contact_profile profile; /* form `surface`: force by gap */
     real friction;                  /* coefficient of friction [1] */
-    int materials;
+    int materials;                  /* number of materials */
     real *stiffness; /* [materials^2] k/(V_i V_j) by pair of materials: contact stiffness k divided by the volumes of
                         both particles [N/m^7] */
     real spacing, section;     /* of the lattice [m]; thickness or cross section (lattice_particle_volume) */
-    const struct image *image; /* images of particles, of the loads; kept by reference */
-    const struct crack *crack; /* kept by reference; cracks with a width are notches */
+    const struct image *image; /* [n_all - n] origins of the mirror images of particles (loads.image) */
+    const struct crack *crack; /* [cracks] pre-cracks; cracks with a width are notches */
     int cracks;
-    const struct region *const *shape; /* [bodies] kept by reference, NULL for a body made from a list */
+    const struct region *const *shape; /* [bodies] shape of each body, NULL for a body made from a list of particles */
 };
 
 /* Friction of a particle in contact, modelled by a spring along the face: the particle stretches the spring until the
@@ -58,7 +58,8 @@ struct contact_law {
 struct contact_spring {
     real length[DIM_MAX]; /* elongation [m] */
     real drag[DIM_MAX];   /* force on the particle [N] */
-    real density;         /* density of the face, by which the reaction is distributed (contact_weight) */
+    real density;         /* sum of the weights of the face's particles, by which the reaction is distributed
+ (contact_weight) */
     real stored, lost;    /* stored energy [J]; work of friction since the last search [J] */
 };
 
@@ -113,46 +114,47 @@ struct contact_term {
 };
 
 /* All contact of a run, by the law `law`. Pairs of particles that may come into contact before the next search are
- * listed in rows, one for each particle. A pair is in the rows of both its particles, so that each row is computed by
- * one thread. */
+ * listed in rows, one for each listed particle of the body. A pair is in the rows of both its particles, so that each
+ * row is computed by one thread. Arrays are owned unless noted. */
 struct contact {
     struct contact_law law;
-    bool made;         /* a search has been done */
-    int64_t n, rows;   /* listed particles, images included; rows: particles of the body, first in the list */
-    int32_t *particle; /* [n] listed particles in ascending order */
-    int32_t *root;     /* [n] row of the particle that an image belongs to; of other particles their own row */
+    bool made;         /* a search has been done, so that the rows exist */
+    int64_t n, rows;   /* number of listed particles, images included; number of rows: listed particles of the body,
+                          which are first in the list */
+    int32_t *particle; /* [n] indices of the listed particles, ascending */
+    int32_t *root;     /* [n] row of a particle; of an image the row of the particle of which it is an image */
     real *size;        /* [n] spacing of each particle [m] */
     real *rise;        /* [n] height of the surface of the body above the particle, minus 1/2 [spacings] */
     real *at[DIM_MAX]; /* [n] positions at the last search [m] */
-    int64_t *first;    /* [rows + 1] first pair of each row */
+    int64_t *first;    /* [rows + 1] the pairs of row k are first[k] .. first[k + 1] - 1 */
     int64_t pairs;
-    int32_t *other;                    /* [pairs] indices in `particle`, ascending within a row */
+    int32_t *other;                    /* [pairs] second particle, an index in `particle`, ascending within a row */
     real *distance;                    /* form `pair`: [pairs] contact distance d [m] */
-    struct contact_face *face;         /* form `surface`: [rows] */
-    struct contact_balance *balance;   /* form `surface`: [rows] */
-    struct contact_spring *spring;     /* [rows] with friction */
-    struct contact_reaction *reaction; /* [rows] with friction */
+    struct contact_face *face;         /* form `surface`: [rows] contact of the particle with faces beside it */
+    struct contact_balance *balance;   /* form `surface`: [rows] correction of the energy error of this contact */
+    struct contact_spring *spring;     /* [rows] springs of friction; NULL: no friction */
+    struct contact_reaction *reaction; /* [rows] how their reaction is distributed; NULL: no friction */
     uint8_t *followed;                 /* [rows] enum row_state (contact_internal.h) */
     bool marked;                       /* equilibria: exactly the marked contacts act, with either sign of the gap */
     uint8_t *touch;                    /* marks: form `surface` [rows], form `pair` [pairs]; NULL: none */
-    bool by_overlap;                   /* the marks exist but are ignored at present */
+    bool by_overlap;                   /* the marks exist but are ignored at present: contacts act where they overlap */
     int64_t waiting;                   /* number of rows that may come into contact once their particles move */
     real friction_work;                /* work of friction up to the last search [J] */
     int rigids;
-    struct rigid_body *rigid;  /* [rigids] kept by reference */
-    struct contact_near *near; /* [rigids]; NULL before the first search */
+    struct rigid_body *rigid;  /* [rigids] rigid bodies, kept by reference */
+    struct contact_near *near; /* [rigids] particles near each rigid body; NULL before the first search */
     real moved;                /* largest displacement of a particle since the last search [m] */
-    int64_t searched, broken;  /* at the last search: step number; number of bonds broken so far, each counted once for
-                                  each of its particles */
+    int64_t searched, broken;  /* at the last search: number of the step; number of bonds broken so far, each counted
+                                  once for each of its particles */
     int64_t changed;     /* number of conversions and reversions at which the states `followed` were last updated */
     bool due;            /* a search is due regardless of displacements */
     int64_t pairs_most;  /* largest number of pairs in contact at a time */
     real overlap;        /* largest overlap d - r in the last step [m] */
     real overlap_most;   /* largest overlap of the run [m] */
-    int32_t deepest;     /* a particle of the pair with the largest overlap; -1: none */
-    bool overlap_said;   /* the warning of large overlaps has been given */
+    int32_t deepest;     /* index of a particle of the pair with the largest overlap; -1: none */
+    bool overlap_said;   /* the warning of large overlaps has been printed */
     real began, ended;   /* first and last time of contact; NAN: none so far [s] */
-    int64_t touching;    /* pairs in contact in the last step, each counted once for each of its particles */
+    int64_t touching;    /* number of pairs in contact in the last step, each counted once for each of its particles */
     bool recorded;       /* contact forces of the next step are recorded in `push` */
     real *push[DIM_MAX]; /* [particles of the body] recorded contact forces; NULL: not recorded [N] */
 };

@@ -55,23 +55,27 @@ struct flow_curve {
  * work. Of the constants of flow laws (`hardening` to `johnson_cook`) only those of the law `flow` are used. a:
  * equivalent plastic strain. */
 struct law {
-    bool given; /* false: elastic, or a material of bonds alone; the other members have no meaning */
-    enum flow flow;
-    real hardening; /* linear: modulus H [Pa] */
+    bool given;     /* false: elastic, or a material of bonds alone; the other members have no meaning */
+    enum flow flow; /* flow law: yield stress sigma as a function of a */
+    real hardening; /* linear: modulus H [Pa] of sigma_y + H a */
     struct {
         real saturation, rate; /* Q [Pa], b [1]: sigma_y + Q (1 - exp(-b a)) */
     } voce;
     struct {
         real coefficient, exponent; /* B [Pa], n [1]: sigma_y + B a^n */
     } power;
-    struct flow_curve table;
+    struct flow_curve table; /* table: points (plastic strain, yield stress) */
     struct {
-        real A, B, n, C, m, eps0, T_room, T_melt; /* [Pa] [Pa] [1] [1] [1] [1/s] [K] [K] */
+        /* [Pa] [Pa] [1] [1] [1] [1/s] [K] [K]: (A + B a^n)(1 + C log(rate/eps0))(1 - ((T - T_room)/(T_melt -
+         * T_room))^m)
+         */
+        real A, B, n, C, m, eps0, T_room, T_melt;
     } johnson_cook;
     struct {
-        real modulus, recall; /* C [Pa], 0: no kinematic hardening; gamma [1] */
+        real modulus, recall; /* C [Pa], 0: no kinematic hardening; gamma [1]: dX = 2/3 C de_p - gamma X da */
     } kinematic;
-    real specific_heat, taylor_quinney; /* c [J/(kg K)], 0: no heating; share of the plastic work that heats [1] */
+    real specific_heat,
+        taylor_quinney; /* c [J/(kg K)], 0: no heating; beta, share of the plastic work that heats [1] */
     /* values derived by law_compute_derived_constants */
     real yield;                 /* yield stress at no plastic strain, at the reference rate and room temperature [Pa] */
     real young, poisson, shear; /* elastic constants [Pa] [1] [Pa]; shear is 0 in 1D */

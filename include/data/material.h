@@ -37,28 +37,28 @@ struct material {
     real energy_release_rate;     /* G_c [J/m^2]; NAN: not given */
     real critical_stretch;        /* s_c [1], computed from G_c if not given; INFINITY: never breaks */
     real tensile_strength;        /* sigma_t of a material whose bonds soften [Pa]; NAN: its bonds are brittle */
-    enum softening softening;     /* of bonds that soften */
-    bool softening_given;         /* the scene names it */
-    /* of a strength surface, beside tensile_strength; NAN: not given [Pa] [m] */
+    enum softening softening;     /* form of the softening curve of bonds that soften */
+    bool softening_given;         /* the scene gives `softening` */
+    /* strengths of a strength surface, beside tensile_strength [Pa], and a radius [m]; NAN: not given */
     real compressive_strength, hydrostatic_strength, biaxial_strength, strength_radius;
-    struct strength_rate rate; /* of the tensile strength */
+    struct strength_rate rate; /* increase of the tensile strength with the strain rate */
     real onset_stretch;        /* s_0 at which bonds begin to soften; critical_stretch if they are brittle [1] */
     real yield_stress;         /* sigma_y [Pa]; INFINITY or 0: elastic */
     real yield_tangent;        /* E_t: slope of the uniaxial stress-strain curve beyond sigma_y, below E [Pa] */
     struct {
         real linear, quadratic;
     } viscosity;                     /* coefficients of bulk viscosity in rapid compression (step/viscosity.h) [1] */
-    struct strength_scatter scatter; /* random field of its critical stretch */
-    struct law law;                  /* by which its material points yield */
-    struct strength_surface surface; /* by which its bonds begin to soften; none without one of these strengths */
+    struct strength_scatter scatter; /* random field of the critical stretch */
+    struct law law;                  /* law by which material points yield */
+    struct strength_surface surface; /* stresses at which bonds begin to soften; none without one of the strengths */
     real surface_least_strain;       /* smallest strain at which `surface` is reached [1] */
-    int surface_means; /* `surface`: how many times the strain is averaged over the family of each particle */
+    int surface_means; /* `surface`: how many times the strain is averaged over the neighbours of each particle */
     /* values derived by material_compute_derived_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
-    real wave_speed;                  /* longitudinal, of the space: sqrt(c11/rho) [m/s] */
-    real shear_speed, rayleigh_speed; /* [m/s]; 0 in 1D */
-    real bulk;                        /* E in 1D, in-plane k2 = (c11 + c12)/2 in 2D, K in 3D [Pa] */
+    real wave_speed;                  /* speed of longitudinal waves in the space, sqrt(c11/rho) [m/s] */
+    real shear_speed, rayleigh_speed; /* speed of shear waves and of Rayleigh waves [m/s]; 0 in 1D */
+    real bulk;                        /* bulk modulus: E in 1D, in-plane (c11 + c12)/2 in 2D, K in 3D [Pa] */
 };
 
 /* Returns true if the bonds of material m soften, i.e. lose their force gradually (softening.h), because a tensile

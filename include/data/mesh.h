@@ -44,75 +44,81 @@ struct mesh_end {
     int32_t point, lane;
 };
 
-/* Slits are pre-cracks as free surfaces of the mesh, between points (mesh_slits.c). A cell divided by a slit becomes
- * several cells, each with the points on one side: one keeps the index of the cell, the others have indices behind
- * those of the box. Around a node on a slit the cells form groups: one keeps the node of the grid, every other has an
- * extra node. Extra nodes are in rows behind those of the box, so that loops over all nodes include them. A cell with
- * an extra node is partial and stores its corners. All this follows from particles and slits in the reference state and
- * does not change. */
+/* Slits: pre-cracks as free surfaces of the mesh, between material points (mesh_slits.c). A cell divided by a slit
+ * becomes several cells, each with the points on one side: one keeps the index of the cell, the others have indices
+ * behind those of the box of cells. Around a node on a slit the cells form groups: one group keeps the node of the
+ * grid, every other group has an extra node. Extra nodes are in rows behind those of the box, so that loops over all
+ * nodes include them. A cell with an extra node is partial (not treated by the loops over whole cells) and stores its
+ * corners. The members are computed once, from the reference positions of particles and slits. Arrays are owned by the
+ * mesh. */
 struct mesh_slits {
-    int64_t nodes, first; /* number of extra nodes; first node and cell behind the box */
-    int32_t *base;        /* [grid.n - first] node of the grid at the position of an extra node, -1: no extra node */
-    uint8_t *split;       /* [grid.n] 1: other nodes have its position */
-    /* [grid.n] bit d: on a mirror across axis d, behind a slit that separates its points from their image */
+    int64_t nodes, first; /* number of extra nodes; index of the first node and cell behind the box */
+    int32_t *base;  /* [grid.n - first] index of the node of the grid with the position of node first + k, -1: node
+                       first + k is no extra node */
+    uint8_t *split; /* [grid.n] 1: other nodes have the position of the node */
+    /* [grid.n] bit d: the node is on a mirror plane with normal d, and a slit along the plane separates the points at
+     * the node from their images */
     uint8_t *open;
-    int32_t *cell;   /* [grid.n] number of a cell in `corner`, -1: corners of the grid. NULL: no slits */
-    int64_t cells;   /* number of cells with extra nodes */
-    int32_t *corner; /* [cells][2^dim] nodes at the corners */
-    int32_t *next;   /* [grid.n] next cell divided from one cell, -1: none */
-    int32_t *cut;    /* [grid.n] number of a divided cell of the grid in `home`, -1: not divided */
-    int32_t *home;   /* [divided cells][2^dim] cell of the point at each place */
-    int32_t *group;  /* [groups of partial cells] number in `lane`, -1: corners of the grid */
-    int32_t *lane;   /* [numbers][2^dim][LANES] nodes at the corners of the cells of a group */
-    int64_t links;   /* number of pairs of blocks of eight nodes: one block of extra nodes or cells, one of the nodes at
-                        their positions */
+    int32_t *cell; /* [grid.n] index in `corner` of each cell with extra nodes, -1: a cell with the corners of the grid.
+                      NULL: no slits */
+    int64_t cells; /* number of cells with extra nodes */
+    int32_t *corner; /* [cells][2^dim] nodes at the corners of the cell */
+    int32_t *next;   /* [grid.n] list of the cells into which one cell was divided: index of the next, -1: the last */
+    int32_t *cut;    /* [grid.n] index in `home` of each divided cell of the grid, -1: not divided */
+    int32_t *home;   /* [divided cells][2^dim] index of the cell that now has the point at each quarter position */
+    int32_t *group;  /* [groups of LANES partial cells] index in `lane`, -1: all cells have the corners of the grid */
+    int32_t *lane;   /* [groups with extra nodes][2^dim][LANES] nodes at the corners of the cells of a group */
+    int64_t links; /* number of pairs of blocks of eight nodes: one block of extra nodes or cells, and one of the nodes
+                      at the positions of the extra nodes */
     struct mesh_link {
         int32_t extra, base;
-    } * link;        /* [links] */
-    uint8_t *linked; /* [blocks] 1: the block is in a link */
+    } * link;        /* [links] index of both blocks of a pair */
+    uint8_t *linked; /* [blocks of eight nodes] 1: the block is in a pair */
 };
 
-/* A mesh of cells in the reference frame. A cell has the index of its lowest node. All arrays are owned unless
- * const. */
+/* A mesh of square or cubic cells of two spacings in the reference frame, with 2^dim material points at the quarter
+ * positions of each cell. A cell has the index of its lowest node. Partial cells (some points missing or bonded, or
+ * beside a slit) are treated in groups of LANES. All arrays are owned unless const. */
 struct mesh {
     struct grid grid;            /* nodes: mass, force, velocity; momentum is unused */
-    int64_t points;              /* particles in the mesh; 0: there is no mesh */
-    int32_t corner[CORNERS_MAX]; /* node index of each corner less that of the cell */
-    real *displacement[DIM_MAX]; /* nodal displacement [m] */
-    real *inverse_mass;          /* nodal; 0 where there is no mass [1/kg] */
-    int32_t *point;              /* [grid.n << dim] particle at each place of a cell, -1: none */
+    int64_t points;              /* number of particles in the mesh; 0: there is no mesh */
+    int32_t corner[CORNERS_MAX]; /* [2^dim] index of the node at each corner minus the index of the cell */
+    real *displacement[DIM_MAX]; /* [grid.n] displacement of the nodes [m] */
+    real *inverse_mass;          /* [grid.n] 1/mass of the nodes; 0 where there is no mass [1/kg] */
+    int32_t *point;              /* [grid.n << dim] particle at each quarter position of a cell, -1: none */
     uint8_t *kind;               /* [grid.n] kind of cell: empty, whole, partial, or part of a coarser cell */
     /* [grid.n] 0, or the level of the coarser cell that contains the cell (mesh/levels.h); NULL: none */
     const uint8_t *level;
-    uint8_t *absent; /* [grid.n] 1: a whole cell whose particles are not made (hollow.h), part of a coarser one; NULL:
-                        none */
-    int64_t filled_cells, filled_nodes; /* with `absent`: cells that are not absent, and nodes at their corners */
-    /* [filled_cells], [filled_nodes] ascending */
+    uint8_t *absent; /* [grid.n] 1: a whole cell whose particles are not created (hollow.h), part of a coarser cell;
+                        NULL: none */
+    int64_t filled_cells,
+        filled_nodes; /* with `absent`: number of cells that are not absent, of nodes at their corners */
+    /* [filled_cells], [filled_nodes] indices of these, ascending; NULL without `absent` */
     int32_t *filled_cell, *filled_node;
-    int32_t *place; /* [particles] (cell << dim) + place, -1: not in the mesh */
+    int32_t *place; /* [particles] (cell << dim) + number of the quarter position, -1: not in the mesh */
     real volume;    /* reference volume of a point [m^3] */
 
-    int64_t rows;         /* rows of nodes along x */
-    int32_t *span;        /* [rows][2] first node of a row that has mass, and one past the last */
-    int64_t bands, *band; /* layers of cells in bands: runs of band b are run[band[b]] .. run[band[b+1]-1] */
+    int64_t rows;         /* number of rows of nodes along x */
+    int32_t *span;        /* [rows][2] index of the first node of a row that has mass, and one past the last */
+    int64_t bands, *band; /* bands (layers of cells): runs of band b are run[band[b]] .. run[band[b+1]-1] */
     int64_t runs;
-    struct mesh_run *run;
+    struct mesh_run *run; /* [runs] consecutive cells along x */
     int64_t partial_cells;
     int32_t *partial_cell;     /* [partial_cells, padded to whole groups of LANES] partial cells, ascending */
     uint8_t *partial_material; /* [as partial_cell] material of the cell, of several the one that converts first */
     bool *partial_stressed;    /* [as partial_cell] a point may have exceeded the conversion stress */
-    real *stiffness; /* [groups][modes (modes + 1)/2][LANES] half of the symmetric stiffness of the modes, over the
-                        volume (mesh_partial.h) [Pa] */
+    real *stiffness; /* [groups][modes (modes + 1)/2][LANES] lower half of the symmetric stiffness by deformation modes
+                        of each partial cell, divided by its volume (mesh_partial.h) [Pa] */
     /* [groups + 1] bonded points in the cells of a group: end[ends[group]] .. end[ends[group + 1] - 1]; NULL: none */
     int32_t *ends;
     struct mesh_end *end;
     real *end_share;     /* [bonded points][modes] derivative of particles.end_strain by the modes of the cell [1] */
-    int32_t *alike;      /* [groups] first group with bitwise equal stiffness */
-    real *partial_force; /* [groups][corners dim][LANES] forces on the corners [N] */
+    int32_t *alike;      /* [groups] index of the first group with bitwise equal stiffness */
+    real *partial_force; /* [groups][2^dim dim][LANES] forces of the partial cells on their corners [N] */
     int64_t exposed;
-    struct mesh_exposed *exposed_list; /* [exposed] ascending by cell */
-    struct active_set active;          /* active blocks of nodes */
-    int64_t segments;                  /* blocks per row of nodes */
+    struct mesh_exposed *exposed_list; /* [exposed] points to which bonds reach, ascending by cell */
+    struct active_set active;          /* blocks of nodes that a wave has reached */
+    int64_t segments;                  /* number of blocks per row of nodes */
     real rounding;                     /* displacements are rounded to multiples of this [m] */
     struct mesh_slits slits;
 
@@ -120,8 +126,9 @@ struct mesh {
      * of a node divided by its mass, from which its velocity follows (kernels/mesh/mesh_inertia.c) [m/s]. */
     uint8_t *material; /* [grid.n] material of the cell */
     real *cell_mass;   /* [materials] mass of a cell [kg] */
-    uint8_t *matched;  /* [grid.n] bit c: the cell of which the node is corner c is matched */
-    real match;        /* alpha, share of consistent inertia in matched cells [1] */
+    uint8_t *matched;  /* [grid.n] bit c: the cell of which the node is corner c is matched (has mixed inertia, so that
+                          waves disperse as in bonds) */
+    real match;        /* alpha, share of consistent mass in the inertia of matched cells, the rest is lumped [1] */
 };
 
 /* Returns the array of the 2^dim nodes at the corners of cell `cell` of the mesh if one of these nodes is an extra

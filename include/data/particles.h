@@ -16,60 +16,63 @@
 #include "material.h"
 
 #define LATTICE_NEAR 1e-8 /* largest deviation of a lattice particle from its site [spacings] */
-enum { LANES = 8 };       /* particles per vector: 8 doubles */
+enum { LANES = 8 };       /* particles that a vector instruction treats at once: 8 double numbers */
 enum { ROTATION = 4 };    /* numbers that store a rotation in 3D (a quaternion) */
 
+/* Kinds of particles: material point, peridynamic particle; KINDS is their number. */
 enum kind { KIND_MPM, KIND_PD, KINDS };
 
+/* Bits of the member `flag` of struct particles, one sum of them for each particle. */
 enum particle_flag {
     FLAG_LOST_BOND = 1,     /* lost a bond in this step */
-    FLAG_STRESSED = 2,      /* largest principal stress exceeds that at which points convert */
-    FLAG_DRIVEN = 4,        /* a velocity or fixed condition prescribes a component */
-    FLAG_CRACKED = 8,       /* lost a bond; neither particle of the bond was driven */
+    FLAG_STRESSED = 2,      /* largest principal stress exceeds that at which material points convert */
+    FLAG_DRIVEN = 4,        /* a boundary condition prescribes a component of the motion */
+    FLAG_CRACKED = 8,       /* lost a bond of which neither particle has FLAG_DRIVEN */
     FLAG_GRID_COUPLED = 16, /* peridynamic, but moved by the grid (grid_coupled.h) */
-    FLAG_MESHED = 32,       /* material point of the mesh (mesh.h) */
-    FLAG_LISTED = 64,       /* is in the list under construction in conversion.c */
+    FLAG_MESHED = 32,       /* material point of the mesh of the reference frame (mesh.h) */
+    FLAG_LISTED = 64,       /* is in the list of particles to convert, under construction in conversion.c */
     FLAG_NEAR = 128         /* material point near another body (approach.h) */
 };
 
 /* Material points and peridynamic particles of all bodies in dim dimensions, as a structure of arrays, which it
  * owns. */
 struct particles {
-    int64_t n, n_all;                 /* particles of the body; with images */
-    int64_t n_body;                   /* particles of the body, with those that are not made (hollow.h) */
-    real low[DIM_MAX], high[DIM_MAX]; /* extent of the reference positions, if some particles are not made [m] */
-    int dim;
+    int64_t n, n_all;                    /* number of particles of the body; of these and their mirror images */
+    int64_t n_body;                      /* n and the number of particles of the body that are not created (hollow.h) */
+    real low[DIM_MAX], high[DIM_MAX];    /* extent of the reference positions, if some particles are not created [m] */
+    int dim;                             /* number of coordinates, 1 to 3 */
     const struct material *plane_strain; /* [materials] of a body in plane strain, borrowed; NULL in other spaces */
     int64_t n_of[KINDS];                 /* number of particles of each kind */
     int64_t n_grid_coupled;              /* peridynamic particles moved by the grid */
     int32_t *list[KINDS]; /* [n_of] indices of each kind, ascending; rebuilt by particles_rebuild_lists_by_kind */
-    int64_t n_free;       /* material points on the grid, not of the mesh */
-    int32_t *list_free;   /* [n_free] indices of these points, ascending */
-    /* every array below has n_all (+ LANES) entries */
+    int64_t n_free;     /* number of material points on the background grid (not in the mesh of the reference frame) */
+    int32_t *list_free; /* [n_free] indices of these points, ascending */
+    /* Every array below has n_all + LANES entries, indexed by particle. */
     real *X[DIM_MAX];       /* reference position [m] */
-    real *x[DIM_MAX];       /* position [m] */
-    real *v[DIM_MAX];       /* velocity, half a step behind x [m/s] */
-    real *f[DIM_MAX];       /* bond and applied force [N] */
-    real *mass;             /* [kg] */
+    real *x[DIM_MAX];       /* present position [m] */
+    real *v[DIM_MAX];       /* velocity half a time step before that of x [m/s] */
+    real *f[DIM_MAX];       /* sum of bond forces and applied forces [N] */
+    real *mass;             /* mass of the particle [kg] */
     real *volume0, *volume; /* reference and current volume [m^3] */
-    /* Cauchy stress [Pa]. Points on the grid: updated by g2p in every step. Points of a mesh: updated by
-     * reference_frame_update_motion_and_stress, peridynamic particles: by bonds_compute_particle_stress, for frames
-     * (run_update_particle_motion_and_stress) and for samples and reversion that read it; out of date in between. */
+    /* Cauchy stress, components xx yy xy in 2D, xx yy zz xy yz zx in 3D [Pa]. Points on the grid: updated by g2p in
+     * every step. Points of a mesh: updated by reference_frame_update_motion_and_stress, peridynamic particles: by
+     * bonds_compute_particle_stress, for frames (run_update_particle_motion_and_stress) and for samples and reversion
+     * that read it; out of date in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX *
                    DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC (Jiang et al. 2015) [1/s] */
-    real *stretch[DIM_MAX];  /* axial stretch, only cpGIMP [1] */
+    real *stretch[DIM_MAX];  /* edge of the particle along each axis divided by the initial edge, only cpGIMP [1] */
     /* only if a material yields: accumulated equivalent plastic strain [1]; plastic work per reference volume, booked
      * step by step (laws/law_update.h) [J/m^3] */
     real *plastic_strain, *plastic_work;
     real *out_of_plane; /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
-    /* points of a mesh: plastic stress correction, C : strain less the stress, in the axes of their cell; only with
-     * WITH_PLASTIC_CORRECTION [Pa] */
+    /* points of a mesh: plastic stress correction, C : strain minus the stress, in axes that rotate with the cell of
+     * the point; only with WITH_PLASTIC_CORRECTION [Pa] */
     real *plastic_correction[SYM_MAX];
     real *back_stress[SYM_MAX]; /* deviatoric, of kinematic hardening; only with WITH_BACK_STRESS [Pa] */
     real *temperature;          /* only with WITH_TEMPERATURE [K] */
-    /* points of a mesh with a flow law: stress at the end of the last step, in the axes of their cell; only with
-     * WITH_MESH_STRESS [Pa] */
+    /* points of a mesh with a flow law: stress at the end of the last step, in axes that rotate with the cell of the
+     * point; only with WITH_MESH_STRESS [Pa] */
     real *mesh_stress[SYM_MAX];
     /* bonded material points (with state-based bonds): contribution of their cell to the mean strain S of their family
      * [1] */
@@ -77,14 +80,15 @@ struct particles {
     /* rotation R of bonded points: in 2D cos - 1 and sin, in 3D a quaternion, its scalar last; only models with
      * rotations [1] */
     real *end_rotation[ROTATION];
-    /* reaction of the bonds on bonded points: derivative of their family's energy by end_strain [J] */
+    /* reaction of the bonds on bonded points: derivative of the energy of their family (all neighbours of a point) by
+     * end_strain [J] */
     real *end_pull;
     real *end_moment[DIM_MAX]; /* moment of the bonds about bonded points, in axes that rotate with the points [N m] */
-    real *low_since; /* peridynamic: time since which the stress is low, infinite: it is not; only with WITH_REVERSION
-                        [s] */
-    real *strength;  /* factor on the critical stretch; only with WITH_STRENGTH [1] */
+    real *low_since; /* peridynamic particles: time since which the stress is low, INFINITY: it is not low; only with
+                        WITH_REVERSION [s] */
+    real *strength;  /* random factor on the critical stretch; only with WITH_STRENGTH [1] */
     real *damage;    /* share of broken bonds, 0 .. 1 [1] */
-    uint8_t *kind, *material, *body, *flag; /* enum kind; indices; sum of enum particle_flag */
+    uint8_t *kind, *material, *body, *flag; /* enum kind; index of the material and of the body; sum of FLAG_* */
     uint8_t *reversions;                    /* number of reversions to a material point; only with WITH_REVERSION */
     int32_t *id;                            /* index in the order in which the scene made the particles */
 };

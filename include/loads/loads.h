@@ -12,6 +12,7 @@
 #include "data/region.h"
 #include "absorbing.h"
 
+/* Kinds of boundary conditions. */
 enum boundary_kind {
     BOUNDARY_VELOCITY,   /* prescribes components: velocity, displacement, rotation (`fixed` is a velocity of 0) */
     BOUNDARY_TRACTION,   /* surface force on the exposed face of a body along an axis [Pa] */
@@ -24,6 +25,8 @@ enum boundary_kind {
 /* Factor on a body force at the reference position X. PROFILE_UNIFORM: 1; PROFILE_SINE: sin(2 pi (X - origin) .
  * direction/(wavelength |direction|)). */
 enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
+
+/* A factor on a body force: its kind and the constants of the formula above. */
 struct profile {
     enum profile_kind kind;
     real wavelength;         /* [m] */
@@ -31,37 +34,37 @@ struct profile {
     real direction[DIM_MAX]; /* of any length [1] */
 };
 
-/* One boundary condition as given in the scene. A comment such as VELOCITY: names the kinds that use a member. */
+/* One boundary condition of a scene. A comment such as VELOCITY: names the kinds that use a member; else all do. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
-    char place[PLACE_LENGTH]; /* position in the scene file */
+    char place[PLACE_LENGTH]; /* location in the scene file, for messages */
     enum boundary_kind kind;
     struct region region; /* selects particles by reference position; empty: everywhere */
-    int body;             /* index of the body, -1: any */
-    uint8_t components;   /* VELOCITY: bit d: component d is prescribed */
-    real value[DIM_MAX];  /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: equal in all components; 1 if there is a formula */
+    int body;             /* index of the body on which it acts, -1: any */
+    uint8_t components;   /* VELOCITY: bit d is set if component d is prescribed */
+    real value[DIM_MAX];  /* by kind [m/s], [m], [Pa] or [N/m^3]; PRESSURE: all equal; 1 if there is a formula */
     /* formula of each component in X and t; PRESSURE: the first is used for all; empty: value only */
     struct expression formula[DIM_MAX];
     real end;    /* time after which formulas keep their values, 0: unknown [s] */
-    bool frozen; /* static problem: formulas have their value at `frozen_at` [s] */
+    bool frozen; /* static problem: formulas have their value at the time `frozen_at` [s] */
     real frozen_at;
-    bool displaces; /* VELOCITY: value, factor and formula are displacements; value in [m] */
-    bool rotates;   /* VELOCITY: all components, on circles about an axis through `centre` */
-    real centre[DIM_MAX], axis_of[DIM_MAX],
-        rate;                          /* [m]; axis of any length, z in 2D; angular velocity, times the factor [1/s] */
+    bool displaces; /* VELOCITY: value, times factor and formula, is a displacement [m] */
+    bool rotates;   /* VELOCITY: particles rotate about an axis; all components are prescribed */
+    /* rotates: a point of the axis [m]; direction of the axis, of any length, z in 2D; angular velocity [1/s] */
+    real centre[DIM_MAX], axis_of[DIM_MAX], rate;
     bool follow;                       /* PRESSURE: normals and areas are those of the deformed body */
-    struct time_function time;         /* factor on value */
+    struct time_function time;         /* factor on `value` as a function of time */
     char *time_file;                   /* CSV file of the factor; NULL: given in the scene */
     char time_column[NAME_MAX_LENGTH]; /* column of the file; "": the only one beside the time */
     uint64_t time_contents;            /* hash of the file; 0: not read */
     bool time_unit;                    /* the column has the unit of the value, and `value` is only the direction */
     struct profile profile;            /* BODY_FORCE: factor on value */
     bool by_mass;                      /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
-    int face;                          /* TRACTION, ABSORBING, VELOCITY: axis of the face's normal */
-    int side;                          /* +1 upper face, -1 lower face; VELOCITY: 0, no face */
-    real depth;                        /* VELOCITY: depth of the layer behind its face [m] */
-    real section; /* with a face: section of all bodies, in 1D [m^2], in 2D [m], 1 in 3D; 0: a particle's area is its
-                     volume divided by the spacing */
+    int face;                          /* TRACTION, ABSORBING, VELOCITY: axis of the normal of the face */
+    int side;                          /* +1: face at the upper end of that axis, -1: lower end; VELOCITY: 0, no face */
+    real depth;                        /* VELOCITY: depth of the driven layer of particles behind the face [m] */
+    real section; /* with a face: cross-section in 1D [m^2], thickness in 2D [m], 1 in 3D; 0: the area of a particle is
+                     its volume divided by the spacing */
     int axis;     /* MIRROR: axis of the plane's normal */
     real at;      /* MIRROR: position of the plane [m] */
     bool hold_tangential; /* MIRROR: displacement odd in all components, not only the normal one */
@@ -71,8 +74,8 @@ struct boundary {
  * Arrays are owned, except shares that several loads use together. */
 struct load {
     const struct boundary *boundary; /* borrowed from the scene */
-    int64_t n;
-    int32_t *particle; /* [n] ascending */
+    int64_t n;                       /* number of particles on which it acts */
+    int32_t *particle;               /* [n] indices of these particles, ascending */
     /* [n] VELOCITY, MIRROR that is clamped: bit d: the load prescribes component d of the particle; components that a
      * later load prescribes as well are left out */
     uint8_t *prescribes;
@@ -94,7 +97,7 @@ struct load {
                                driven particles; load steps: forces too [N] */
     real displacement[DIM_MAX]; /* mean displacement of the driven particles; for velocities accumulated [m] */
     real held_work;             /* static, prescribed by position: sum of support forces times displacements [J] */
-    int outside;                /* MIRROR: side of the plane without body, -1 or +1 */
+    int outside;                /* MIRROR: side of the plane without body: -1 lower, +1 upper coordinates */
 };
 
 /* Returns true if a formula of boundary b contains the time t. */
@@ -142,22 +145,22 @@ struct constrained_set {
 
 /* All boundary conditions of a run, with the sums of their impulse and work. */
 struct loads {
-    int n;
-    struct load *load;
-    uint8_t *loaded; /* [particles + LANES] sum of LOADED, MOVES_LATER, TOUCHES; NULL: all 0 */
+    int n;             /* number of boundary conditions */
+    struct load *load; /* [n] in the order of the scene */
+    uint8_t *loaded;   /* [particles + LANES] sum of LOADED, MOVES_LATER, TOUCHES; NULL: all 0 */
     int64_t listed;
-    int32_t *list; /* [listed] particles for which `loaded` is not 0, ascending */
-    int64_t images;
-    struct image *image;
+    int32_t *list;                /* [listed] indices of the particles for which `loaded` is not 0, ascending */
+    int64_t images;               /* number of mirror images of particles */
+    struct image *image;          /* [images] origin of each mirror image */
     real impulse[DIM_MAX];        /* impulse of loads and supports since the start [N s] */
     real work;                    /* work of applied forces, up to the present positions [J] */
     real constraint_work;         /* work of supports, up to the velocities, half a step behind [J] */
-    struct damping_shares damped; /* in this step */
-    real spacing, reach;          /* lattice spacing; reach of bonds [m] */
+    struct damping_shares damped; /* effect of damping on the velocities in this step */
+    real spacing, reach;          /* lattice spacing; length of the longest bond [m] */
     real centre[2], turn;     /* static, free in 2D: centre of mass [m]; angular acceleration by the moment of the loads
                                  [1/s^2], 0: none */
     real place_step[DIM_MAX]; /* positions across mirrors are rounded to multiples of this, 0: not rounded [m] */
-    struct absorbing absorbing;
+    struct absorbing absorbing;              /* faces that absorb waves */
     bool ended;                              /* forces are computed that no step follows */
     real *share;                             /* working memory: driven mass of the grid's nodes [kg] */
     real *mesh_share;                        /* working memory: driven mass of the mesh's nodes [kg] */
@@ -298,9 +301,9 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
 /* Frees all arrays of *l and of its loads; the boundaries, which belong to the scene, remain. */
 void loads_free(struct loads *l);
 
-/* Sets the list of particles on which contact forces may act, in place of the previous one: n indices in ascending
- * order, which are copied. The forces of these particles are cleared before each step, and they are moved after all
- * forces are complete, not already while bond forces are computed. */
+/* Replaces the list of particles on which contact forces may act by list[n] (indices, ascending), which is copied. The
+ * forces of these particles are cleared before each step, and they are moved after all forces are complete, not already
+ * while bond forces are computed. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
@@ -308,15 +311,14 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 /* Combines loads with equal particle lists, to traverse each list once. Ends loads_make. dim: of the space. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
-/* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads, also arrays that several
- * loads have in common. */
+/* Releases the arrays load.share (area, volume or mass of each particle) of all loads, shared arrays once. */
 void loads_shares_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
  * of the velocity update [s], to l->impulse. Part of loads_apply_to_particle_forces. */
 void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
-/* Adds the work of the applied forces over the displacements of the step of size dt about t [s] to l->work. Part of
+/* Adds the work of the applied forces in the step of size dt about t [s] to l->work [J]. Part of
  * loads_impose_prescribed_motion. */
 void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real t, real dt);
 
@@ -367,8 +369,7 @@ struct prescribed_displacement {
  * by reference. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
-/* Returns component `component` of the prescribed displacement [m] at the reference position X (dim components [m]).
- * The boundary must prescribe this component. */
+/* Returns component `component`, which must be prescribed, of the displacement [m] at the reference position X[dim]. */
 real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
 /* Computes the displacement that load l prescribes for its particle number `entry` (an index of l->particle) at time t

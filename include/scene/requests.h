@@ -45,8 +45,13 @@ enum accept {
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
+/* Particles between which contact forces act: none, those of different bodies, all near a face of a body, fragment or
+ * crack. */
 enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };
+
+/* Form of the contact law: between smooth faces, or between pairs of particles. */
 enum contact_form { CONTACT_SURFACE, CONTACT_PAIR };
+
 /* Contact distance of particle pairs. SPACING: one spacing, with the stiffness of contact/contact.h. LAMMPS: the rule
  * of the LAMMPS style peri/pmb, for comparison: the smaller of 0.9 times the reference distance and 1.35 spacings, also
  * for bonded pairs, with the stiffness 15 c V_i V_j/delta, where delta is the horizon of the scene. */
@@ -54,14 +59,15 @@ enum contact_distance { DISTANCE_SPACING, DISTANCE_LAMMPS };
 
 /* ---- coupling and conversion ------------------------------------------------------------------------------------- */
 
+/* Couplings of peridynamic particles and material points. */
 enum coupling {
-    COUPLING_PARTIAL_STRESS,
-    COUPLING_HANDSHAKE, /* Zeng et al. 2022                                                     */
-    COUPLING_PM,
-    COUPLING_PG, /* Zeng et al. 2021: hand-shake, and the grid moves the particles in the
-                    cells at the interface; PM with linear, PG with GIMP shapes         */
-    COUPLING_PMG,
-    COUPLING_PGG /* PM and PG on one unified grid, which moves all particles            */
+    COUPLING_PARTIAL_STRESS, /* material points leave a share of their stress to the bonds that cross their cell */
+    COUPLING_HANDSHAKE,      /* Zeng et al. 2022 */
+    COUPLING_PM,             /* Zeng et al. 2021: as HANDSHAKE, and the grid, with linear shape functions, moves the
+                                particles in the cells at the interface */
+    COUPLING_PG,             /* as PM with GIMP shape functions */
+    COUPLING_PMG,            /* as PM on one grid that moves all particles */
+    COUPLING_PGG             /* as PG on one grid that moves all particles */
 };
 
 /* Returns true if, with the coupling method c, the background grid moves peridynamic particles, at least those near the
@@ -83,19 +89,20 @@ enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
 #define NOTCH_ZONE_LEAST 6.0
 #define NOTCH_ZONE 8.0
 
+/* Criteria of conversion to peridynamics, as bits: a bond of the material point has broken; its stress is too large. */
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
 /* Criteria by which material points convert to peridynamic particles, and back. */
 struct conversion_rule {
-    unsigned criteria; /* sum of CONVERT_ON_* */
-    real stress;       /* sigma_max [Pa]; NAN: E s_c */
-    real alpha;        /* conversion starts at alpha sigma_max [1] */
-    bool block;        /* the neighbours within the horizon of the triggering particle convert, too */
-    real tips;         /* radius around ends of pre-cracks that is peridynamic from the start [horizons] */
-    enum notch_rule notch;
-    bool reverts;    /* particles revert to material points (reversion.h) */
-    real hold_time;  /* time for which the stress must be low before a particle reverts [horizon/c] */
-    real low_stress; /* upper bound of a low stress, as a share of the stress that converts [1] */
+    unsigned criteria;     /* sum of CONVERT_ON_* */
+    real stress;           /* sigma_max, stress at which bonds break [Pa]; NAN: E times critical stretch */
+    real alpha;            /* material points convert at the principal stress alpha sigma_max [1] */
+    bool block;            /* the neighbours within the horizon of the triggering particle convert, too */
+    real tips;             /* radius around ends of pre-cracks that is peridynamic from the start [horizons] */
+    enum notch_rule notch; /* how pre-cracks are represented in a mesh */
+    bool reverts;          /* particles revert to material points (reversion.h) */
+    real hold_time;        /* time for which the stress must be low before a particle reverts [horizon/wave speed] */
+    real low_stress;       /* upper bound of a low stress, as a share of the stress that converts [1] */
 };
 
 /* ---- cracks that grow -------------------------------------------------------------------------------------------- */
@@ -103,16 +110,16 @@ struct conversion_rule {
 /* Settings of a crack whose tip moves at a given speed, or at a speed controlled by its stress-intensity factors. */
 struct growth_rule {
     char name[NAME_MAX_LENGTH];
-    real at[DIM_MAX];            /* initial crack-tip position [m] */
-    real direction[DIM_MAX];     /* initial growth direction, unit vector */
-    real speed;                  /* crack-tip speed [m/s]; NAN: controlled so that K_eq stays at the toughness */
-    real fastest;                /* upper bound of the controlled speed [m/s]; NAN: 0.9 of the Rayleigh speed */
-    real start;                  /* time at which growth begins [s] */
-    real length;                 /* length at which growth ends [m]; INFINITY: never */
-    real damping, exponent;      /* a crossed bond fades as (1 - growth/damping)^exponent [m] [1];
-                                    damping NAN: half a horizon */
-    real smoothing;              /* growth over which the direction is averaged, with a probe [m];
-                                    NAN: a quarter of a horizon */
+    real at[DIM_MAX];        /* initial position of the crack tip [m] */
+    real direction[DIM_MAX]; /* initial growth direction, unit vector */
+    real speed;              /* crack-tip speed [m/s]; NAN: controlled so that K_eq stays at the toughness */
+    real fastest;            /* upper bound of the controlled speed [m/s]; NAN: 0.9 of the Rayleigh speed */
+    real start;              /* time at which growth begins [s] */
+    real length;             /* length at which growth ends [m]; INFINITY: never */
+    real damping, exponent;  /* the weight of a bond decreases as (1 - growth/damping)^exponent with the growth of the
+                                crack since it crossed the bond [m] [1]; damping NAN: half a horizon */
+    real smoothing;          /* with a probe: length of growth over which the direction is averaged [m]; NAN: a
+                                quarter of a horizon */
     char probe[NAME_MAX_LENGTH]; /* sif probe that controls growth; "": none */
     real toughness;              /* K_Ic: the crack grows while K_eq is at least K_Ic [Pa m^(1/2)] */
 };
@@ -123,6 +130,7 @@ static inline bool growth_speed_is_controlled(const struct growth_rule *rule) { 
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
 
+/* Kinds of probes: what a probe measures. */
 enum probe_kind {
     PROBE_TIP,      /* one crack tip (the longest, or the one nearest to `at`)                    */
     PROBE_BREAK,    /* first cut bond in a region                                                 */
@@ -141,6 +149,8 @@ enum probe_kind {
     PROBES
 };
 
+/* Closed-form solutions of a bar: elastic and elastic-plastic bar under a step load, wave packet, manufactured
+ * solution; EXACT_FORMS is their number (probes/exact.h). */
 enum exact_form { EXACT_STEP_BAR, EXACT_PLASTIC_BAR, EXACT_PULSE, EXACT_MANUFACTURED, EXACT_FORMS };
 
 /* Method for displacement gradients. MLS: moving least squares with a complete quadratic polynomial, exact for
@@ -163,27 +173,29 @@ struct probe_request {
     char name[NAME_MAX_LENGTH]; /* default: the word of its kind */
     char place[PLACE_LENGTH];   /* location in the scene file, for messages */
     enum probe_kind kind;
-    struct region region; /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID: particles; empty: all */
-    bool has_at;
+    struct region region;            /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID: particles; empty: all */
+    bool has_at;                     /* the scene gives `at` */
     real at[DIM_MAX];                /* TIP, POINT, SIF: position; PULSE: a point of the interface [m] */
-    bool has_direction;              /* SIF */
+    bool has_direction;              /* SIF: the scene gives `direction` */
     real direction[DIM_MAX];         /* PULSE: normal of the interface, in the direction of the incident packet;
                                         SIF: direction ahead of the tip */
-    real from[DIM_MAX], to[DIM_MAX]; /* LINE: its ends [m] */
-    int points;                      /* LINE: number of stations */
+    real from[DIM_MAX], to[DIM_MAX]; /* LINE: both ends of the line [m] */
+    int points;                      /* LINE: number of stations (positions at equal distances) */
     char boundary[NAME_MAX_LENGTH];  /* REACTION: name of the boundary condition */
     char of[NAME_MAX_LENGTH];        /* GROWTH: name of the crack; "": the first */
     real experiment;                 /* GROWTH: measured crack angle, drawn in plots [degree]; NAN: none */
     enum exact_form form;            /* EXACT: closed-form solution */
     real amplitude, period, wavelength, origin; /* EXACT: of a manufactured solution [m] [s] [m] [m] */
-    struct number_list contours; /* SIF: outer radii to compare [m]; none: 0.6, 0.8 and 1 times `outer` */
-    real inner, outer, core;     /* SIF: radii [m]; NAN or 0: outer/2, 20 spacings, 1.5 horizons */
-    real reach;                  /* SIF: rho_m [spacings]; 0: 1.5 */
-    real speed;                  /* SIF: speed of a moving tip [m/s]; NAN: measured */
-    int diffraction;             /* SIF: exponent of the distance factor for points behind the crack (sif.h) */
-    enum sif_weight weight;
-    enum gradient_method gradient;
-    enum sif_stress stress;
+    struct number_list contours; /* SIF: outer radii whose results are compared [m]; empty: 0.6, 0.8, 1 times `outer` */
+    /* SIF: radii between which the weight falls from 1 to 0; radius that the inertial sum of a moving tip leaves out
+     * [m]; NAN or 0: outer/2, 20 spacings, 1.5 horizons */
+    real inner, outer, core;
+    real reach;                    /* SIF: radius of the neighbourhood of a gradient, rho_m [spacings]; 0: 1.5 */
+    real speed;                    /* SIF: speed of a moving tip [m/s]; NAN: measured */
+    int diffraction;               /* SIF: exponent of the distance factor for points behind the crack (sif.h) */
+    enum sif_weight weight;        /* SIF: weight function of the integral */
+    enum gradient_method gradient; /* SIF: method for displacement gradients */
+    enum sif_stress stress;        /* SIF: source of the stress */
 };
 
 #endif

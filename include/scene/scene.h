@@ -16,15 +16,23 @@
 #include "particle_list.h"
 #include "requests.h"
 
-/* Values of keys of a scene: method. METHOD_AUTO occurs in scene files alone, since pilot runs replace it by another
- * method (scene_read.h). */
+/* Method of a scene: peridynamics, material point method, material points that convert to peridynamic particles where
+ * the body breaks, or AUTO, which only scene files contain: pilot runs replace it by one of the others (scene_read.h).
+ */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum { FILL_AUTO, FILL_ALL, FILL_NEEDED }; /* mpm.fill: which particles are created */
 enum { LEVELS_AUTO = 5 };                  /* mpm.levels: auto */
 enum { FRAMES_MOST = 100000 };             /* largest number of frames of a run */
+
+/* Configuration to which the grid of a body is fixed. CURRENT: material points map to a background grid in every step;
+ * REFERENCE: a mesh of the undeformed body; AUTO: the program chooses. */
 enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
+
+/* Peridynamic model: bond-based, ordinary state-based, state-based with rotations of the particles. */
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
+/* How a run is solved. EXPLICIT: time steps; RELAXATION, CG: one static equilibrium by dynamic relaxation or conjugate
+ * gradients; STATIC: load steps, in which bonds may break. */
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
 /* A region of a body that consists of another material than the rest of the body. */
@@ -38,19 +46,19 @@ struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material; /* index into scene.material */
     int parts;
-    struct scene_part *part;        /* [parts] a later part overwrites earlier ones, and `material` */
-    struct region shape;            /* region that is filled with a lattice, unless `file` is given */
-    char *file;                     /* path of a particle list (.csv, .h5); NULL: none */
-    uint64_t contents;              /* hash of this file; 0: not read */
-    struct particle_list_form form; /* what the scene says about this file */
-    char *columns;                  /* its columns, if the scene names them; NULL: it does not */
-    struct particle_list_head list; /* columns of this file */
-    char place[PLACE_LENGTH];       /* location in the scene file, of the list if there is one, for messages */
+    struct scene_part *part;        /* [parts] a later part overwrites earlier parts and the member `material` */
+    struct region shape;            /* region that is filled with a lattice of particles, unless `file` is given */
+    char *file;                     /* path of a file with a list of particles (.csv, .h5); NULL: none */
+    uint64_t contents;              /* hash of the contents of `file`; 0: not read */
+    struct particle_list_form form; /* units and columns of `file` as the scene gives them */
+    char *columns;                  /* text of the scene that names the columns of `file`; NULL: not given */
+    struct particle_list_head list; /* columns that were found in `file` */
+    char place[PLACE_LENGTH];       /* location in the scene file of `file`, else of the body, for messages */
     real velocity[DIM_MAX];         /* initial velocity [m/s] */
-    int joined;                     /* lowest index of the bodies to which interfaces join this body */
+    int joined;                     /* lowest index of the bodies that interfaces join to this body, itself included */
     bool rigid;                     /* rigid body without particles */
-    real mass, ramp;                /* rigid: mass of a free body [kg]; time until a driven one has full speed [s] */
-    real force[DIM_MAX];            /* rigid: force on a free body [N] */
+    real mass, ramp;                /* rigid: mass of a free body [kg]; time until a driven body has full speed [s] */
+    real force[DIM_MAX];            /* rigid: constant force on a free body [N] */
     enum grid_frame frame;          /* default: mpm.frame; AUTO only where the scene allows the reference frame */
     const char *frame_reason;       /* reason why AUTO became CURRENT; NULL: the frame was not AUTO, or still is */
 };
@@ -59,8 +67,8 @@ struct scene_body {
 struct scene_interface {
     int body[2];              /* indices into scene.body */
     bool joined;              /* bonds across the interface join the bodies */
-    real energy_release_rate; /* of the bonds across it [J/m^2]; 0: as in the weaker of both materials */
-    real critical_stretch;    /* that follows from energy_release_rate [1]; 0: none */
+    real energy_release_rate; /* of the bonds across the interface [J/m^2]; 0: that of the weaker material */
+    real critical_stretch;    /* of these bonds, computed from energy_release_rate [1]; 0: that of the materials */
 };
 
 /* A region with a name in the scene; solids that refer to the name receive a copy of the region. */
@@ -73,15 +81,16 @@ struct named_region {
 struct scene_initial {
     char place[PLACE_LENGTH]; /* location in the scene file, for messages */
     struct region region;
-    int body; /* index of the body; -1: any */
+    int body; /* index of the body whose particles are set; -1: all bodies */
+    /* velocity, its formula and its gradient are set; displacement_gradient is set */
     bool sets_velocity, sets_strain;
     real velocity[DIM_MAX];                        /* [m/s]; 1 for a component given by a formula */
-    struct expression formula[DIM_MAX];            /* velocity component as a function of X; may be empty */
+    struct expression formula[DIM_MAX];            /* factor on a velocity component, of the position; may be empty */
     real velocity_gradient[DIM_MAX * DIM_MAX];     /* G in v += G (X - centre), row major dim x dim [1/s] */
     real displacement_gradient[DIM_MAX * DIM_MAX]; /* H in x = X + H (X - centre), stress = C : sym H [1] */
-    real centre[DIM_MAX];                          /* [m] */
-    bool sets_pulse;                               /* adds a plane longitudinal wave to the state */
-    struct wave_pulse pulse;
+    real centre[DIM_MAX];                          /* reference position at which both gradients act as 0 [m] */
+    bool sets_pulse;                               /* `pulse` is added to the state */
+    struct wave_pulse pulse;                       /* plane longitudinal wave */
 };
 
 /* A series of frames (files with the state at one time) of the particles in a region, with a time interval of its own.
@@ -90,7 +99,7 @@ struct scene_series {
     char name[NAME_MAX_LENGTH];
     struct region region;
     real every;      /* time between frames [s] */
-    unsigned fields; /* bits of FRAME_FIELD_WORDS; 0: the fields of the scene's frames */
+    unsigned fields; /* bit set of the fields in the order of FRAME_FIELD_WORDS; 0: those of the scene's frames */
 };
 
 /* Quantity that is prescribed in each load step and determines its loads: the pseudo-time, the energy of the crack
@@ -112,12 +121,12 @@ struct scene_steps {
     enum steps_path path;
     real energy;                              /* energy of the bonds of a crack increment [J];
                                                  0: it follows from toughness and spacing */
-    real from[DIM_MAX], to[DIM_MAX], opening; /* points whose distance is the opening; growth in all steps [m] */
-    bool has_from, has_to;
+    real from[DIM_MAX], to[DIM_MAX], opening; /* points whose distance is the opening; its growth in all steps [m] */
+    bool has_from, has_to;                    /* the scene gives `from`, `to` */
     enum steps_then then;
-    int breaks;  /* largest number of pairs of bonds that break between two equilibria */
-    real within; /* bonds break together if their ratios of stretch to critical stretch differ from the largest one
-                    by no more than this share [1] */
+    int breaks;  /* path BONDS: largest number of pairs of bonds that break between two equilibria */
+    real within; /* of these only bonds whose ratio of stretch to critical stretch is at least 1 - within times the
+                    largest ratio break [1] */
 };
 
 /* A key of a scene and the location at which it is given, as text: `file:line:column`, or the override of the command
@@ -126,87 +135,92 @@ struct key_place {
     char key[104], place[408];
 };
 
-/* The input of a run. Arrays are owned by the scene and have as many entries as the count above them says. */
+/* The input of a run, in SI units: what the scene file and the options of the command line give, with defaults for all
+ * other keys. All arrays and texts are owned unless const; the count above an array is its length. */
 struct scene {
     char *path;                  /* path of the scene file, as given on the command line */
-    int64_t key_places;          /* keys whose places are known */
+    int64_t key_places;          /* number of keys whose location is known */
     struct key_place *key_place; /* [key_places] */
     char name[NAME_MAX_LENGTH];  /* default: file name without folder and extension */
     enum space space;
-    int dim;
-    real thickness;        /* 2D [m]; 1 in 3D */
+    int dim;               /* 1, 2 or 3, follows from `space` */
+    real thickness;        /* 2D: thickness of the body [m]; 1 in 3D */
     real section;          /* 1D: cross-section A [m^2]; key `section`, default 1 */
-    real duration;         /* [s] */
+    real duration;         /* simulated time; range of the pseudo-time of load steps [s] */
     real gravity[DIM_MAX]; /* acceleration of particles and of free rigid bodies [m/s^2] */
     real damping;          /* damping force of a particle divided by its momentum [1/s] */
     enum method method;
     enum model model;
-    enum solver_kind solver;  /* other than explicit: static equilibrium (solver.h) */
-    real solver_tolerance;    /* relative residual [1] */
-    int solver_steps;         /* largest number of iterations */
-    struct scene_steps steps; /* of solver static */
+    enum solver_kind solver; /* how the run is solved: in time, or for static equilibrium (solver.h) */
+    real solver_tolerance; /* static: largest norm of the residual divided by that of applied forces or reactions [1] */
+    int solver_steps;      /* static: largest number of iterations */
+    struct scene_steps steps; /* load steps, of solver static */
 
-    int materials, unused_materials; /* those that bodies consist of; others */
-    struct material *material;       /* [materials + unused_materials] */
-    int *material_number;            /* [the same] position of each in the scene file, from 0 */
-    int bodies;
-    struct scene_body *body; /* [bodies + rigids] deformable bodies, then rigid ones */
-    int rigids;
+    int materials, unused_materials; /* number of materials of which bodies consist; number of all others */
+    struct material *material;       /* [materials + unused_materials], the unused ones last */
+    int *material_number;    /* [materials + unused_materials] position of each material in the scene file, from 0 */
+    int bodies;              /* number of deformable bodies */
+    struct scene_body *body; /* [bodies + rigids] deformable bodies, then rigid bodies */
+    int rigids;              /* number of rigid bodies */
     int interfaces;
-    struct scene_interface *interface;
+    struct scene_interface *interface; /* [interfaces] */
 
     int regions;
-    struct named_region *named;
-    struct shape_file *shapes; /* list of files from which solids are read (shape_file.h) */
+    struct named_region *named; /* [regions] */
+    struct shape_file *shapes;  /* list of files from which solids are read (shape_file.h) */
 
-    real spacing, horizon, irregularity; /* [m], [spacings], [1] */
-    uint64_t seed;                       /* of the irregularity and of scattered strength */
+    /* distance of lattice particles [m]; reach of bonds [spacings]; coordinates are shifted at random by at most half
+     * of this [spacings] */
+    real spacing, horizon, irregularity;
+    uint64_t seed; /* of the random numbers of irregularity and strength */
 
+    /* rules of bonds: volume of a neighbour at the edge of the horizon, stiffness of bonds, bonds near faces, weights
+     * by direction, weight by length; the default has been replaced by a rule in all of them (bonds/family.h) */
     enum volume_rule volume;
     enum calibration calibration;
-    enum surface_rule surface; /* resolved: never "auto" here */
+    enum surface_rule surface;
     enum shell_rule shells;
-    enum influence influence;   /* resolved: never "auto" here */
-    bool bulk;                  /* state-based: weights are normalised by those of a full family */
-    enum last_force last_force; /* force of a bond in the step in which it breaks */
-    enum contact_between contact_between;
-    enum contact_form contact_form;
-    enum contact_distance contact_distance;
-    bool contact_convert;
-    real contact_friction;  /* coefficient [1] */
-    real contact_stiffness; /* divided by the stiffness of a cell [1] */
-    bool has_pd_region;
-    struct region pd_region; /* region that is peridynamic from the start (adaptive) */
+    enum influence influence;
+    bool bulk;                            /* state-based models: weights are normalised by the sum over a full family */
+    enum last_force last_force;           /* force of a bond in the step in which it breaks */
+    enum contact_between contact_between; /* particles between which contact forces act */
+    enum contact_form contact_form;       /* contact of faces, or of pairs of particles */
+    enum contact_distance contact_distance; /* rule for the contact distance of pairs */
+    bool contact_convert;                   /* adaptive: material points near another body become peridynamic */
+    real contact_friction;                  /* coefficient of Coulomb friction [1] */
+    real contact_stiffness;                 /* factor on the stiffness of contact [1] */
+    bool has_pd_region;                     /* the scene gives pd_region */
+    struct region pd_region;                /* region that is peridynamic from the start (adaptive) */
 
-    real cell; /* distance of grid nodes [spacings] */
-    enum shape shape;
-    enum transfer transfer;
-    bool has_shape, has_transfer; /* the echo writes the key: it is given, or does not decide the frame */
+    real cell;                    /* distance of grid nodes [spacings] */
+    enum shape shape;             /* shape functions of the grid */
+    enum transfer transfer;       /* how velocities are transferred from the grid to material points */
+    bool has_shape, has_transfer; /* the scene as written to `text` has the key */
     enum grid_frame frame;        /* frame of the grid; default of the bodies */
-    bool small_strain;            /* small strains in a mesh in the reference frame */
-    int levels;                   /* number of levels of coarse cells in it; LEVELS_AUTO: chosen by cost */
+    bool small_strain;            /* the mesh of the reference frame computes small strains, else finite ones */
+    int levels;                   /* levels of coarse cells in the reference frame; LEVELS_AUTO: chosen by cost */
     int fill;                     /* which particles are created: FILL_AUTO, FILL_ALL or FILL_NEEDED */
     bool lattice_constants;       /* elastic constants of the grid are those of the lattice of bonds */
-    bool has_grid_origin;
-    real grid_origin[DIM_MAX]; /* position of a grid node [m] */
+    bool has_grid_origin;         /* the scene gives grid_origin */
+    real grid_origin[DIM_MAX];    /* position of a grid node [m] */
 
-    enum coupling coupling;
-    real interface_damping;        /* damping in the interface zone (interface_zone.h) [c/h] */
-    bool has_interface_damping;    /* the echo writes the key, as with has_shape */
+    enum coupling coupling;        /* how peridynamic particles and material points interact */
+    real interface_damping;        /* damping rate in the interface zone (interface_zone.h) [wave speed/cell edge] */
+    bool has_interface_damping;    /* the scene as written to `text` has the key */
     const char *current_frame_key; /* reason why keys of the scene require the current frame; NULL: none */
-    struct conversion_rule conversion;
+    struct conversion_rule conversion; /* when material points convert, and back */
 
     int cracks;
-    struct crack *crack; /* pre-cracks: those of the file, then slits of meshes */
-    int cracks_given;    /* number of pre-cracks of the file */
+    struct crack *crack; /* [cracks] pre-cracks: those of the scene file, then those of files of meshes */
+    int cracks_given;    /* number of pre-cracks of the scene file */
     int growths;
-    struct growth_rule *growth; /* cracks with prescribed or SIF-controlled growth */
+    struct growth_rule *growth; /* [growths] cracks with prescribed or SIF-controlled growth */
     int initials;
-    struct scene_initial *initial;
+    struct scene_initial *initial; /* [initials] */
     int boundaries;
-    struct boundary *boundary;
+    struct boundary *boundary; /* [boundaries] */
     int probes;
-    struct probe_request *probe;
+    struct probe_request *probe; /* [probes] */
 
     real time_step;           /* [s]; 0: automatic */
     bool active_set;          /* regions still at rest are skipped (active_set.h) */
@@ -215,14 +229,14 @@ struct scene {
     bool has_frames;          /* the scene gives the number of frames */
     struct number_list times; /* times of these frames, ascending [s]; empty: evenly spaced */
     real every;               /* time between frames [s]; 0: not given */
-    unsigned fields;          /* requested fields of frames: bits of FRAME_FIELD_WORDS */
+    unsigned fields;          /* bit set of the requested fields of frames, in the order of FRAME_FIELD_WORDS */
     int n_series;
-    struct scene_series *series;
-    int samples;              /* number of samples of history.csv after the one at t = 0 */
-    real wall;                /* wall-clock time after which a process ends with a checkpoint [s]; INFINITY: none */
-    real checkpoint_interval; /* wall-clock time between checkpoints [s]; NAN: auto */
-    bool compress;            /* frames are compressed with gzip */
-    real speed_window;        /* time over which the crack-tip speed is averaged [s] */
+    struct scene_series *series; /* [n_series] frames of parts of the body */
+    int samples;                 /* number of samples of history.csv after the one at t = 0 */
+    real wall;                   /* wall-clock time after which a process ends with a checkpoint [s]; INFINITY: none */
+    real checkpoint_interval;    /* wall-clock time between checkpoints [s]; NAN: chosen by their cost */
+    bool compress;               /* frames are compressed with gzip */
+    real speed_window;           /* time over which the crack-tip speed is averaged [s] */
 
     unsigned accept;   /* bits of enum accept: warnings that the scene silences */
     bool has_accept;   /* the scene has the key `accept` */

@@ -10,12 +10,15 @@
 #include "base/base.h"
 #include "solver/field.h"
 
+/* State of the solver: vectors over the nodes, which it owns (struct field: one array [n] for each axis), functions
+ * that the caller sets, tolerances and counters. */
 struct newton_solver {
-    int dim;
+    int dim;           /* number of components of a displacement */
     int64_t n;         /* number of nodes */
     struct field u, f; /* [n] displacement [m]; force [N], of held components on the support */
-    uint8_t *held;     /* [n] bit d is set if component d is prescribed */
-    /* [n] vectors of conjugate gradients; displacement at which forces are evaluated [m] */
+    uint8_t *held;     /* [n] bit d is set if component d of the displacement is prescribed */
+    /* [n] vectors of conjugate gradients: direction d, K d, residual, preconditioned residual, correction; `at`:
+     * displacement at which forces are evaluated [m] */
     struct field d, q, r, z, x, at;
     struct field before, grown; /* [n] forces at u under the previous loads; change of the loads since [N] */
 
@@ -29,28 +32,29 @@ struct newton_solver {
      * search; with true, those fixed by settle hold again. NULL if laws do not change. */
     bool (*settle)(void *context);
     void (*laws)(void *context, bool settled);
-    void *context;
+    void *context; /* first argument of the four functions above, kept by reference */
 
-    real tolerance;   /* of the residual, relative to the norm of loads or reactions [1] */
-    real reach;       /* longest increment of a node in a correction [m]; 0 for no limit */
-    real noise;       /* norm of forces that is round-off [N] */
-    real length;      /* distance between neighbours [m] */
+    real tolerance; /* largest norm of the residual divided by that of loads or reactions, at which it converges [1] */
+    real reach;     /* largest displacement of a node by one Newton correction [m]; 0: no limit */
+    real noise;     /* norm of forces up to which forces are round-off [N] */
+    real length;    /* distance between neighbouring nodes [m] */
     real unit_energy; /* energy of the body at unit strain [J], which scales the steps of force differences */
-    bool kinked;      /* the forces have kinks, as where points yield */
+    bool kinked;      /* the forces are not differentiable everywhere, for example where points yield */
 
     /* Counters, set to 0 by newton_solver_make or by the caller: */
-    int64_t forces, directions; /* force evaluations; directions of conjugate gradients */
+    int64_t forces, directions; /* number of force evaluations; of directions of conjugate gradients */
     /* Work of unbalanced forces between equilibria [J]: the energy lost in dynamic motion that is not resolved. Work of
      * supports is taken as the mean of their forces in both equilibria times their increment. */
     real lost;
 
-    real bent; /* work of loads along the last increment beyond the mean of both equilibria times the increment [J] */
+    real bent; /* work of the loads along the last increment minus their mean in both equilibria times the increment [J]
+                */
     real residual;     /* norm of the residual divided by `scale` [1] */
     real scale;        /* larger of the norms of applied forces and reactions [N] */
     real largest;      /* largest scale so far [N] */
     real applied;      /* norm of the applied forces, set by the caller [N] */
     real strain_ratio; /* strain of the last direction divided by its largest component [1/m] */
-    int64_t worst;     /* node with the largest residual */
+    int64_t worst;     /* index of the node with the largest residual */
 };
 
 /* Initialises the Newton solver *q for `node_count` nodes (particles or nodes of a mesh) in `dim` space dimensions:

@@ -12,29 +12,31 @@
 #include "loads/loads.h"
 #include "solver/field.h"
 
+/* State of the solver of one static equilibrium of particles, by dynamic relaxation or conjugate gradients. Arrays are
+ * owned and indexed by particle; struct field: one array [n] for each axis. */
 struct static_solver {
-    int dim;
+    int dim;             /* number of components of a displacement */
     int64_t n;           /* number of particles */
     real residual;       /* norm of the residual divided by `scale` [1] */
     real scale;          /* larger of the norms of applied forces and reactions [N] */
     real noise;          /* norm of forces caused by round-off of positions [N] */
-    real first;          /* largest residual of a body without loads [N] */
+    real first;          /* largest norm of the residual so far of a body without loads [N] */
     real applied;        /* norm of the applied forces on free components [N] */
     int64_t past_limit;  /* bonds beyond their critical stretch at the end */
     int64_t ramp;        /* relaxation: steps in which supports move to their final positions */
     real ramp_time;      /* relaxation on the grid: time in which supports move [s] */
     real farthest;       /* relaxation: largest norm of the displacements so far [m] */
     real damping;        /* relaxation on the grid: c dt of a step [1] */
-    uint8_t *held;       /* [n] bit d is set if component d is driven */
-    real *weight;        /* [n] 1/2 for every plane of symmetry that contains the particle */
+    uint8_t *held;       /* [n] bit d is set if component d of the displacement is prescribed */
+    real *weight;        /* [n] factor 1/2 for every plane of symmetry that contains the particle [1] */
     real *diagonal;      /* [n] Lambda: fictitious mass of relaxation, preconditioner of conjugate gradients [N/m] */
-    struct field driven; /* [n] displacement of driven components [m] */
+    struct field driven; /* [n] prescribed components of the displacement [m] */
     struct field before; /* relaxation: forces of the previous step [N] */
-    struct field u, r, d, q;    /* conjugate gradients: displacement, residual, direction d, K d */
-    real rz;                    /* r . r/Lambda */
+    struct field u, r, d, q;    /* [n] conjugate gradients: displacement u, residual r, direction d, K d */
+    real rz;                    /* conjugate gradients: r . r/Lambda */
     real strain_ratio, u_ratio; /* strain of the last direction, and of u, divided by the largest component [1/m] */
     real best;                  /* smallest residual of all restarts [1] */
-    int stalls;                 /* successive restarts that did not halve the residual */
+    int stalls;                 /* number of successive restarts that did not halve the residual */
 };
 
 /* The particles, bonds and loads whose static equilibrium is computed. All pointers are borrowed. force: kernel of the

@@ -6,6 +6,7 @@
 #include "study_axis.h"
 #include "study_internal.h"
 
+/* Largest number of panels of a picture; size of a line of notes [byte]. */
 enum { PANELS_MOST = 6, NOTE_ROOM = 200 };
 
 /* Sizes in the pictures of a study [pixel]: height of a line of text; height of the title of a panel; width of a colour
@@ -46,25 +47,25 @@ struct figure_statistics {
 struct study_picture {
     const struct study_table *table;
     const struct study *study;
-    struct shown_key *key; /* [keys] owned */
+    struct shown_key *key; /* [keys] varied keys, owned */
     int keys;
-    int **value_at;      /* [keys][runs] index of the key's value in a run; -1: another value */
+    int **value_at;      /* [keys][runs] index of the value of a key in a run; -1: a value that is not shown */
     enum key_role *role; /* [keys] */
-    int across, lines;   /* index of the key along the axis; number of lines, at least 1 */
-    int figure[PANELS_MOST], panels;
-    struct unit unit_of_figure[PANELS_MOST]; /* in which the figure of a panel is drawn */
+    int across, lines;   /* index of the key along the horizontal axis; number of lines, at least 1 */
+    int figure[PANELS_MOST], panels;         /* [panels] index of the figure of each panel in `table`; their number */
+    struct unit unit_of_figure[PANELS_MOST]; /* [panels] unit in which the figure is drawn */
     /* [panels][lines][values of the key along the horizontal axis], set by study_points_compute, owned */
     struct figure_statistics *point[PANELS_MOST];
-    bool numbers, chance;    /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
-    bool seeds;              /* a random seed is the only varied key */
-    const char *header;      /* header of history.csv with the units of figures */
-    int columns, wide, high; /* columns of panels; width and height of a panel [pixel] */
+    bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2 ...; a key of ROLE_CHANCE varies */
+    bool seeds;           /* a random seed is the only varied key */
+    const char *header;   /* first line of history.csv, which has the units of figures; borrowed */
+    int columns, wide, high;        /* number of columns of panels; width and height of a panel [pixel] */
     int left, right, below, height; /* margins of a panel; height of the picture [pixel] */
     int legend, strip, key_columns; /* width of the key right of all panels, or its height below them [pixel]; number of
                                      * its columns */
     bool slanted;                   /* the labels of values at the horizontal axis are slanted */
-    int width, notes;
-    char note[4][NOTE_ROOM];
+    int width, notes;               /* width of the picture [pixel]; number of notes */
+    char note[4][NOTE_ROOM];        /* [notes] lines of text below the panels */
 };
 
 /* Chooses the figures (numbers in summary.json) that the panels of the picture show: figures of cracks first, then of
