@@ -40,7 +40,7 @@ struct elastic {
     real failure; /* value of U g0 at which points convert; where strength scatters, of a point of strength 1 [Pa] */
     enum space space;
     const struct law *law; /* law by which the material yields; NULL: it is elastic */
-    enum law_mode mode;    /* how the law is solved */
+    enum law_mode mode;    /* how the plastic strain of a step is computed from the law */
     bool mean_dilatation;  /* the points of a cell have its mean dilatation (mpm/dilatation.h, mesh/mesh_law.h) */
 };
 
@@ -85,13 +85,13 @@ static inline bool point_has_state_bonds(const struct partial_stress *partial, i
 /* Inputs of the transfers between particles and grid, besides particles and grid themselves; all pointers are kept by
  * reference. */
 struct transfer_data {
-    const struct transfer_order *order;
-    const struct partial_stress *partial;
-    const struct elastic *elastic; /* [materials] */
-    real half_width;               /* l_p of uGIMP: half the particle's reference edge [m] */
-    real dt;                       /* [s] */
-    real dt_velocity;              /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */
-    bool laws;                     /* at least one material yields */
+    const struct transfer_order *order;   /* order in which points are processed: by colour, block and cell */
+    const struct partial_stress *partial; /* share of their stress that bonded points leave to bonds */
+    const struct elastic *elastic;        /* [materials] elastic constants */
+    real half_width;                      /* l_p of uGIMP: half the reference edge of a particle [m] */
+    real dt;                              /* time step [s] */
+    real dt_velocity;      /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */
+    bool laws;             /* at least one material yields */
     bool mean_dilatation;  /* at least one material has the mean dilatation of cells (elastic.mean_dilatation) */
     bool momentum_only;    /* transfers momentum only: grid-coupled peridynamic particles, which have no stress */
     const uint8_t *bonded; /* [n] not 0: the material point has bonds; NULL: none has */

@@ -37,13 +37,13 @@ struct family {
     enum influence influence;
     enum bond_energy energy;
     real spacing;         /* lattice spacing [m] */
-    real horizon;         /* delta [m] */
-    real cutoff;          /* distance of the farthest neighbour, with its relative tolerance [m] */
+    real horizon;         /* horizon delta, reach of bonds [m] */
+    real cutoff;          /* largest distance of a neighbour, with a relative tolerance [m] */
     real section;         /* cross-section A (1D) [m^2], thickness (2D) [m], 1 (3D) */
     real cell_volume;     /* volume of a lattice particle: spacing^dim section [m^3] */
-    real full;            /* sum of V_j beta over a full family [m^3] */
-    real weighted;        /* sum of omega beta r^2 over a full family, weights as stored [m^2] */
-    real shell_weight[2]; /* weights of bonds near the axes, near the diagonals (shells: isotropic) [1] */
+    real full;            /* sum of V_j beta over a full family (volume factor beta, all lattice neighbours) [m^3] */
+    real weighted;        /* sum of omega beta r^2 over a full family, with the weights that are stored [m^2] */
+    real shell_weight[2]; /* isotropic shells: factors on bonds near the axes and near the diagonals [1] */
 };
 
 /* Force that a breaking bond exerts in the step in which its stretch exceeds its limit: its force until the moment
@@ -137,25 +137,25 @@ static inline struct state_modulus state_based_moduli_of_material(const struct m
  * pointers are borrowed. */
 struct bond_source {
     struct family family;
-    const struct cells *cells; /* search over reference positions, cell edge >= cutoff */
-    const struct material *material;
+    const struct cells *cells;       /* search over reference positions, cell edge >= cutoff */
+    const struct material *material; /* [materials] */
     int materials;
-    struct bond_limit limit;
-    struct bond_yield yield;
-    const struct state_modulus *modulus; /* state-based models, else NULL */
+    struct bond_limit limit;             /* stretches at which bonds break */
+    struct bond_yield yield;             /* stretches at which bonds yield */
+    const struct state_modulus *modulus; /* [materials] moduli of state-based models; NULL: bond-based model */
     real core; /* stiffness of the repulsive cores (kernels/pd/bond_core.h) divided by that of the bonds [1] */
     bool local, rotates;    /* state-based: weighted volumes are summed over the present bonds, not over a full family;
                                model with particle rotations */
     const int *mirror_axis; /* [loads] axis of a plane of symmetry, -1: clamped plane */
-    const struct crack *given; /* pre-cracks of the scene */
+    const struct crack *given; /* [givens] pre-cracks of the scene */
     int givens;
-    const struct crack *crack; /* parts of the pre-cracks within the body, with their images beyond mirrors */
+    const struct crack *crack; /* [cracks] parts of the pre-cracks within the body, with their images beyond mirrors */
     int cracks;
     const int *crack_of;               /* [cracks] index in `given` */
     const struct voids *voids;         /* voids of bodies, which cut bonds as pre-cracks do; NULL: none */
-    const struct mirror_plane *mirror; /* planes of symmetry, without clamped ones */
+    const struct mirror_plane *mirror; /* [mirrors] planes of symmetry, without clamped planes */
     int mirrors;
-    const struct image *image; /* images made by loads */
+    const struct image *image; /* [n_all - n] origins of the mirror images of particles */
     int room; /* upper bound of the number of neighbours of a particle (bonds_neighbour_count_bound); 0: computed when
                  needed */
     const real *neighbour_volume; /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL: other methods */

@@ -26,7 +26,7 @@ struct notches {
      * them in the body and mirror images; cut: [cuts] cracks that cut bonds along all their length: parts in the body
      * and mirror images */
     struct crack *slit, *cut;
-    real radius; /* radius of the peridynamic zones round the ends of slits [m] */
+    real radius; /* radius of the peridynamic zones around the ends of slits [m] */
     real *lost;  /* [particles] fraction of the neighbours of each particle that slits separate from it [1]; NULL: no
                     slits */
     int64_t faces;

@@ -31,8 +31,8 @@ struct damping_shares {
  * are owned. */
 struct grid {
     int dim;
-    int body;                  /* 1 + the only body whose points are on it; 0: any body */
-    real h;                    /* node distance [m] */
+    int body;                  /* 0: the grid has points of all bodies; else 1 + index of the only body */
+    real h;                    /* distance of neighbouring nodes, edge of a cell [m] */
     real anchor[DIM_MAX];      /* position of node 0 [m] */
     int64_t first[DIM_MAX];    /* lowest node of the box, counted from the anchor */
     int64_t count[DIM_MAX], n; /* nodes per direction; product */
@@ -44,17 +44,17 @@ struct grid {
     real ahead[DIM_MAX]; /* added to the positions of the points where their weights are computed [node distances]:
                           * half a step of common flight in the second map and g2p, else 0 */
     int64_t walls;
-    struct wall *wall;            /* prescribed velocities of this step, in order */
-    struct damping_shares damped; /* in this step, for the work of the walls */
+    struct wall *wall; /* [walls] prescribed velocities of this step; a later entry overrules an earlier entry */
+    struct damping_shares damped; /* effect of damping in this step, for the work of the walls */
     int64_t mirror_nodes;
-    struct mirror_node *mirror_node; /* nodes beyond planes of symmetry, for this box */
+    struct mirror_node *mirror_node; /* [mirror_nodes] nodes of this box beyond planes of symmetry */
     real light_mass;                 /* nodes lighter than this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
-    struct follower *follower; /* [n] followers of this step, ascending */
+    struct follower *follower; /* [n] the first `followers` entries are the light nodes of this step, ascending */
     uint8_t *held; /* [n] not 0: a component is prescribed; valid only in the search for followers and in contact. In
                     * that search bit d for a plane of symmetry with normal d, and HELD if others prescribe it */
     int64_t dashpots;
-    struct dashpot *dashpot;  /* dashpots of absorbing faces in this step, ascending by node */
+    struct dashpot *dashpot;  /* [dashpots] of absorbing faces in this step, ascending by node */
     struct absorbed absorbed; /* their effect in this step */
 };
 

@@ -24,18 +24,18 @@ struct hull_node {
 struct hull {
     int dim;
     int64_t corners, faces;   /* lengths of `corner`, `face` */
-    real (*corner)[DIM_MAX];  /* [m] */
-    int32_t (*face)[DIM_MAX]; /* corners of a face, the first `dim` are used */
+    real (*corner)[DIM_MAX];  /* [corners] positions [m] */
+    int32_t (*face)[DIM_MAX]; /* [faces] indices of the corners of a face, the first `dim` are used */
     int32_t nodes;
-    struct hull_node *node; /* node[0] contains all faces */
-    bool open;              /* has no inside: distances are positive */
+    struct hull_node *node; /* [nodes] of the search tree; node[0] contains all faces */
+    bool open;              /* the surface has no inside: all distances are positive */
     /* findings of hull_make_closed_surface */
     int64_t open_edges;    /* edges of faces that belong to no second face; in 2D: end points */
-    real open_at[DIM_MAX]; /* the middle of one of them [m] */
-    int64_t shells;        /* connected components */
-    int64_t dropped;       /* faces without area, and duplicates */
+    real open_at[DIM_MAX]; /* the middle of one of these edges [m] */
+    int64_t shells;        /* number of connected components of the surface */
+    int64_t dropped;       /* number of faces left out: without area, or duplicates */
     bool reversed;         /* the normals pointed inwards and were reversed */
-    real volume;           /* by the divergence theorem [m^3]; in 2D area [m^2] */
+    real volume;           /* enclosed volume by the divergence theorem [m^3]; in 2D enclosed area [m^2] */
 };
 
 enum { HULL_CORNERS_MAX = INT32_MAX / 4 };

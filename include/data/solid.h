@@ -8,6 +8,7 @@
 #include "data/hull.h"
 #include "data/voxels.h"
 
+/* Kinds of solids; SOLID_KINDS is their number. */
 enum solid_kind {
     SOLID_ALL,
     SOLID_BOX,
@@ -84,21 +85,21 @@ struct solid {
     enum solid_kind kind;
     bool subtract;                   /* subtracted from the union so far */
     bool intersect;                  /* intersected with the union so far */
-    real from[DIM_MAX], to[DIM_MAX]; /* box corners; ends of the axis of a cylinder, tube, cone [m] */
-    real centre[DIM_MAX], radius;    /* ball, ring, torus; radius also of cylinder, tube and cone (at `from`) [m] */
+    real from[DIM_MAX], to[DIM_MAX]; /* corners of a box; ends of the axis of a cylinder, tube or cone [m] */
+    real centre[DIM_MAX], radius;    /* of ball, ring, torus; radius also of cylinder, tube and cone (at `from`) [m] */
     real point[DIM_MAX], normal[DIM_MAX]; /* half-space: (X - point) . normal <= 0; normal: also axis of a torus */
     real radii[DIM_MAX];                  /* ellipsoid: half axes along x, y, z [m] */
-    real inner;           /* inner radius of a tube or ring; radius of a cone at `to`; radius of a torus' section [m] */
-    int axis;             /* extrusion: its axis */
-    real begin, end;      /* extrusion: from .. to along the axis [m] */
-    struct region region; /* section of an extrusion (in the other two axes, in order), or solids of a group */
-    struct polygon *polygon;         /* owned */
-    const struct hull *hull;         /* borrowed from the scene; an open hull: points within `radius` of it */
-    const struct voxel_part *voxels; /* borrowed from the scene */
-    int motions, images;             /* images 0: one copy, placed as described */
-    struct solid_motion *motion;     /* [motions] */
-    struct placement *image;         /* [images] */
-    struct box_tree tree;            /* over the boxes of the copies */
+    real inner; /* inner radius of a tube or ring; radius of a cone at `to`; radius of the section of a torus [m] */
+    int axis;   /* extrusion: axis along which the section is extruded */
+    real begin, end;         /* extrusion: lower and upper coordinate along the axis [m] */
+    struct region region;    /* section of an extrusion (in the other two axes, in order), or solids of a group */
+    struct polygon *polygon; /* polygon: its corners; owned */
+    const struct hull *hull; /* surface of a file: its triangles; borrowed. Open: all points within `radius` */
+    const struct voxel_part *voxels; /* image: range of grey values; borrowed from the scene */
+    int motions, images;             /* numbers; images 0: one copy, where the members above place it */
+    struct solid_motion *motion;     /* [motions] rules for copies, as given in the scene; owned */
+    struct placement *image;         /* [images] position and orientation of each copy; owned */
+    struct box_tree tree;            /* search tree over the bounding boxes of the copies */
 };
 
 /* Returns true if the solid s is of the kind `kind` and has not been moved or copied, so that its members (from, to,

@@ -22,14 +22,14 @@ static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis 
 /* The order in which material points on the grid are processed: by colour, block (a box of grid cells) and cell, where
  * blocks of one colour share no node and may be processed in parallel. All arrays are owned. */
 struct transfer_order {
-    int64_t n, room;                /* particles on the grid; capacity */
-    int32_t *particle;              /* sorted by colour, then block, then cell, then index */
+    int64_t n, room;                /* number of particles on the grid; capacity of `particle` */
+    int32_t *particle;              /* [n] indices, sorted by colour, then block, then cell, then index */
     int blocks_of[COLOURS_MAX + 1]; /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1 */
-    int blocks, blocks_room;
-    int32_t *block_start;      /* particles of block b: block_start[b] .. block_start[b+1]-1 */
-    int32_t cells, cells_room; /* cells with particles; capacity */
-    int32_t *cell_start;       /* particles of cell c: cell_start[c] .. cell_start[c+1]-1 */
-    int32_t *block_cell;       /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
+    int blocks, blocks_room;        /* number of blocks with particles; capacity of their arrays */
+    int32_t *block_start;           /* entries of `particle` in block b: block_start[b] .. block_start[b+1]-1 */
+    int32_t cells, cells_room;      /* number of cells with particles; capacity of cell_start */
+    int32_t *cell_start;            /* entries of `particle` in cell c: cell_start[c] .. cell_start[c+1]-1 */
+    int32_t *block_cell;            /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
 /* Sorts the particles of p listed in point_list[point_count] by the cell of grid g that contains their position, the

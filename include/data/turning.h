@@ -17,6 +17,7 @@
 
 #include "particles.h"
 
+/* Edge of a group [points]; number of points below which a group joins a neighbour; largest number of neighbours. */
 enum { TURNING_EDGE = 6, TURNING_FEW = 12, TURNING_NEAR = 26 };
 
 /* Particles of one rotation group (neighbours that rotate together) that are consecutive in memory: indices first ..
@@ -25,26 +26,28 @@ struct turning_run {
     int32_t first, n;
 };
 
-/* One group of neighbouring particles that rotate together. Sums are over its material points on the grid. The root of
- * a group is the group that it has joined, or itself. */
+/* One group of neighbouring particles that rotate together. Sums are over its material points on the grid. A small
+ * group has joined another group, its root; other groups are their own root. */
 struct turning_group {
-    int64_t place[DIM_MAX];     /* position of the group [group edges] */
-    int32_t body, points;       /* body; points on the grid now */
-    int32_t off;                /* distance from the middle, summed over the axes [half edges] */
-    int64_t first, end;         /* its particles: run[first] .. run[end - 1] */
-    int32_t near[TURNING_NEAR]; /* neighbours in its body, first along axes; -1: none */
-    int32_t root;               /* the group that it has joined, itself if none */
-    bool held;                  /* a support acts on points of its body, which then moves as in plain FLIP */
-    real mass;                  /* [kg] */
-    real about[DIM_MAX];        /* position for its moments [m] */
-    real first_moment[DIM_MAX], second_moment[DIM_MAX][DIM_MAX]; /* of mass, about it [kg m], lower half [kg m^2] */
-    real momentum[DIM_MAX];                                      /* [kg m/s] */
-    real joined, moment[DIM_MAX]; /* of a root: mass and centre of mass of all its groups [kg] [m] */
-    real inertia[3][3];           /* about the centre of its root, lower half; of a root: of all its groups [kg m^2] */
-    real added;                   /* of a root: share of its inertia that keeps thin groups regular [kg m^2] */
+    int64_t place[DIM_MAX];     /* position of the group in the lattice of groups of its body [group edges] */
+    int32_t body, points;       /* index of the body; number of points on the grid now */
+    int32_t off;                /* distance from the middle of the body, summed over the axes [half edges] */
+    int64_t first, end;         /* particles of the group: run[first] .. run[end - 1] of struct rotation_groups */
+    int32_t near[TURNING_NEAR]; /* indices of neighbouring groups of the body, first those along an axis; -1: none */
+    int32_t root;               /* index of the group that it has joined; its own index if none */
+    bool held;                  /* a support acts on points of the body, which then moves as in plain FLIP */
+    real mass;                  /* mass of its points [kg] */
+    real about[DIM_MAX];        /* position about which the moments of mass are computed [m] */
+    real first_moment[DIM_MAX], second_moment[DIM_MAX][DIM_MAX]; /* moments of mass about `about`: [kg m]; lower
+                                                                    triangle [kg m^2] */
+    real momentum[DIM_MAX];                                      /* momentum of its points [kg m/s] */
+    real joined, moment[DIM_MAX]; /* of a root: mass of all its groups [kg]; their centre of mass [m] */
+    real inertia[3][3];           /* lower triangle of the inertia about the centre of mass of the root; of a root: sum
+                                     over all its groups [kg m^2] */
+    real added;                   /* of a root: inertia that is added so that thin groups are not singular [kg m^2] */
     real sum[3];                  /* angular momentum, then the lack of its points [kg m^2/s] */
-    real angular[3];              /* angular momentum about the centre of its root before the lack is added */
-    real gain[3], spin[3];        /* of a root: gain of spin by the lack of its points, spin [1/s] */
+    real angular[3];       /* angular momentum about the centre of the root before the lack is added [kg m^2/s] */
+    real gain[3], spin[3]; /* of a root: change of the spin by the lack of its points; spin [1/s] */
 };
 
 /* All groups of particles that rotate together. All arrays are owned. */

@@ -62,18 +62,18 @@ struct fading {
  * owned. */
 struct growing_crack {
     const struct growth_rule *rule; /* kept by reference */
-    /* present reference position of the tip [m]; direction in whose frame factors are computed (unit vector); speed in
-     * the last step, 0 at rest [m/s] */
+    /* present reference position of the tip [m]; unit vector: x axis of the frame in which stress-intensity factors are
+     * computed; speed in the last step, 0 at rest [m/s] */
     real place[2], along[2], speed;
     /* unit vector of the present direction of growth; `along` is its mean over the smoothing length */
     real heading[2];
     real grown;                        /* length of growth so far [m] */
     real start_time;                   /* time of the first growth [s]; NAN: none so far */
-    real intensity;                    /* K_eq of the last factors [Pa m^(1/2)]; NAN: unknown */
-    real target_speed, filtered_speed; /* toughness-driven cracks: speed v; v_filtered [m/s] */
-    real control_time;                 /* time of the last factors that changed the speed [s] */
+    real intensity;                    /* K_eq at the last sample [Pa m^(1/2)]; NAN: unknown */
+    real target_speed, filtered_speed; /* toughness-driven cracks: speed of the tip; its filtered value [m/s] */
+    real control_time;                 /* time of the last sample that changed the speed [s] */
     int64_t n;
-    struct fading *fading;
+    struct fading *fading; /* [n] bonds that the crack has crossed and whose weight decreases */
 };
 
 /* Initialises the growing crack g at its start position, without growth. rule: start, direction, speed or toughness of

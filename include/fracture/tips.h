@@ -23,6 +23,7 @@
 /* Damage (share of broken bonds, 0 to 1) above which a particle counts as part of a crack; TIPS_MAX: largest number of
  * tips. */
 #define TIP_DAMAGE 0.35
+/* Largest number of tips that are tracked. */
 enum { TIPS_MAX = 64 };
 
 /* A crack tip that is tracked from sample to sample: where it started, present position, growth and speed. body: number
@@ -36,14 +37,14 @@ struct crack_tip {
     real place[DIM_MAX];  /* present reference position [m] */
     real growth;          /* distance from the start, 3D: from the edge of the front [m] */
     real joined;     /* part of the growth that came from joining another crack, and does not count for the speed [m] */
-    real first_time; /* time of the first particle above 0.35 [s]; NAN: none so far */
+    real first_time; /* time at which the damage of a particle first exceeded 0.35 [s]; NAN: not yet */
     /* time when growth exceeded one spacing; time of the last growth [s]; NAN: none so far */
     real start_time, arrest_time;
     /* largest regression slope of the growth over the time `window`; growth divided by (arrest_time - start_time)
      * [m/s] */
     real speed_max, speed_mean;
     int64_t particles; /* number of particles of the crack */
-    int64_t ends;      /* separate groups of particles that are equally far within a spacing */
+    int64_t ends;      /* number of separate groups of particles that are as far as the tip, within a spacing */
 };
 
 /* All crack tips of a run, tip[n], in dim dimensions; the crack to which each particle belongs; and the growth recorded

@@ -17,10 +17,10 @@ struct exodus_file {
     int64_t length;
     int64_t hdf5; /* handle of HDF5; negative: a classic file */
     int64_t dimensions, arrays;
-    struct exodus_dimension *dimension; /* [dimensions], [arrays]: of a classic file */
-    struct exodus_array *array;
-    int dim; /* number of coordinates of a node, 1 to 3 */
-    int64_t nodes, blocks, node_sets, side_sets, element_sets;
+    struct exodus_dimension *dimension;                        /* classic file: [dimensions]; owned */
+    struct exodus_array *array;                                /* classic file: [arrays]; owned */
+    int dim;                                                   /* number of coordinates of a node, 1 to 3 */
+    int64_t nodes, blocks, node_sets, side_sets, element_sets; /* numbers of each in the file */
 };
 
 /* Opens in f an Exodus II file that has been read into memory. path: name of the file, for messages; content[length]:

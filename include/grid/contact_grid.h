@@ -40,11 +40,11 @@ struct grid_contact {
     real smallest_mass; /* of a node in contact, of either body [kg] */
     int64_t nodes;
     struct grid_contact_node *node; /* [nodes] of the present step */
-    real begun;                     /* sum of impulse . relative velocity before the step, divided by 2 [J] */
+    real begun; /* sum over the nodes of impulse . relative velocity before the step, divided by 2 [J] */
     int sides;
     real *dissipated;             /* [sides^2] energy that contact of two bodies has dissipated so far [J] */
-    int64_t touching, nodes_most; /* nodes in contact: in the last step, most so far */
-    real began, ended;            /* first and last time of contact, NAN: none so far [s] */
+    int64_t touching, nodes_most; /* number of nodes in contact in the last step; largest such number so far */
+    real began, ended;            /* first and last time of contact [s]; NAN: none so far */
 };
 
 /* Allocates c->dissipated, the energy dissipated by contact for each pair of bodies, all 0. body_count: number of

@@ -318,8 +318,7 @@ void loads_shares_free(struct loads *l);
  * of the velocity update [s], to l->impulse. Part of loads_apply_to_particle_forces. */
 void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
-/* Adds the work of the applied forces in the step of size dt about t [s] to l->work [J]. Part of
- * loads_impose_prescribed_motion. */
+/* Adds the work of applied forces in the step of size dt about t [s] to l->work [J], after the particles have moved. */
 void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */

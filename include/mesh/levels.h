@@ -62,17 +62,17 @@ struct mesh_levels {
     int n;                                   /* number of coarse levels, at[1] .. at[n]; 0: none */
     struct mesh *fine;                       /* level 0; kept by reference */
     int64_t offset[LEVELS_MAX + 1][DIM_MAX]; /* index of the node of each level at the lower corner of the body */
-    uint8_t *level;                          /* [fine->grid.n] level of the cell that each cell of level 0 is part of */
+    uint8_t *level;                          /* [fine->grid.n] level of the cell that contains each cell of level 0 */
     uint8_t *calm;   /* [fine->grid.n] number of consecutive checks in which a coarser cell was admissible */
     uint8_t *wanted; /* [fine->grid.n] enum levels_wanted: why cells around must be of level 0 at the next change */
     uint8_t *safe;   /* [fine->grid.n] enum levels_distance of cells of level 0 */
-    bool any_wanted;
+    bool any_wanted; /* an entry of `wanted` is set */
     bool returned; /* true: points whose conversion was postponed have been marked for conversion again in this step */
-    real wave_speed; /* [m/s] */
+    real wave_speed; /* largest longitudinal wave speed of the materials [m/s] */
     /* distances of converting points from coarse cells, in cells of level 0 (levels_set_conversion_distances) */
     int safe_cells, roomy_cells;
-    int64_t changes; /* changes of levels since the start */
-    struct mesh_level at[LEVELS_MAX + 1];
+    int64_t changes;                      /* number of changes of the levels since the start */
+    struct mesh_level at[LEVELS_MAX + 1]; /* meshes of the coarse levels: at[1] .. at[n] */
 };
 
 /* Whether, and why, a cell requires that the cells around it become cells of level 0 (the finest) at the next change of

@@ -15,18 +15,18 @@
 
 /* Data from which the cells of a mesh are made, apart from the particles. */
 struct mesh_source {
-    const struct elastic *elastic; /* [materials] constants of the cells */
-    const struct elastic
-        *isotropic; /* [materials] elastic constants from which the stiffness of partial stresses is computed */
+    const struct elastic *elastic; /* [materials] elastic constants of the cells */
+    /* [materials] elastic constants from which the stiffness of partial stresses is computed */
+    const struct elastic *isotropic;
     int materials;
     const struct partial_stress *partial; /* partial stresses of the points; NULL: none */
     bool still;                           /* true: the caller sets the motion of the nodes */
-    const struct cells_without_particles
-        *hollow;              /* cells whose particles are not made; kept by reference, NULL: none */
-    const struct crack *slit; /* [slits] free surfaces between cells; kept by reference */
+    /* cells whose particles are not created; kept by reference, NULL: none */
+    const struct cells_without_particles *hollow;
+    const struct crack *slit; /* [slits] pre-cracks that are free surfaces between cells; kept by reference */
     int slits;
     const struct voids *voids;         /* voids of the bodies, also free surfaces; kept by reference, NULL: none */
-    const struct mirror_plane *mirror; /* [mirrors] kept by reference */
+    const struct mirror_plane *mirror; /* [mirrors] planes of symmetry; kept by reference */
     int mirrors;
 };
 

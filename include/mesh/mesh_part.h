@@ -27,29 +27,31 @@ struct coarse_cell_points {
     real *gradient[DIM_MAX * DIM_MAX]; /* gradient of the displacement, if a frame contains strains [1] */
 };
 
-/* Bodies in the reference frame: a mesh of cells fixed to the material. */
+/* The part of a run that moves bodies in the reference frame: a mesh of cells fixed to the material, and coarse cells.
+ * Arrays are owned. */
 struct reference_frame {
     int bodies;
-    struct frame_choice *choice; /* [bodies] */
+    struct frame_choice *choice; /* [bodies] frame of each body, and why it was chosen */
     real spacing;                /* of particles [m] */
-    bool finite;                 /* strains are finite, else small */
+    bool finite;                 /* true: finite strains; false: small strains */
     bool converts;               /* points with a large stress become peridynamic (method adaptive) */
     bool active_set;             /* nodes still at rest are skipped */
     bool room_limits;            /* the scene leaves the levels to the program, so that `room` limits them */
-    struct mesh mesh;
-    struct mesh_source source;
-    struct elastic *elastic;   /* [materials] constants of the cells */
-    struct mesh_levels levels; /* coarse cells */
-    uint8_t *room;             /* [mesh.grid.n] largest level by the thickness of the body; NULL: not computed */
-    int room_most;             /* largest value of `room` */
-    struct cells_without_particles hollow; /* cells whose particles are not made */
-    bool lacks; /* true: particles that are needed at the start were not made, and the run must be set up again */
-    struct elastic *coarse; /* [materials] constants of coarse cells, with a smaller conversion stress */
+    struct mesh mesh;            /* the finest cells, which have the material points */
+    struct mesh_source source;   /* data from which `mesh` is made */
+    struct elastic *elastic;     /* [materials] elastic constants of the cells */
+    struct mesh_levels levels;   /* coarse cells */
+    uint8_t
+        *room; /* [mesh.grid.n] largest coarsening level that the thickness of the body allows; NULL: not computed */
+    int room_most;                         /* largest value of `room` */
+    struct cells_without_particles hollow; /* cells whose particles are not created */
+    bool lacks; /* true: particles that are needed at the start were not created, and the run must be set up again */
+    struct elastic *coarse; /* [materials] elastic constants of coarse cells, with a smaller conversion stress */
     int rings;
-    /* [scene->probes] discs in which cells stay the smallest at present; the first `rings` */
+    /* [rings of scene->probes] discs around crack tips in which cells are the finest at present */
     struct frame_ring *ring;
-    struct coarse_cell_points shown;
-    real speed; /* largest component of a nodal velocity [m/s] */
+    struct coarse_cell_points shown; /* material points in coarse cells, computed for frames */
+    real speed;                      /* largest component of a nodal velocity [m/s] */
 };
 
 /* Adds a warning to *warning_list for each plane of symmetry of run e that is neither on nodes of the grid or mesh nor

@@ -63,15 +63,15 @@ struct output {
     bool has_other_scene;    /* output_open has refused, with a message that begins with the key that differs */
     int n_series;            /* number of regions with frames: series[1 .. n_series]; series[0] is the whole body */
     struct frame_series series[1 + SERIES_MOST];
-    bool compress;
-    FILE *history;
-    int64_t history_bytes; /* length of history.csv at the last sample [byte] */
-    uint64_t history_hash; /* hash of these bytes (FNV-1a) */
-    int columns;
+    bool compress;             /* frames are compressed with gzip */
+    FILE *history;             /* history.csv, open for writing */
+    int64_t history_bytes;     /* length of history.csv at the last sample [byte] */
+    uint64_t history_hash;     /* hash of these bytes (FNV-1a) */
+    int columns;               /* number of columns of history.csv */
     bool broken;               /* HDF5 failed to write and must not be called again */
     struct frame_job *writing; /* frame that the writing thread is writing; NULL if none */
     char *frame_copy;          /* rows of the fields of `writing`; kept for the next frame to avoid new page faults */
-    int64_t frame_copy_bytes;
+    int64_t frame_copy_bytes;  /* size of frame_copy [byte] */
 };
 
 /* Configures HDF5 and signals: no exit handler of HDF5, no error messages of HDF5 on the terminal. SIGXFSZ and SIGPIPE
@@ -158,7 +158,8 @@ struct frame_state {
                                         * doubles the edge of the cell; 0: finest cell, or none */
 };
 
-/* Quantities in frames besides the particles' own arrays, each [n]. NULL: the frames of this run do not have them. */
+/* Quantities in frames besides the arrays of the particles. Arrays have an entry for each particle and are borrowed;
+ * NULL: the frames of this run do not have the quantity. */
 struct frame_extra {
     real *const *push;               /* [dim] contact force [N] */
     const int32_t *fragment;         /* index of the fragment, 0 for the heaviest; -1: none */
@@ -167,9 +168,9 @@ struct frame_extra {
     const real *more_spacing;        /* [more->n] spacing of the material points of coarse cells [m] */
     unsigned asked;                  /* bit set of the requested fields: ASK_STRAIN and so on */
     const struct material *material; /* materials of the particles, borrowed; needed for strain and density */
-    const int *material_number;      /* of each material in the scene file, borrowed; NULL: its index */
+    const int *material_number; /* [materials] number of each material in the scene file, borrowed; NULL: its index */
     enum space space;
-    struct frame_state state, more_state;
+    struct frame_state state, more_state; /* quantities computed for frames: of the particles, of `more` */
 };
 
 /* Writes the next frame of the whole body at time t [s] after `step` time steps: the file frames/NNNNNN.hdf, then the
@@ -217,18 +218,18 @@ status output_write_history(struct output *o, const real *value);
 
 /* Fields read from a frame, in the order of ascending id. Every array has n entries and belongs to the frame. */
 struct output_frame {
-    int64_t n;
+    int64_t n; /* number of particles */
     int dim;
-    real t; /* time [s] */
-    int64_t step;
+    real t;           /* time [s] */
+    int64_t step;     /* number of the time step or load step */
     real *X[DIM_MAX]; /* reference position [m]; in double precision for bodies far from the origin */
     /* displacement [m], velocity [m/s], damage [1] */
     float *u[DIM_MAX], *v[DIM_MAX], *damage;
-    float *stress[SYM_MAX]; /* stress [Pa], component order of struct particles; in 2D zz is last */
-    uint8_t *kind, *material, *body;
-    int32_t *id;
-    int32_t *fragment; /* index of the fragment; NULL if the frames of this run do not have it */
-    float *spacing;    /* particle spacing [m]; NULL if all particles have the same */
+    float *stress[SYM_MAX];          /* stress [Pa], component order of struct particles; in 2D zz is last */
+    uint8_t *kind, *material, *body; /* enum kind; index of the material, of the body */
+    int32_t *id;                     /* index in the order in which the scene made the particles */
+    int32_t *fragment;               /* index of the fragment; NULL if the frames of this run do not have it */
+    float *spacing;                  /* particle spacing [m]; NULL if all particles have the same */
 };
 
 /* Returns the number of stress components stored in a frame of dimension `dim`: 1 in 1D, 4 in 2D (zz included), 6 in

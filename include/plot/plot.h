@@ -64,20 +64,20 @@ struct plot_request {
     const char *pictures;    /* folder of the standard pictures; set by run_draw_standard_pictures */
     int panels;              /* number of frames to show, evenly spread; 0: a default, or all frames of a film */
     bool every;              /* show all frames; standard pictures: one file per frame */
-    int times;               /* number of entries of `time` */
-    double time[PANELS_MAX]; /* show the frames nearest to these times instead [s]; INFINITY: the last frame */
-    bool bare[PANELS_MAX];   /* the time is a whole number without unit: in load steps the number of a step */
+    int times;               /* number of entries of `time`; 0: no times were requested */
+    double time[PANELS_MAX]; /* [times] show the frames nearest to these times instead [s]; INFINITY: the last frame */
+    bool bare[PANELS_MAX];   /* [times] the time was given without unit: in load steps it is the number of a step */
     const char *field;       /* name of the field; NULL: draw the standard pictures */
-    struct projection projection;
-    enum picture_format format;
-    const char *out;         /* output file, or folder of standard pictures; NULL: DIR/pictures */
-    bool overwrite;          /* replace `out` even if Cleave did not draw it */
-    const char *title;       /* title in place of the usual one; NULL: the usual one */
-    const char *range[2];    /* ends of the colours as texts of numbers with units; NULL: by the values */
+    struct projection projection; /* slice or view of a 3D body, and magnification of displacements */
+    enum picture_format format;   /* file format of the pictures */
+    const char *out;              /* output file, or folder of standard pictures; NULL: DIR/pictures */
+    bool overwrite;               /* replace `out` even if Cleave did not draw it */
+    const char *title;            /* title in place of the usual one; NULL: the usual one */
+    const char *range[2];    /* lowest and highest value of the colour scale, as text with unit; NULL: by the values */
     bool cropped;            /* `crop` is set */
     double crop[2][2];       /* lower and upper end of the picture along its two axes [m] */
     enum colour_table table; /* colours of fields */
-    int fps;                 /* frames of a film per second */
+    int fps;                 /* frames per second of a film */
     bool quiet;              /* pictures of scenes: do not print what was drawn */
 };
 
@@ -221,36 +221,36 @@ struct rigid_shown {
 };
 
 /* Particles of one frame that are drawn: all particles in 2D; in 3D a slice, or all in an outside view. Arrays are
- * [n]. */
+ * owned and have n entries unless noted. */
 struct plotted_particles {
-    int64_t n;
+    int64_t n;                 /* number of particles that are drawn */
     double *position[DIM_MAX]; /* current position along the axes of the map [m]; position[2], towards the viewer, is
                                 * NULL for a flat map */
     double *reference[2];      /* reference position along the axes of the map [m]; NULL: unknown */
-    float *damage;             /* [1] */
-    uint8_t *kind;
-    int32_t *fragment;     /* NULL: unknown */
-    int32_t fragments;     /* fragments of all particles of the frame: largest index + 1 */
-    float *value;          /* values of the field in SI units; NULL: none */
-    struct colour *colour; /* colour of each particle for every map; NULL: determined by the map */
-    int axis[2], normal;   /* axes of the map, 0 .. 2 for x y z; normal of the slice, -1: no slice */
-    struct camera camera;  /* directions of an outside view */
-    double layer;          /* coordinate of the slice along its normal [m] */
-    double t;              /* time [s] */
-    bool in_steps;         /* the frame is that of a load step */
-    bool equilibrium;      /* the run computes one equilibrium: its time is that of the loads */
-    int64_t step;          /* number of the time step or load step */
-    double spacing;        /* spacing of the particles [m] */
-    double magnify;        /* factor on the displacements in `position` and `gradient` */
-    double tall;           /* half height of a particle of a 1D bar [m]; 0: particles are as high as wide */
-    float *size;           /* size of the particles and of the material points of coarse cells [m]; NULL: spacing
-                            * everywhere */
-    bool aligned;          /* nearest neighbours lie along the axes at reference positions */
+    float *damage;             /* share of broken bonds [1] */
+    uint8_t *kind;             /* enum kind: material point or peridynamic */
+    int32_t *fragment;         /* index of the fragment of each particle; NULL: unknown */
+    int32_t fragments;         /* number of fragments of all particles of the frame */
+    float *value;              /* values of the field in SI units; NULL: none */
+    struct colour *colour;     /* colour of each particle for every map; NULL: determined by the map */
+    int axis[2], normal;       /* axes of the map, 0 .. 2 for x y z; normal of the slice, -1: no slice */
+    struct camera camera;      /* directions of an outside view */
+    double layer;              /* coordinate of the slice along its normal [m] */
+    double t;                  /* time [s] */
+    bool in_steps;             /* the frame is that of a load step */
+    bool equilibrium;          /* the run computes one static equilibrium, for the loads at the time t */
+    int64_t step;              /* number of the time step or load step */
+    double spacing;            /* spacing of the particles [m] */
+    double magnify;            /* factor on the displacements in `position` and `gradient` */
+    double tall;               /* half height of a particle of a 1D bar [m]; 0: particles are as high as wide */
+    float *size;               /* size of the particles and of the material points of coarse cells [m]; NULL: spacing
+                                * everywhere */
+    bool aligned;              /* nearest neighbours lie along the axes at reference positions */
     float *gradient;       /* [n][9] deformation gradient F of each particle, rows along x, y, z [1]; NULL: no visible
                             * deformation */
     double from[2], to[2]; /* bounding box of the reference positions [m] */
-    int dim, rigids;       /* of the rigid bodies: dimension, number */
-    struct rigid_shown *rigid; /* [rigids] */
+    int dim, rigids;       /* dimension of the rigid bodies; their number */
+    struct rigid_shown *rigid; /* [rigids] rigid bodies at this time */
 };
 
 /* Copies those particles of the frame f that a picture shows into *c: in 2D all, in 3D those selected by `projection`,
@@ -334,17 +334,17 @@ void categories_list_named_values(struct categories *k, const struct plot_field 
  * value, which is the index of the body or material. */
 struct colour category_colour(const struct plot_field *field, float category_value);
 
-/* View of a map: the rectangle of the body, the range of the colours, and further options. */
+/* View of a map: the rectangle of the body that is shown, the range of the colours, and further options. */
 struct view {
-    double from[2], to[2];               /* lower left and upper right corner [m] */
-    double bottom, top;                  /* damage at the ends of the colour scale */
-    const struct plot_field *field;      /* field of MAP_FIELD */
-    double low, high;                    /* values of the field at the ends of the colour scale */
-    int64_t beyond[2];                   /* largest number of particles of a frame below low, above high */
+    double from[2], to[2];               /* lower left and upper right corner of the rectangle [m] */
+    double bottom, top;                  /* damage at both ends of the colour scale [1] */
+    const struct plot_field *field;      /* field that MAP_FIELD shows; borrowed */
+    double low, high;                    /* values of the field at both ends of the colour scale [its unit] */
+    int64_t beyond[2];                   /* largest number of particles of a frame below `low`, above `high` */
     enum colour_table table;             /* colours of damage, cracks and MAP_FIELD */
     const struct categories *categories; /* named values of MAP_CATEGORY; borrowed */
     int64_t outside;                     /* largest number of particles of a frame outside the rectangle */
-    int notches;
+    int notches;                         /* number of pre-cracks that are drawn */
     const struct crack *
         notch; /* [notches] pre-cracks of a plane scene, whose faces are lines in maps of damage and fields; borrowed */
 };

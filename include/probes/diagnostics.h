@@ -26,19 +26,19 @@ struct energy_balance {
 
 /* Balances of a run, the values from which their errors are computed, and the first bonds broken. */
 struct diagnostics {
-    struct energy_balance now;
+    struct energy_balance now;       /* energies at the last sample */
     real energy_start, energy_scale; /* energy minus work at the start; largest energy or work so far [J] */
-    real mass;                       /* of all particles, which the caller sets; 0: unknown [kg] */
+    real mass;                       /* mass of all particles, set by the caller; 0: unknown [kg] */
     real internal_scale;             /* largest energy so far without that of the common motion of all particles [J] */
     real momentum_start[DIM_MAX], momentum_scale; /* momentum at the start; largest sum |m v| so far [kg m/s] */
     real spin_start[DIM_MAX], spin_scale; /* angular momentum at the start; largest sum |L_body| so far [kg m^2/s] */
     bool turns;                           /* spin_start is set, which requires free bodies */
-    bool started;
+    bool started;                         /* the values at the start are set */
     real break_time; /* time of the first bond broken by load, except bonds of driven particles; NAN if none [s] */
     real break_position[DIM_MAX]; /* reference position of a cut of that step (fracture/places.h) [m] */
     int64_t break_ends;           /* number of separate cuts in that step */
     real driven_time;             /* time of the first bond of a driven particle broken by load; NAN if none [s] */
-    int64_t bonds_broken;         /* directed bonds broken by load */
+    int64_t bonds_broken;         /* number of directed bonds broken by load so far */
 };
 
 /* Initialises the diagnostics *w before the first time step: sums are 0; times and positions of breaks are NAN, since

@@ -21,13 +21,13 @@
 struct exact {
     enum exact_form form;
     real left, right;                    /* ends of the bar [m] */
-    real young, tangent, yield, density; /* E, E_t, sigma_y [Pa]; rho [kg/m^3] */
+    real young, tangent, yield, density; /* Young's modulus, tangent modulus, yield stress [Pa]; density [kg/m^3] */
     int reflection[2];                   /* factor of stress at the left and right end: +1 fixed, -1 free */
     int loaded;                          /* STEP, PLASTIC: the loaded end, -1 left, +1 right */
-    real load;                           /* STEP, PLASTIC: F [Pa] */
-    const struct wave_pulse *pulse;      /* PULSE: [pulses] kept by reference */
+    real load;                           /* STEP, PLASTIC: traction F on the loaded end from t = 0 on [Pa] */
+    const struct wave_pulse *pulse;      /* PULSE: [pulses] initial wave packets, kept by reference */
     int pulses;
-    real amplitude, period, wavelength, origin; /* MANUFACTURED: U [m], T [s], lambda [m], [m] */
+    real amplitude, period, wavelength, origin; /* MANUFACTURED: U [m], T [s], lambda [m], position of phase 0 [m] */
 };
 
 /* Values of a closed-form solution at one position and time. */

@@ -42,15 +42,15 @@ struct observed_run {
     const struct particles *part;
     const struct cells *cells; /* search over reference positions */
     const struct bonds *bonds;
-    const struct kernels *kernels; /* for ENERGY */
-    const struct loads *loads;
-    const struct grid *grid;
-    const struct crack_tips *tips;
-    const struct material *material;
-    const struct partial_stress *partial;
-    real spacing;        /* of particles [m] */
-    real thickness;      /* section of a bar [m^2], thickness in the plane [m], 1 in space */
-    real strain_stress;  /* for PATCH: largest |component| of the initial stress [Pa] */
+    const struct kernels *kernels;        /* for ENERGY: loops over bonds */
+    const struct loads *loads;            /* boundary conditions, with reactions */
+    const struct grid *grid;              /* background grid of the current frame */
+    const struct crack_tips *tips;        /* for TIP: tracked crack tips */
+    const struct material *material;      /* materials of the scene, indexed by particles.material */
+    const struct partial_stress *partial; /* share of their stress that material points leave to bonds */
+    real spacing;                         /* distance of lattice particles [m] */
+    real thickness;                       /* cross-section in 1D [m^2], thickness in 2D [m], 1 in 3D */
+    real strain_stress;                   /* for PATCH: largest |component| of the initial stress [Pa] */
     real residual_step0; /* for PATCH: largest force on a node or peridynamic particle in the first step [N] */
     real t;              /* time of positions [s] */
     bool in_steps;       /* the run makes load steps, whose applied forces are known with their reactions */
@@ -62,8 +62,8 @@ struct observed_run {
     real t_velocity;                 /* time of velocities: half a step before t [s] */
     const struct wave_pulse *pulse;  /* [pulses] for EXACT: initial pulses */
     int pulses;
-    enum space space;          /* for SIF */
-    real horizon;              /* for SIF [m] */
+    enum space space;          /* for SIF: dimension and plane state */
+    real horizon;              /* for SIF: reach of bonds [m] */
     const struct crack *crack; /* for SIF: [cracks] pre-cracks */
     int cracks;
 };

@@ -9,18 +9,19 @@
 #include "base/archive.h"
 #include "data/region.h"
 
+/* How a rigid body moves: not at all, with a prescribed velocity, or by forces and its inertia. */
 enum rigid_motion { RIGID_FIXED, RIGID_DRIVEN, RIGID_FREE };
 
 /* A rigid body: its shape, how it moves, and its present motion and forces. Members marked FREE or DRIVEN have a
  * meaning for this kind of motion only. */
 struct rigid_body {
     char name[NAME_MAX_LENGTH];
-    const struct region *shape; /* of t = 0; kept by reference */
+    const struct region *shape; /* region that the body fills at t = 0; kept by reference */
     int dim;
     enum rigid_motion motion;
     bool turns;                /* FREE: may rotate */
     real speed[DIM_MAX], ramp; /* DRIVEN: velocity from t = `ramp` on [m/s]; before, it grows in proportion to t [s] */
-    real mass;                 /* FREE [kg] */
+    real mass;                 /* FREE: mass [kg] */
     /* FREE: tensor of inertia about the centre, at t = 0; in the plane only zz counts [kg m^2] */
     real inertia[DIM_MAX][DIM_MAX];
     real weight[DIM_MAX]; /* FREE: constant force at the centre [N] */

@@ -5,6 +5,7 @@
 #include "data/voxels.h"
 #include "geometry/geometry.h"
 
+/* Contents of a file of solids: a closed surface, a mesh of finite elements, a stack of images with grey values. */
 enum shape_kind { SHAPE_STL, SHAPE_MESH, SHAPE_IMAGE };
 
 /* A file, or a stack of image files, from which solids are read, with its contents; an item of a linked list. */
@@ -16,7 +17,7 @@ struct shape_file {
     char **path;                       /* [files] paths; slices of an image in ascending z */
     uint64_t contents;                 /* hash of the contents of all files */
     real scale;                        /* length unit of the coordinates in the file [m] */
-    real size[DIM_MAX], from[DIM_MAX]; /* edges of a voxel; lower corner of an image [m] */
+    real size[DIM_MAX], from[DIM_MAX]; /* IMAGE: edges of a voxel; lower corner of the image [m] */
     struct geometry geometry;          /* STL and MESH: surface or mesh */
     struct voxels voxels;              /* IMAGE: grey values */
     int parts;

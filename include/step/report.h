@@ -16,10 +16,10 @@ struct sampling {
     struct energy energy;  /* at the positions of t_n; the kinetic energy is set last */
     real rigid;            /* kinetic energy of rigid bodies at the start of the step [J] */
     real rigid_work;       /* work of rigid bodies up to t_n [J] */
-    int64_t pd,
-        bonds; /* numbers at t_n of peridynamic particles, and of bonds, each counted once for each of its particles */
+    /* numbers at t_n of peridynamic particles, and of bonds, each counted once for each of its particles */
+    int64_t pd, bonds;
     real t_velocity;        /* time of the velocities at the start of the step [s] */
-    real momentum[DIM_MAX]; /* at the start of the step [kg m/s] */
+    real momentum[DIM_MAX]; /* momentum of all particles at the start of the step [kg m/s] */
 };
 
 /* Half-width of the 95 % interval, in the unit of the figure, of a figure (number in summary.json), from a convergence
@@ -37,21 +37,21 @@ struct run_seconds {
     double loop;  /* of the steps, without files */
 };
 
-/* State of the reports of a run. */
+/* State of the reports of a run: samples, progress lines, checkpoints and the times that the summary states. */
 struct run_report {
-    struct output *out; /* kept by reference; NULL for a run without files (tests, benches) */
-    struct sampling sampling;
-    real *record;                  /* values of one line of history.csv */
+    struct output *out;            /* kept by reference; NULL for a run without files (tests, benches) */
+    struct sampling sampling;      /* the sample in progress */
+    real *record;                  /* values of one line of history.csv, in the order of the columns */
     status history_status;         /* result of writing the last line of history.csv */
     int64_t particle_steps[KINDS]; /* particle updates so far, by kind */
-    int64_t
-        bond_visits; /* number of bonds (each counted once for each of its particles) summed over all steps so far */
-    real inactive;   /* fraction of the body at rest, summed over all steps [1] */
+    /* number of bonds (each counted once for each of its particles) summed over all steps so far */
+    int64_t bond_visits;
+    real inactive; /* fraction of the body at rest, summed over all steps [1] */
     struct {
         real inactive;
         int64_t step;
     } sampled;                 /* values of `inactive` and of the step number at the last sample */
-    struct run_seconds before; /* times of the processes before a restart, up to the checkpoint */
+    struct run_seconds before; /* times that earlier processes of a continued run spent, up to their checkpoint [s] */
     double setup_seconds;      /* wall-clock time before the first step in this process, without files [s] */
     double began, started;     /* wall-clock times at which the scene was read, and of the first step [s] */
     double last_progress, last_checkpoint; /* wall-clock times of the last progress line and checkpoint [s] */
@@ -62,7 +62,8 @@ struct run_report {
     bool excerpt;                /* only the first steps run, for the export: no warning about the energy balance */
     bool quiet;                  /* no progress line */
     char note[96];               /* text for the progress line of load steps */
-    const struct error_bar *bar; /* [bars] half-widths for the summary, kept by reference; NULL without a study */
+    const struct error_bar *bar; /* [bars] half-widths of the error bars of figures in the summary, kept by reference;
+                                    NULL: no study */
     int bars;
     const volatile sig_atomic_t *stop; /* set by a signal handler to stop after a checkpoint; may be NULL */
 };

@@ -5,6 +5,7 @@
 
 #include "study/convergence.h"
 
+/* Largest number of spacings of a level. */
 enum { SPACINGS_MOST = 3 };
 
 /* Spacings of each level [m], level 0 the finest. at[level][0] is the spacing of the level; the others differ from it
@@ -36,15 +37,15 @@ struct convergence_study {
     struct study_point *point; /* [study.n] parameters of each run of `study` */
     int first;                 /* index of the first run, whose duration predicts those of the others */
     double refused;            /* largest spacing below which the scene is valid; INFINITY: not limited [m] */
-    struct spacings spacings;
-    const struct scene_override *override; /* overrides by the user; borrowed */
+    struct spacings spacings;  /* spacings of the levels */
+    const struct scene_override *override; /* [overrides] overrides by the user; borrowed */
     int overrides;
-    int runs[LEVELS_MOST];  /* number of runs of each level */
-    bool fixed_horizon;     /* the horizon keeps its length [m] at all spacings, instead of its number of spacings */
-    int own;                /* level with the spacing of the scene; -1: that spacing exceeds the budget */
-    double budget, begun;   /* allowed duration [s]; start time on wall_clock_seconds [s] */
-    double spent, expected; /* duration of the first run [s]; predicted duration of all, run in parallel [s] */
-    struct study_table table;
+    int runs[LEVELS_MOST];    /* number of runs of each level */
+    bool fixed_horizon;       /* the horizon keeps its length [m] at all spacings, instead of its number of spacings */
+    int own;                  /* level with the spacing of the scene; -1: that spacing exceeds the budget */
+    double budget, begun;     /* allowed duration [s]; start time on wall_clock_seconds [s] */
+    double spent, expected;   /* duration of the first run [s]; predicted duration of all runs, in parallel [s] */
+    struct study_table table; /* figures of all runs */
 };
 
 /* Convergence of one figure (a scalar result), and its sensitivity to parameters of the discretisation. */
@@ -59,18 +60,17 @@ struct scalar_result_study {
 
 /* Request for a convergence study (`cleave converge`). */
 struct convergence_request {
-    const char *words;          /* text of study_options_compose_from_arguments; NULL: unknown */
-    const char *scene, *folder; /* path of the scene; folder of the study, NULL: default */
-    const struct scene_override *override;
-    /* number of overrides; of levels; largest number of runs per level */
-    int overrides, levels, runs; /* runs at the most */
-    double budget;               /* allowed duration [s] */
-    const char *const *wanted;   /* [wanteds] names of requested figures, with a warning if the first run lacks one;
-                                  * NULL: none requested */
+    const char *words;                     /* text of study_options_compose_from_arguments; NULL: unknown */
+    const char *scene, *folder;            /* path of the scene; folder of the study, NULL: default */
+    const struct scene_override *override; /* [overrides] values that replace those of the scene file */
+    int overrides, levels, runs;           /* number of overrides; of levels; largest number of runs per level */
+    double budget;                         /* allowed duration [s] */
+    const char *const *wanted; /* [wanteds] names of requested figures, with a warning if the first run lacks one;
+                                * NULL: none requested */
     int wanteds;
-    bool fixed_horizon, finer; /* fixed_horizon: as in struct convergence_study; finer: also use spacings below that
-                                * of the scene if the budget allows */
-    struct study_options options;
+    bool fixed_horizon, finer;    /* fixed_horizon: as in struct convergence_study; finer: also use spacings below that
+                                   * of the scene if the budget allows */
+    struct study_options options; /* options that all studies have */
 };
 
 /* Runs a convergence study as *w requests and stores its runs and results in *s. Figures (scalar results) of failed

@@ -221,9 +221,9 @@ static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, con
  * node is N, which depends on the position of the node in its row, times the factors A of the row in the directions
  * across. */
 struct cell_stencil {
-    int32_t point[POINTS];                       /* padded with the last point */
+    int32_t point[POINTS];                       /* indices of the points, padded with the last point */
     row_of_points x[DIM_MAX];                    /* position [m] */
-    row_of_points t[DIM_MAX];                    /* place in the cell [1] */
+    row_of_points t[DIM_MAX];                    /* position in the cell, in cell edges from the lower node [1] */
     row_of_points N[ROW], D[DIM_MAX][ROW];       /* of the nodes of a row: weights [1], slopes along it [1/m] */
     row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D by point, of maps to nodes */
     /* factors of the rows by direction across: weights [1], slopes [1/m] */

@@ -27,18 +27,18 @@ struct quartiles {
 
 /* Estimated cost of a run; times are processor time of one thread. */
 struct cost {
-    double make;        /* from the scene to step 0; by the caller [s] */
-    double step;        /* a first step, samples included, whole body active; static: an iteration;
-                           load steps: an equilibrium [s] */
-    double spread;      /* of windows of such steps: largest ratio of a quartile to the median [1] */
-    double contact;     /* share of contact in such a step, whatever touches then */
-    double output;      /* frames and checkpoints, on an idle disk [s] */
+    double make;        /* set-up of the run, from the scene to step 0; measured by the caller [s] */
+    double step;        /* a first step with the whole body active, samples included; static: an iteration; load steps:
+                           an equilibrium [s] */
+    double spread;      /* over windows of such steps: largest ratio of a quartile to the median [1] */
+    double contact;     /* share of contact in the time of such a step, however many particles touch then [1] */
+    double output;      /* writing of frames and checkpoints, on an idle disk [s] */
     double run;         /* whole run [s] */
-    double least, most; /* between which it is; most INFINITY: not known [s] */
+    double least, most; /* lower and upper bound of `run`; most INFINITY: not known [s] */
     double equilibria;  /* load steps: largest number of equilibria */
-    real overload,
-        overload_at; /* largest ratio of stretch to critical stretch of the intact body [1]; its pseudo-time [s] */
-    enum cost_basis basis;
+    /* largest ratio of stretch to critical stretch of the intact body [1]; its pseudo-time [s] */
+    real overload, overload_at;
+    enum cost_basis basis;  /* how `run` was estimated */
     double coarser, growth; /* SCALED: factor on the spacing; time of all steps over that expected from the first [1] */
     double all_peridynamic; /* time of a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
     double bytes;           /* peak memory of a run without conversion [byte] */

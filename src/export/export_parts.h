@@ -79,17 +79,17 @@ enum { LOADS_MOST = 28, COLUMNS_MOST = DIM_MAX * (LOADS_MOST + 1) }; /* LAMMPS h
 /* State of an export of a scene to LAMMPS: the scene s, its run e, and what the files of LAMMPS will contain.
  * bond_style: as in struct export_request; columns: length of `column`. */
 struct exported {
-    const struct scene *s;
+    const struct scene *s; /* borrowed, as the run and the request */
     struct run *e;
     const struct export_request *request;
     struct lammps_settings settings; /* keys that were changed for LAMMPS */
     bool bond_style;
-    real cutoff, lattice; /* cutoff of pair_coeff and constant of `lattice` [m] */
-    uint32_t *loads;      /* [particles] bit set of the loads that act on each */
+    real cutoff, lattice; /* cutoff of pair_coeff; lattice constant of the command `lattice` [m] */
+    uint32_t *loads;      /* [particles] bit k is set if load k acts on the particle; owned */
     int columns;
-    struct lammps_column column[COLUMNS_MOST];
-    bool displaced;     /* some particles start away from their rest position */
-    int64_t bonds, cut; /* pairs bonded in the scene; pairs that LAMMPS would bond in addition */
+    struct lammps_column column[COLUMNS_MOST]; /* columns of the data file */
+    bool displaced;                            /* some particles start away from their rest position */
+    int64_t bonds, cut; /* number of pairs bonded in the scene; of pairs that LAMMPS would bond in addition */
 };
 
 /* Compares the bonds that LAMMPS would create with those of the scene. Stores the numbers of bonds in exported->bonds

@@ -69,13 +69,12 @@ struct element_set {
 struct element_mesh {
     int64_t nodes;
     real (*node)[DIM_MAX]; /* coordinates [unit of the file] */
-    int64_t *node_label;   /* its number in the file, -1: not from the file */
+    int64_t *node_label;   /* number of each node in the file, -1: the node is not from the file */
     int64_t elements;
     struct element *element;
-    /* number of each element in the file */
-    int64_t *element_label;
+    int64_t *element_label; /* number of each element in the file */
     int64_t middles;
-    int32_t *middle; /* node indices of the middle nodes of all elements that have them; -1: missing */
+    int32_t *middle; /* node indices of the middle nodes of all elements that have middle nodes; -1: missing */
     int sets;
     struct element_set *set;
     char skipped[NAME_MAX_LENGTH]; /* name of an element type that was left out; "": none */
@@ -184,9 +183,9 @@ struct surface_builder {
     int dim, body_dim; /* dimension of space; dimension of the elements that make up the body */
     real scale;
     real sagitta; /* an edge is straight if its middle node is closer than this to its chord [unit of the file] */
-    int pieces;   /* pieces per curved edge in 3D */
+    int pieces;   /* number of straight pieces into which a curved edge is divided in 3D */
     int64_t n;    /* number of faces; each face has `dim` node indices */
-    int32_t (*face)[DIM_MAX];
+    int32_t (*face)[DIM_MAX]; /* [n] */
     int64_t patches; /* sides with middle nodes, until surface_builder_divide_sides_into_faces turns them into faces */
     struct patch *patch;
     int64_t file_nodes;     /* nodes from the file; later ones are on curved sides between the corners `parent` */

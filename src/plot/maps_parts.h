@@ -21,19 +21,20 @@ struct maps_shown {
     bool outside; /* panels are outside views, without axes at their left */
 };
 
-/* Size of a picture with panels in rows and columns, and where the panels, the colour bar and the key are in it. */
+/* Size of a picture with panels in rows and columns, and positions of panels, colour bar and key (legend) in it. */
 struct layout {
-    int columns, rows;
-    int panel_width, panel_height; /* [pixel] */
+    int columns, rows;             /* number of columns and of rows of panels */
+    int panel_width, panel_height; /* size of a panel [pixel] */
     int width, height;             /* size of the picture [pixel] */
     int left, above, below, gap;   /* margins of the panels; distance of columns [pixel] */
     int title;                     /* distance of the title from the left edge [pixel] */
     int right;                     /* width of the colour bar or key on the right [pixel] */
     bool fits;                     /* the panels and their titles have room in the picture */
     int spare;                     /* blank beside panels that fill the height before the width [pixel] */
-    bool bar_under, key_beside; /* colour bar below the panels, else on their right; key on their right, else below */
+    bool bar_under, key_beside; /* the colour bar is below the panels, else on the right; the key is on the right, else
+                                   below */
     int axes;                   /* height of tics and label below the panels [pixel] */
-    int entries, entry;         /* number of entries of the key below the panels; width of one [pixel] */
+    int entries, entry;         /* number of entries of the key below the panels; width of an entry [pixel] */
     int key_columns;            /* number of entries in a row of the key */
 };
 

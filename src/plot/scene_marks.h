@@ -18,8 +18,8 @@ struct marks {
     const char *title;            /* title of the picture; NULL: the usual one */
     bool plain;                   /* the key has no numbers of particles */
     int blocks;                   /* number of data blocks so far */
-    int keys, letters;            /* number of lines of the key so far, and of letters of the longest one */
-    double widest;                /* width of the widest line over the size of its letters in points [pixel] */
+    int keys, letters;            /* number of lines of the key (legend) so far; letters of its longest line */
+    double widest;                /* width of its widest line [pixel] divided by the size of the letters [point] */
 };
 
 /* Begins a gnuplot data block, which contains the points or arrows of one kind of symbol. Add its lines with

@@ -20,19 +20,19 @@ struct film_field {
     int64_t samples;
 };
 
-/* Particles that consecutive frames share. A group is a particle, or a cubic cell of particles that is shown
- * as one. */
+/* Particles that consecutive frames have in common. A group is a particle, or a square or cubic cell of particles that
+ * the page shows as one particle. Arrays are owned. */
 struct film_set {
-    int64_t n;
+    int64_t n;                /* number of particles */
     real *X[DIM_MAX];         /* [n] reference positions [m] */
-    float *size;              /* [n] spacing [m]; NULL: that of the film */
-    uint8_t *material, *body; /* [n] */
-    bool *busy;               /* [n] damaged or yielded in some frame */
+    float *size;              /* [n] spacing of each particle [m]; NULL: that of the film */
+    uint8_t *material, *body; /* [n] index of the material, of the body */
+    bool *busy;               /* [n] true: damaged or yielded in at least one frame */
     uint32_t *history;        /* [n] hash of kind and fragment in all frames */
-    uint8_t *level;           /* [n] the cell of a merged particle has 2^level particles along an edge; 0: none */
-    int64_t groups, shown;    /* number of groups; of them shown */
-    int32_t *first, *member;  /* members of group g: member[first[g]] .. member[first[g + 1] - 1] */
-    bool *hidden;             /* [groups] */
+    uint8_t *level;           /* [n] the cell of a merged particle has 2^level particles along an edge; 0: not merged */
+    int64_t groups, shown;    /* number of groups; number of groups that are shown */
+    int32_t *first, *member;  /* particles of group g: member[first[g]] .. member[first[g + 1] - 1] */
+    bool *hidden;             /* [groups] true: the group is not shown */
 };
 
 /* A frame (state of the run at one time) that was read for a page. used: the page shows the frame. */
@@ -45,22 +45,22 @@ struct film_frame {
 
 /* The frames of a run as a page shows them: selected frames, particle sets that frames share, and fields. */
 struct film {
-    const char *folder;
-    const struct scene *scene; /* of the run, for its rigid bodies; NULL: not known */
+    const char *folder;        /* folder of the run; borrowed */
+    const struct scene *scene; /* scene of the run, for its rigid bodies; borrowed; NULL: not known */
     int dim;
-    double spacing; /* smallest distance of particles [m] */
-    int listed;     /* number of frames of the run */
-    struct film_frame *frame;
-    int frames, used; /* frames that were read; of them shown */
-    struct film_set *set;
+    double spacing;           /* smallest distance of particles [m] */
+    int listed;               /* number of frames of the run */
+    struct film_frame *frame; /* [frames] */
+    int frames, used;         /* number of frames that were read; number of these that are shown */
+    struct film_set *set;     /* [sets] */
     int sets;
-    struct film_field field[FILM_FIELDS_MOST];
+    struct film_field field[FILM_FIELDS_MOST]; /* [fields] fields that the page can show */
     int fields;
     double reach[DIM_MAX]; /* largest displacement along each axis [m] */
     int levels;            /* largest level of merged cells */
-    int every;             /* of groups that are not busy only every so manieth is shown */
-    bool thins_busy;       /* busy groups are thinned, too */
-    bool lacks_extra;      /* extra fields are left out */
+    int every;             /* every n-th group that is not busy is shown: n */
+    bool thins_busy;       /* only every n-th busy group is shown, too */
+    bool lacks_extra;      /* extra fields are left out, so that the page does not become too large */
 };
 
 /* Reads at most about sixty frames of the run in `folder`. Finds the particle sets that frames share, the largest

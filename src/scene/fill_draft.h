@@ -9,13 +9,14 @@
 struct particle_draft {
     const struct scene *scene;
     const struct cells_without_particles *hollow; /* cells whose particles are not created; NULL: none */
-    int64_t n, room;                              /* number of particles, and for how many the arrays have memory */
+    int64_t n, room;                              /* number of particles; number for which the arrays have memory */
     int64_t skipped;                              /* number of particles that are not created */
     real low[DIM_MAX], high[DIM_MAX];             /* bounding box of the skipped particles [m] */
-    real *X[DIM_MAX], *volume;                    /* [m], [m^3] */
-    real *v[DIM_MAX], *mass;                      /* from a list [m/s], [kg]; NAN: from the body and its material */
-    uint8_t *material, *body;
-    int32_t *id;
+    real *X[DIM_MAX], *volume;                    /* position [m]; volume [m^3] */
+    real *v[DIM_MAX], *mass;                      /* velocity [m/s] and mass [kg] in a list of particles; NAN: those of
+                                                     the body and its material */
+    uint8_t *material, *body;                     /* index of the material, of the body */
+    int32_t *id;                                  /* index in the order in which the scene makes the particles */
 };
 
 /* Appends a particle at the position `position` (dim coordinates [m]) to d, the list of particles to be created.

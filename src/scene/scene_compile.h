@@ -15,16 +15,16 @@ struct operand {
 
 /* State of the compilation of one expression of a scene from its text to a list of steps. */
 struct compile {
-    struct reader *r;
-    unsigned of;                /* allowed variables: EXPRESS_SPACE | EXPRESS_TIME */
-    const char *text, *at;      /* the expression, and the next character to compile */
-    int depth, steps, operands; /* of nested brackets; entries of step and of operand */
-    struct expression_step step[EXPRESSION_STEPS];
-    struct operand operand[EXPRESSION_STACK];
-    char kept[EXPRESSION_TEXT + 1]; /* copy of the text with numbers in place of variables */
-    size_t used;                    /* length of kept */
-    const char *copied;             /* end of the text that has been copied */
-    char *what;                     /* [room] the fault, as the rest of a sentence that begins with the text */
+    struct reader *r;           /* reader of the scene, which has the variables; borrowed */
+    unsigned of;                /* allowed variables of the expression: EXPRESS_SPACE | EXPRESS_TIME */
+    const char *text, *at;      /* the expression; the next character to compile */
+    int depth, steps, operands; /* depth of nested brackets; number of entries of `step` and of `operand` */
+    struct expression_step step[EXPRESSION_STEPS]; /* [steps] operations in the order of evaluation */
+    struct operand operand[EXPRESSION_STACK];      /* [operands] stack of the operands of the next operations */
+    char kept[EXPRESSION_TEXT + 1]; /* copy of the text with numbers in place of variables of the scene */
+    size_t used;                    /* length of `kept` [byte] */
+    const char *copied;             /* end of the part of `text` that has been copied to `kept` */
+    char *what;                     /* [room] message about a fault: the rest of a sentence that begins with the text */
     size_t room;
 };
 

@@ -20,16 +20,19 @@ struct naming {
 
 /* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_nodes.c, scene_yaml.c) ---- */
 
+/* Kinds of nodes: a single value, a list of nodes, a mapping of keys to nodes. */
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
+/* A node of the tree of a scene file. Nodes and texts are in the arena of the reader. */
 struct yaml_node {
     enum node_kind kind;
-    int line, column; /* of the key, or of an item without a key; from 1 */
-    int origin;       /* source: index of an override; -1: the scene file; -2, -3, ..: an included
-                         file */
-    int n;            /* entries of a list or map */
-    char *key;        /* key of the node; NULL for the root and for items of a list */
-    char *text;       /* text of a scalar, without quotes; else "" */
+    int line, column; /* location of the key, or of an item without a key; from 1 */
+    int origin; /* where it was given: index of an override of the command line; -1: the scene file; -2, -3, ..: an
+                   included file */
+    int n;      /* number of entries of a list or map */
+    char *key;  /* key of the node; NULL for the root and for items of a list */
+    char *text; /* text of a scalar, without quotes; else "" */
+    /* node that contains this node; first and last entry of a list or map; next entry of the parent; NULL: none */
     struct yaml_node *parent, *first, *last, *next;
 };
 
@@ -37,19 +40,20 @@ struct arena_block;
 struct variable;
 struct key;
 
+/* Origin of the first included file (yaml_node.origin); largest number of included files. */
 enum { ORIGIN_INCLUDED = -2, INCLUDED_MOST = 64 };
 
 /* State of the reading of one scene file: its overrides, and the scene that is being filled. */
 struct reader {
-    const char *name; /* name of the scene file, for messages */
-    const struct scene_override *override;
+    const char *name;                      /* name of the scene file, for messages */
+    const struct scene_override *override; /* [overrides] values of the command line that replace those of the file */
     int overrides;
     struct scene *scene;                 /* the scene that is being filled */
     const struct yaml_node *root;        /* tree of the scene */
     int dim;                             /* dimensions of points: dim of the scene, or 2 in an extrusion */
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
-    bool cutting;                        /* ... and are cut out of it: infinite bounds are allowed */
-    int solids;                          /* number of solids read */
+    bool cutting;                        /* these solids are cut out of the body: infinite bounds are allowed */
+    int solids;                          /* number of solids read so far */
     int grey_materials;                  /* number of images whose `materials` are not yet parts of a body */
     bool files;                          /* check that particle lists exist */
     const char *included[INCLUDED_MOST]; /* [includes] names of the included files */
@@ -60,8 +64,9 @@ struct reader {
     const struct yaml_node *regions;  /* mapping of the named regions; NULL: none */
     const struct yaml_node *sections; /* mapping of the named plane sections of extrusions; NULL: none */
     const struct naming *naming;      /* innermost named region that is being read; NULL: none */
-    real *
-        spacing_most; /* of limit_spacing_of_spacing_search; NULL: strengths that do not suit the spacing are refused */
+    /* receives the largest spacing at which all strengths are valid (limit_spacing_of_spacing_search) [m]; NULL:
+     * strengths that do not suit the spacing are refused */
+    real *spacing_most;
 };
 
 /* Returns `byte_count` bytes of zeros in memory of the reader r, which arena_free releases as a whole. */
@@ -281,15 +286,15 @@ struct key {
     const char *path; /* keys from the top of the scene, joined by dots */
     enum key_type type;
     enum unit unit;
-    size_t place, size; /* 1 + offset of the value in the struct of its group (0: not stored there); bytes */
-    struct range range;
+    size_t place, size;   /* 1 + offset of the value in the structure of its group [byte], 0: not stored; size [byte] */
+    struct range range;   /* allowed values of a number, or number of entries of a list */
     const char *fallback; /* default as text; "required"; "-": none; "(..)": an explanation, set by code */
     const char *help;     /* meaning, for `cleave help`; NULL: of no row of the table of keys */
     /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; NAME: any text is one; HAND: form */
     const char *words;
-    const char *low; /* message for a value below the range */
-    size_t has;      /* 1 + offset of the bool that is set if the key is given */
-    real word_value; /* REAL: value of the word */
+    const char *low; /* message for a value below the range; NULL: the usual message */
+    size_t has;      /* 1 + offset of the bool that is set if the key is given [byte]; 0: none */
+    real word_value; /* REAL: value that the word in `words` stands for */
     bool infinite;   /* inf is allowed */
     bool of_process; /* limits the process, not the computation: the echo omits the key */
 };

@@ -4,21 +4,25 @@
 
 #include "solver/multigrid.h"
 
+/* Largest number of levels; largest number of components of a node: displacements, or rigid motions on coarser
+ * levels. */
 enum { MULTIGRID_LEVELS_MOST = 12, WIDTH_MOST = 6 };
 
 /* A sparse matrix of blocks between the nodes of a level and those of the next coarser level: the prolongation or its
  * transpose, the restriction. */
 struct transfer {
-    int64_t *first;  /* [rows + 1] */
-    int32_t *column; /* [first[rows]] ascending in a row */
-    float *block;    /* [first[rows]][rows' width][columns' width] [1] */
+    int64_t *first;  /* [rows + 1] the blocks of row r are first[r] .. first[r + 1] - 1 */
+    int32_t *column; /* [first[rows]] node of the other level, ascending in a row */
+    float *block;    /* [first[rows]][components of a row node][components of a column node] [1] */
 };
 
+/* One level of the multigrid preconditioner; level 0, the finest, has the nodes of the solver. A node of the next level
+ * is an aggregate of nodes, whose rigid motions are its components. Arrays are owned unless noted. */
 struct multigrid_level {
-    int width, modes;     /* components of a node; rigid motions, which are the components of a coarser node */
-    int64_t n, coarse;    /* number of nodes; number of nodes of the next level */
-    const int64_t *first; /* [n + 1] */
-    const int32_t *column;
+    int width, modes;         /* components of a node; rigid motions, which are the components of a coarser node */
+    int64_t n, coarse;        /* number of nodes; number of nodes of the next level */
+    const int64_t *first;     /* [n + 1] the matrix entries of node i are first[i] .. first[i + 1] - 1 */
+    const int32_t *column;    /* [first[n]] neighbouring node of each entry, ascending in a row */
     const float *single;      /* [first[n]][width width] finest level: matrix, kept by reference [N/m] */
     float *rest;              /* [n][width width] finest level: row sum of the matrix without rounding errors [N/m] */
     real *block;              /* [first[n]][width width] coarser levels: matrix [N/m] */
@@ -28,9 +32,9 @@ struct multigrid_level {
     uint8_t *held;            /* [n] finest level: bit d is set if component d is constrained; else NULL */
     uint8_t *unconstrained;   /* [n] the node belongs to an unconstrained fragment; finest level: neither the node nor a
                                  neighbour is constrained */
-    real *mode;               /* [n][width][modes] rigid motions                                      */
-    int32_t *aggregate;       /* [n] node of the next level; -1 if none */
-    real *tentative;          /* [n][width][modes] rigid motions, orthonormal in an aggregate */
+    real *mode;               /* [n][width][modes] rigid motions at the node */
+    int32_t *aggregate;       /* [n] index of the aggregate, a node of the next level; -1: none */
+    real *tentative;          /* [n][width][modes] rigid motions, made orthonormal within each aggregate */
     real largest;             /* largest eigenvalue of inverse x matrix, a lower bound [1] */
     struct transfer down, up; /* prolongation, a row for each node of this level; its transpose */
     real *b, *x, *y, *d, *t;  /* [n][width] load, solution, buffer of the solution, correction, residual */
@@ -44,6 +48,7 @@ struct dense {
     real *inverse; /* [n] reciprocal pivots [m/N] */
 };
 
+/* A multigrid preconditioner: its levels, level[0] the finest, and the factorised matrix of the coarsest level. */
 struct multigrid {
     int levels;
     struct multigrid_level level[MULTIGRID_LEVELS_MOST];

@@ -19,14 +19,15 @@ enum {
 struct pilot_candidate {
     const char *name, *method, *model; /* name of its folder; values of the keys `method` and `model`, model NULL if
                                         * there is none */
-    double finest, finest_seconds;     /* finest spacing that was run [m]; duration of a run there [s] */
-    double reached;                    /* half-width of the interval there, relative to the figure [1] */
-    double spacing, seconds;           /* required spacing [m]; duration of a run there [s]; 0: unknown */
-    double expected;                   /* expected half-width at this spacing, relative to the figure [1] */
-    double value, width;               /* figure and half-width of its interval at the finest spacing */
-    bool seen;                         /* a run at this spacing exists */
-    char failed[300];                  /* reason why the method has no figures; "": it has */
-    bool unknown;                      /* the runs have no figure of the requested name */
+    double finest, finest_seconds;     /* finest spacing that was run [m]; duration of such a run [s] */
+    double reached;          /* half-width of the error bar at the finest spacing, divided by the figure [1] */
+    double spacing, seconds; /* spacing that the wanted accuracy requires [m]; duration of such a run [s]; 0:
+                              * unknown */
+    double expected;         /* expected half-width at the required spacing, divided by the figure [1] */
+    double value, width;     /* figure and half-width of its error bar at the finest spacing */
+    bool seen;               /* a run at the required spacing exists */
+    char failed[300];        /* reason why the method has no figures; "": it has */
+    bool unknown;            /* the runs have no figure of the requested name */
 };
 
 /* State of the choice of method and spacing by pilot runs: what is required, the candidates, and their results. */
