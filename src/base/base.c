@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MESSAGE_LENGTH = 4096 };
+enum { MESSAGE_LENGTH = 4096 }; /* room for the message of an error [byte]; longer messages are cut */
 
 /* Message of the last error, set with a status. Each thread has its own, so that messages of two threads are never
  * mixed. */

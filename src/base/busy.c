@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define UNNOTICED 0.5 /* processes too many that are not reported: the load of the last minute has ended, in part */
+/* Number of processes beyond the processors up to which nothing is reported: some of them may have ended. */
+#define UNNOTICED 0.5
 
 double machine_load_average(void)
 {

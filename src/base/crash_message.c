@@ -12,13 +12,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+/* Messages for a process that a library has ended: memory or the stack was exhausted. */
 static const char out_of_memory[] =
     "out of memory: a library could not continue; results up to the last checkpoint are complete: continue with "
     "--resume where there is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n";
 
 static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimit -s 8192 sets the usual one\n";
 
-/* The file that HDF5 reads, without control characters; "": none. */
+/* Path of the file that HDF5 reads at present, without control characters; "": none. */
 static char reading[512];
 
 void crash_message_set_file_in_use(const char *path)

@@ -8,10 +8,13 @@
 #include "base/team.h"
 
 #define STATIONARY 1e-4 /* relative increase in the last ITERATIONS_SEEN iterations at which the iteration stops */
-#define EXHAUSTED 1e-12 /* residual over eigenvalue below which the vectors found span an invariant space */
+#define EXHAUSTED 1e-12 /* residual divided by eigenvalue below which the vectors found span an invariant space */
+
+/* Least and largest number of iterations; number of iterations over which the increase is measured. */
 enum { ITERATIONS_LEAST = 16, ITERATIONS_MOST = 200, ITERATIONS_SEEN = 8 };
 
-/* Three consecutive Lanczos vectors [n]: the one under construction w, the present one v, the previous one `before`. */
+/* Three consecutive Lanczos vectors, each [n]: the previous vector `before`, the present vector v, and the next vector
+ * w, under construction. */
 struct lanczos {
     int64_t n;
     real *v, *before, *w;

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { PATH_LONGEST = 4200 };
+enum { PATH_LONGEST = 4200 }; /* room for the path of a file to be removed [byte] */
 
 /* The temporary files and child processes that a signal handler removes and ends. While an element of `path` is being
  * written, its first character is 0, so that the handler never reads an incomplete path. */
@@ -38,7 +38,7 @@ static void on_end(int number)
     raise(number);
 }
 
-static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
+static const int ends[] = {SIGINT, SIGTERM, SIGHUP}; /* signals that end the process */
 
 /* At the first call, notes the calling thread as the one that creates files and child processes (`maker`), and installs
  * the handler on_end for every signal that would end the process by default. Later calls do nothing. */

@@ -11,6 +11,7 @@
 #endif
 #endif
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || defined SANITIZED
+/* Ends the process after a violated invariant. Sanitizers need abort() to print the stack. */
 #define LEAVE_BROKEN() abort()
 #else
 #define LEAVE_BROKEN() _exit(FAILED) /* no exit handlers: other threads are running */

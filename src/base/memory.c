@@ -15,7 +15,7 @@
  * provide a page, and 0.2 to 2 ms for a large one, which replaces 512 (measured). */
 enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 3 << 19, SMALL_TAIL = 1 << 20 };
 
-/* Pages from mmap are used where the system has it, but not under the address sanitizer, which watches the heap
+/* HEAP_ALONE: 1 if no array has pages of its own from mmap, as under the address sanitizer, which watches the heap
  * only. */
 #if defined __SANITIZE_ADDRESS__
 enum { HEAP_ALONE = 1 };
@@ -32,16 +32,16 @@ enum { OWN_PAGES = 1 << 20 };
  * system takes longer to provide a page than a thread takes to write it. */
 enum { KEPT = 256, KEPT_LEAST = 1 << 17, KEPT_MOST = 64 << 20, KEPT_ALL = 192 << 20 };
 
-/* Elements allocated by the first growth of an array. */
+/* Number of elements for which the first growth of an array allocates memory. */
 enum { GROWN_FIRST = 16 };
 
-/* Header before each array. */
+/* Header that is stored before each array: the memory block that contains the array. */
 struct block {
-    void *whole;    /* address to be released */
-    size_t mapped;  /* length of its own pages, 0: heap [byte] */
+    void *whole;    /* address of the block, to release it */
+    size_t mapped;  /* length of the pages of the block [byte]; 0: it is a part of the heap */
     size_t length;  /* length of the array [byte] */
-    size_t touched; /* largest length of its pages that an array has used [byte] */
-    bool large;     /* it has large pages; such blocks are of several mappings, which mremap does not extend */
+    size_t touched; /* largest length of these pages that an array has used so far [byte] */
+    bool large;     /* the block has large pages; it then consists of several mappings, which mremap cannot extend */
 };
 _Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
@@ -83,6 +83,8 @@ static size_t offset(size_t length)
 }
 
 #ifdef MAP_ANONYMOUS
+/* The store of released blocks; index of the oldest block; size of their used pages [byte]; true: the store is in
+ * use. */
 static struct block waiting[KEPT];
 static int waiting_longest;
 static size_t waiting_bytes;
@@ -173,6 +175,8 @@ static char *memory_block_make(struct block *block, size_t length, size_t alignm
     return block->whole;
 }
 
+/* Content of a new array: all zero; undefined and written soon; undefined and for the most part never written; zero and
+ * for the most part never written. */
 enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN, MOSTLY_ZERO };
 
 /* Allocates an array of `count` elements of `size` bytes, aligned to a cache line, with a header (struct block) before

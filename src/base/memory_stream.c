@@ -9,7 +9,8 @@
 
 #ifdef __linux__
 
-/* The collected output of a stream; lost: a part of it could not be stored. */
+/* The collected output of a stream: text[length], with memory for `room` bytes. lost: true if a part of the output
+ * could not be stored. */
 struct collected {
     char **text;
     size_t *length, room;

@@ -9,7 +9,7 @@
 
 #include "base/base.h"
 
-enum { CHUNK = 4096 };
+enum { CHUNK = 4096 }; /* largest length of a piece of text that is filtered at a time [byte] */
 
 static const char erase_line[] = "\033[K";
 

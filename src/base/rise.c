@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-#define NOTHING 1e-30 /* relative to the value: smaller records, also negative ones, count as this */
+#define NOTHING 1e-30 /* smaller recorded values, also negative ones, count as this share of the present value [1] */
+
 /* Smallest ratio of a recorded value to the present value from which a growth rate is derived. A smaller recorded value
  * may be the constant background of a quantity that grows faster. Empirical. */
 #define SOMETHING 0.03

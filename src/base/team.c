@@ -206,7 +206,7 @@ static void *wait_for(void *mutex)
     return NULL;
 }
 
-enum { LIBRARY_ROOM = 16 << 20 }; /* memory that the OpenMP library may take besides stacks [byte] */
+enum { LIBRARY_ROOM = 16 << 20 }; /* memory that the OpenMP library may allocate besides stacks [byte] */
 
 /* Returns true if `threads` threads can exist at once with LIBRARY_ROOM bytes of memory to spare; tests this by
  * starting and ending them. If they cannot, the OpenMP library would end the process with several lines of its own. */
@@ -339,6 +339,7 @@ void reproducible_sums(int64_t term_count, int sum_count,
     if (part != few) memory_free(part);
 }
 
+/* A sum of n terms: term(context, i) returns term number i. */
 struct single {
     real (*term)(const void *context, int64_t i);
     const void *context;

@@ -7,7 +7,7 @@
 #include "base/base.h"
 #include "base/memory.h"
 
-enum { WARNING_LONGEST = 1024 };
+enum { WARNING_LONGEST = 1024 }; /* room for the text of a warning [byte]; longer texts are cut */
 
 bool warnings_add_if_new(struct warnings *w, const char *format, ...)
 {

@@ -5,7 +5,8 @@
 
 /* ---- holes ------------------------------------------------------------------------------------------------------- */
 
-/* Linked lists of the holes, i.e. ranges of unused columns between row blocks, one list for each size. */
+/* Linked lists of the holes (ranges of unused columns between row blocks), one list for each size. first[size]: index
+ * of the first hole of this size in `all`, -1: none; next[hole]: next hole of the same size; most: largest size. */
 struct holes_by_size {
     struct bond_holes *all;
     int32_t *first, *next;

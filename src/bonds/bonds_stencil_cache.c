@@ -10,11 +10,12 @@
  * of a few lattice rows, inside and at their ends; empirical. */
 enum { REMEMBERED = 32 };
 
+/* Bonds of recent row blocks, for one thread. map: map of the lattice sites, borrowed. */
 struct stencil_cache {
     const struct site_map *map;
-    int n, next, last; /* remembered; the oldest; the one found last */
+    int n, next, last; /* number of entries of `cached`; index of the oldest; index of the entry found last */
     struct cached {
-        int64_t i;
+        int64_t i; /* first of the eight particles */
         struct regular_bonds bonds;
     } cached[REMEMBERED];
 };

@@ -4,10 +4,12 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
+/* Largest number of stencils; number of lists by hash. */
 enum { STENCILS_MOST = 2048, HASHES = 4096 };
 
+/* All stencils (bonds that many row blocks have in common), with lists by hash to find equal ones. */
 struct stencils {
-    int n, users; /* users: sets of rows that share the stencils */
+    int n, users; /* number of stencils; number of bond storages that share them */
     struct stencil stencil[STENCILS_MOST];
     int32_t first[HASHES]; /* first stencil with this hash, + 1; 0: none */
 };

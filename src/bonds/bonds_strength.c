@@ -20,10 +20,11 @@
 #include "bonds/strength_surfaces.h"
 #include "bonds_parts.h"
 
-#define LEAST_ONSET 0.3 /* least onset of a started bond over the strain sigma_t/E */
-#define SUDDEN 1e-4     /* relative distance of onset and end of a bond that is started beyond its critical stretch */
-#define NEAR_LEAST 0.5  /* least share of the surface of particles from which the largest one is taken [1] */
-#define SPANS 1e-6      /* least determinant of a moment over that of an isotropic one; below it, directions lack */
+#define LEAST_ONSET 0.3 /* least stretch at which a bond may begin to soften, divided by sigma_t/E [1] */
+#define SUDDEN 1e-4     /* relative difference of onset and end of a bond that begins beyond its critical stretch [1] */
+#define NEAR_LEAST 0.5  /* least ratio of stress to strength of particles among which the largest is sought [1] */
+/* Smallest determinant of a moment divided by that of an isotropic moment [1]; below it, bonds lack in a direction. */
+#define SPANS 1e-6
 
 /* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles. A row holds
  * the bonds of one particle. Strains are averaged over the family as many times as the material requires. */
@@ -31,10 +32,11 @@ struct evaluation {
     const struct bonds *b;
     const struct particles *p;
     const struct bond_source *source;
-    int means;                  /* largest number of means of a material */
-    uint16_t *distance;         /* [rows] families between the row and one to be evaluated, plus 1; 0: not needed */
-    real (*strain[2])[SYM_MAX]; /* [rows] symmetric components, of the last mean and of the one being made [1] */
-    real *share;                /* [rows] share of the surface of rows to be evaluated [1] */
+    int means;          /* largest number of averages over the family that a material requires */
+    uint16_t *distance; /* [rows] number of families between the row and the nearest row to be evaluated, plus 1;
+                           0: the row is not needed */
+    real (*strain[2])[SYM_MAX]; /* [rows] strain after the last average and after the average being computed [1] */
+    real *share;                /* [rows] ratio of stress to strength in rows to be evaluated [1] */
 };
 
 /* ---- strain of a particle ---------------------------------------------------------------------------------------- */

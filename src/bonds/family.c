@@ -81,9 +81,9 @@ real family_bond_weight(const struct family *f, const real *bond_vector, real bo
  * of V that counts; n: unit vector of the bond. Class 0 are bonds nearer the axes, class 1 bonds nearer the
  * diagonals. */
 struct lattice_sums {
-    real volume;             /* sum V beta                    */
-    real sigma;              /* sum r V beta times shell weight */
-    real weighted;           /* sum of r^2 times the weights as bonds store them */
+    real volume;             /* sum of V beta [m^3] */
+    real sigma;              /* sum of r V beta times the shell weight [m^4] */
+    real weighted;           /* sum of r^2 times the weights that bonds store [m^2] */
     real axial[2], mixed[2]; /* sums of n1^4 and of n1^2 n2^2 times V beta stiffness_weight, by class of direction */
 };
 

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "surface_parts.h"
 
-enum { RADIUS = 2 };
+enum { RADIUS = 2 }; /* number of families over which surroundings are compared */
 
 /* Returns `hash` after one more 64-bit `word` has been added to it: a step of the hash of Fowler, Noll and Vo, followed
  * by an exclusive or with the upper bits of the result. */
@@ -18,7 +18,7 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
     hash = (hash ^ word) * UINT64_C(0x100000001b3);
     return hash ^ hash >> 29;
 }
-#define HASH_START UINT64_C(0xcbf29ce484222325)
+#define HASH_START UINT64_C(0xcbf29ce484222325) /* initial value of a hash (FNV-1a) */
 
 /* ---- kinds of particles ------------------------------------------------------------------------------------------ */
 
@@ -28,7 +28,7 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 struct kinds {
     int32_t n, *of;   /* number of kinds; [near n] kind of a particle */
     int64_t *first;   /* [n] first particle of a kind */
-    uint64_t *colour; /* [n 2^dim] */
+    uint64_t *colour; /* [n 2^dim] hashes of the surroundings of each kind */
 };
 
 static void kinds_free(struct kinds *s)

@@ -102,11 +102,11 @@ int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const stru
 /* Parameters and working memory of the neighbour search of one thread, for eight consecutive particles at a time. */
 struct search {
     const struct site_map *map;
-    int32_t *found;
+    int32_t *found; /* [room] neighbours that a search has found */
     int room;
     int64_t first;                /* first of the eight particles */
-    bool eight;                   /* their families are in `regular`, which does without a search */
-    struct regular_bonds regular; /* regardless of pre-cracks */
+    bool eight;                   /* the neighbours of all eight are in `regular`, so that no search is needed */
+    struct regular_bonds regular; /* neighbours of the eight particles on a lattice, regardless of pre-cracks */
 };
 
 /* Allocates the working memory of a neighbour search in `search`. b: particles near faces, with the data of bonds; map:

@@ -20,9 +20,9 @@
  * with a twentieth of it, frequencies of beams of 10 layers are closer by 0.1 %, and time steps shorter by a fifth.
  * Wider limits LEAST and MOST of the factors have the same effect. */
 #define PRIOR 2e-2
-#define LEAST 0.2
-#define MOST 3.0
-enum { STRAINS = 6 };
+#define LEAST 0.2     /* smallest factor of a bond [1] */
+#define MOST 3.0      /* largest factor of a bond [1] */
+enum { STRAINS = 6 }; /* number of independent strain tensors in 3D */
 
 /* The independent components of symmetric tensors of rank `rank` in ascending order: component k has the axes
  * axis[k][rank], each >= the one before. */
@@ -72,12 +72,12 @@ static real component_value(const struct components *c, int k, const real *n)
 /* Moments of the bonds by offset (direction n, weight w, length r): third w nnn, fourth w r nnnn; fourth moment M of
  * a full family; and a basis B_k of symmetric strain tensors. They are the same for all classes of particles. */
 struct moments {
-    int dim, strains;
-    struct components third, fourth;
-    int thirds, width;  /* third moments, and all moments, of a bond with their padding */
-    real *of;           /* [offsets width] moments of the bonds, over M_1111 */
-    real full[FOURTHS]; /* M over M_1111 */
-    real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX]; /* B_k, M:B_k */
+    int dim, strains;                /* dimension; number of tensors B_k */
+    struct components third, fourth; /* independent components of both moments */
+    int thirds, width;               /* number of third moments, and of all moments of a bond, padding included */
+    real *of;                        /* [offsets][width] moments of the bonds divided by M_1111 */
+    real full[FOURTHS];              /* components of M divided by M_1111 */
+    real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX]; /* B_k; stress M:B_k */
     real fourth_by[STRAINS][STRAINS][FOURTHS]; /* coefficients of B_k:T:B_l by component of T */
     real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };

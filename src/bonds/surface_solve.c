@@ -16,31 +16,36 @@
 #include "surface_parts.h"
 
 #define CLOSE 1e-13 /* relative reduction of R at which the solver stops */
-#define ROUGH 0.1   /* largest residual of a linear system, relative to R */
-#define STEEP 0.1   /* largest slope after a step, relative to that before it */
+#define ROUGH 0.1   /* largest residual of a linear system divided by R [1] */
+#define STEEP 0.1   /* largest slope after a step divided by the slope before the step [1] */
 #define WORK 2.5e10 /* largest number of multiplications: 10 s on two cores */
 /* Limits of the solver. SHORTENINGS: largest number of times that one Newton step is shortened. BLOCK: numbers in the
  * lower triangle of the matrix block of one class, which consists of particles with equal surroundings. TOGETHER:
  * number of classes whose blocks are stored interleaved, so that vector instructions solve with all of them at once. */
 enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2, TOGETHER = 4 };
 
-/* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
+/* State of the solver, with the matrix A and the block preconditioner B of the linear system of a Newton step. Vectors
+ * have one number for each moment of each class: [classes width]. */
 struct descent {
     const struct surface_fit_problem *fit;
-    int64_t n;
-    int width, products, most, systems; /* systems: number of linear systems so far */
+    int64_t n; /* length of the vectors */
+    /* number of moments of a class; number of products with A so far; its largest number; number of systems so far */
+    int width, products, most, systems;
+    /* multipliers q; residual R; Newton step; residual of the linear system; B^-1 times it; direction of conjugate
+     * gradients; A times it; multipliers after a trial step; their residual */
     real *multiplier, *residual, *step, *left, *weighed, *direction, *image, *next, *next_residual;
     /* [classes/TOGETHER, BLOCK, TOGETHER] lower triangles of the Cholesky factors of the blocks */
     real (*block)[TOGETHER];
     uint8_t *images;  /* [classes offsets] number of bonds of the group in the class */
     real *factor;     /* [groups] factors of the bonds */
     uint8_t *between; /* [groups] 1: in the present linear system the factor is between its bounds */
-    uint8_t *turned;  /* [groups] 1: not so in the last linear system, or only there */
+    uint8_t *turned;  /* [groups] 1: `between` differs from that in the last linear system */
     uint8_t *changes; /* [classes offsets/2] 1: the factor of one of two opposite bonds is between its bounds */
     real *change;     /* [groups] change of the factors along `direction` */
     real *value;      /* [classes offsets] product of the moments of a bond with the multipliers of its class */
 };
 
+/* Two vectors whose scalar product is computed. */
 struct pair {
     const real *a, *b;
 };

@@ -206,6 +206,7 @@ void contact_record_first_and_last_contact_time(struct contact *c, real t)
     if (isnan(c->began)) c->began = t;
 }
 
+/* Argument of the sum of contact energies over rows: the contact and the particles. */
 struct contact_sum {
     const struct contact *c;
     const struct particles *p;

@@ -39,8 +39,8 @@ static void layer_density(int dim, real s, real *density, real *slope)
         }
 }
 
-#define DEPTH_LEAST 0.2 /* range of the table [spacings] */
-#define DEPTH_MOST 1.9
+#define DEPTH_LEAST 0.2 /* smallest depth below a face in the table of densities [spacings] */
+#define DEPTH_MOST 1.9  /* largest depth in this table [spacings] */
 
 void contact_density_profile_make(struct contact_profile *table, int dim)
 {

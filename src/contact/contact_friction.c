@@ -52,7 +52,7 @@ void contact_friction_spring_advance(struct contact_spring *s, int dim, const re
  * and the forces conjugate to this slip are the drag f on i and -w_j (f + (I^-1 (a x f)) x r_j) on j: their sum and the
  * sum of their moments are 0. Rotation about an axis along which all particles lie is omitted (a single particle, in
  * space a row of particles): the moment of the drag about this axis then remains. */
-/* Largest sum of squares of the forces of the couple, over the square of the drag [1]; empirical. */
+/* Largest sum of squares of the forces of the couple, divided by the square of the friction force [1]; empirical. */
 #define COUPLE_MOST 10
 #define INERTIA_LEAST 1e-6 /* relative to the largest principal value of I and to a^2; smaller values are round-off */
 

@@ -203,6 +203,7 @@ static void spring_step(struct contact *c, const struct particles *p, int body, 
     contact_friction_spring_advance(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
 }
 
+/* Argument of the sum of contact forces on rigid body number `body`. */
 struct rigid_sum {
     const struct contact *c;
     const struct particles *p;
@@ -227,7 +228,7 @@ static void rigid_block(const void *context, int64_t first, int64_t end, real *s
     }
 }
 
-enum { RIGID_TERMS = 2 * DIM_MAX };
+enum { RIGID_TERMS = 2 * DIM_MAX }; /* number of components of force and moment */
 
 /* Adds the contact forces of rigid body number `body` to p->f, and stores the opposite force and moment in the body.
  * Bodies are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction

@@ -5,8 +5,8 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-#define RISE_MOST 0.6 /* range of the search for the surface above a particle [spacings] */
-#define ROUND_OFF 1e-6
+#define RISE_MOST 0.6      /* range of the search for the surface above a particle [spacings] */
+#define ROUND_OFF 1e-6     /* heights of a surface below this are 0 [spacings] */
 enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces open before they can close */
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
@@ -140,10 +140,10 @@ struct contact_search {
     const struct contact_law *law;
     const struct particles *p;
     const struct bonds *b;
-    struct particles places; /* with the present positions of the listed particles as X */
-    struct cells cells;
-    const int32_t *particle;
-    real reach; /* range of the search [m] */
+    struct particles places; /* the listed particles, with their present positions as X */
+    struct cells cells;      /* neighbour search over these positions */
+    const int32_t *particle; /* indices of the listed particles in p */
+    real reach;              /* range of the search [m] */
 };
 
 /* The pairs of consecutive rows of the contact list that one thread has found. other[n]: list entries of the second

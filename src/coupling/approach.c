@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "data/cells.h"
 
+/* Bounding box of the particles of a body [m]. */
 struct body_box {
     real from[DIM_MAX], to[DIM_MAX];
 };

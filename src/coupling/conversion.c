@@ -56,6 +56,7 @@ void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_
 
 /* ---- one pass ---------------------------------------------------------------------------------------------------- */
 
+/* Flags that hold for one step, and are cleared at the end of a conversion. */
 #define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
 
 /* Returns true if particle i is a material point whose flags require that it becomes peridynamic: it has lost a bond,

@@ -57,7 +57,7 @@ struct crack_edges {
     real radius;
 };
 
-enum { EDGES_MAX = 64 };
+enum { EDGES_MAX = 64 }; /* largest number of edges of a crack: one bit each in crack_edges.edges */
 
 /* Returns crack c with the set of its edges (in 2D ends) beyond which the body continues. Around these edges the body
  * is peridynamic. radius: radius of these peridynamic zones [m]; p, s: particles and the cells of the neighbour

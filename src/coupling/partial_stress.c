@@ -21,7 +21,7 @@
 #include "base/memory.h"
 #include "partial_parts.h"
 
-enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
+enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX }; /* largest number of values of an entry: stress and tensor */
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
@@ -250,9 +250,10 @@ struct renewal {
     int64_t n;
     int32_t *row; /* rows of material points; none if the table applies to all cells */
     int64_t rows;
-    bool *own; /* [n] the particle is one of the changed */
+    bool *own; /* [n] true: the particle is one of the changed particles */
 };
 
+/* Marks of particles beside changed particles, as bits; the next function sets them. */
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
 /* Sets bits in mark[p->n] for the particles that are affected when particles have changed. OWN: a changed particle.

@@ -9,7 +9,7 @@
 #include "partial_parts.h"
 
 #define WHOLE 1e-12 /* tolerance of the volume of a lattice cell [1]: round-off */
-enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
+enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 }; /* largest number of bond vectors; of bodies */
 enum { ROWS_AHEAD = 6 }; /* distance of prefetching: bond responses are in outer caches */
 
 /* Fraction of the length of a bond that is inside the cell of a point, for one bond that crosses the cell. vector,
@@ -30,7 +30,7 @@ struct near_place {
  * number of the bond's vector. The values of a row are valid until one of its bonds changes. */
 struct responses {
     int32_t *of;    /* [n] entry of a particle, -1: no row with an intact bond */
-    real *response; /* [room][vectors][parts]                                             */
+    real *response; /* [room][vectors][parts] */
     int64_t n, room, frees;
     int32_t *free; /* [room] unused entries, the first `frees` */
 };
@@ -38,16 +38,16 @@ struct responses {
 /* Table for one lattice: the fractions of all possible bonds inside the cell of a point, and the tensors of these
  * bonds. Sites are numbered like the cells of a cube with the point in the middle and `reach` cells on either side. */
 struct partial_table {
-    int dim, reach, parts, size; /* parts of a response; values of a tensor */
-    real spacing, per_spacing;   /* [m] [1/m]                                                          */
+    int dim, reach, parts, size; /* dimension; reach of bonds [cells]; parts of a response; values of a tensor */
+    real spacing, per_spacing;   /* lattice spacing [m]; 1/spacing [1/m] */
     int vectors, directions;     /* vectors of bonds; directions, i.e. pairs of a vector and its opposite */
-    struct near_place *near;     /* [vectors + 1] in ascending order */
+    struct near_place *near;     /* [vectors + 1] sites within the length of a bond, ascending by number */
     int16_t *vector;             /* [sites] number of the vector to a site, -1: no bond */
     int16_t *mirror;             /* [2^dim][vectors] number of the vector with reversed signs */
     int32_t *start;              /* [sites + 1] crossings of bonds from a site: start[k] .. start[k + 1] - 1 */
-    struct crossing *crossing;
-    real *tensor; /* [directions][parts][size]                                          */
-    bool uniform; /* all particles have the volume of a lattice cell */
+    struct crossing *crossing;   /* bonds that cross the cell of the point */
+    real *tensor;                /* [directions][parts][size] tensors of unit responses */
+    bool uniform;                /* all particles have the volume of a lattice cell */
     struct responses responses;
 };
 

@@ -13,7 +13,7 @@
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
-/* Neighbour search, one per thread. */
+/* Search for the neighbours of a particle, for one thread. */
 struct search {
     const struct particles *p;
     const struct bond_source *source;
@@ -208,8 +208,8 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
 }
 
 /* The cell of a particle. stress: stress that the bonds crossing the cell carry there [Pa]; T: its derivative by a
- * uniform strain [Pa]; both times the volume of the cell during summation; X, half: centre and half edge of the cell
- * [m]. */
+ * uniform strain [Pa]; both multiplied by the volume of the cell until the sum is complete; X, half: centre of the cell
+ * and half of an edge [m]. */
 struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { XX, YY, ZZ, XY, YZ, XZ };
-enum { SWEEPS = 12 }; /* largest number of Jacobi sweeps; they converge quadratically, five suffice */
+enum { XX, YY, ZZ, XY, YZ, XZ }; /* indices of the components of a symmetric tensor */
+enum { SWEEPS = 12 };            /* largest number of Jacobi sweeps; they converge quadratically, five suffice */
 
 real tensor_mises_stress(const real s[6])
 {

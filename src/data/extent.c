@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FAR 100 /* distance from the origin over the longest edge of the bodies from which on it is reported [1] */
+/* Distance from the origin, divided by the longest edge of the bodies, from which on it is reported [1]. */
+#define FAR 100
 
 struct extent_text particles_extent_text(const struct particles *p)
 {

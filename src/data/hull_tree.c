@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "data/hull.h"
 
-/* LEAF: largest number of faces in a leaf; DEEPEST: of waiting nodes; NEAR_MOST: of faces that are tested for
+/* Largest numbers: of faces in a leaf; of nodes that wait on the stack of a search; of faces that are tested for
  * convexity. */
 enum { LEAF = 8, DEEPEST = 64, NEAR_MOST = 100 };
 #define FAR 3.0 /* distance, in radii of a node, from which its dipole replaces its faces */

@@ -44,9 +44,11 @@ static int if_return(int dim, int optional) { return (void)dim, optional & WITH_
     {                                                                                                                  \
         name, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials                        \
     }
+/* Row of an array that has the same name in checkpoints as in struct particles; TRIAL: plastic state. */
 #define FIELD(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, false)
 #define TRIAL(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, true)
 
+/* Table of all arrays of struct particles. */
 const struct particle_field particle_fields[] = {
     FIELD(X, real, vector, "m", "reference position"),
     FIELD(x, real, vector, "m", "position"),

@@ -71,8 +71,8 @@ real softening_normalised_dissipated_energy(const struct softening_curve *c, rea
 
 /* ---- uniform strain ---------------------------------------------------------------------------------------------- */
 
-enum { DIRECTIONS = 128, BISECTIONS = 40 };
-#define GROWTH 1.01 /* factor between two strains of the search for a peak */
+enum { DIRECTIONS = 128, BISECTIONS = 40 }; /* directions of a quadrature over bonds; steps of a bisection */
+#define GROWTH 1.01                         /* factor between two strains of the search for a peak */
 
 /* Axial and lateral stress of a family of bonds, divided by E' s_0: modulus times stretch at which bonds begin to
  * soften [1]. */

@@ -255,7 +255,7 @@ enum polygon_fault polygon_check_and_complete(struct polygon *p, int *faulty_cor
 
 /* ---- ellipsoids -------------------------------------------------------------------------------------------------- */
 
-enum { STEPS = 200 };
+enum { STEPS = 200 }; /* largest number of iterations for the nearest point of an ellipsoid */
 
 /* Returns F(t) = sum_d (e_d y_d/(t + e_d^2))^2 - 1 and its derivative in *slope. e[dim]: half axes of an ellipsoid
  * [m]; y[dim]: a point with components >= 0 [m]. At the root t of F the nearest point of the ellipsoid is x_d =

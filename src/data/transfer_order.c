@@ -97,11 +97,12 @@ struct sorting {
     const struct particles *p;
     const struct grid *g;
     struct block_shape shape;
-    const int32_t *list;
+    const int32_t *list; /* [n] indices of the points */
     int64_t n;
     int chunks;
-    int64_t *place[DIM_MAX];   /* [g->count] by direction: share of a cell in block << INSIDE_BITS | cell in block */
-    int32_t *rank;             /* [blocks] */
+    int64_t *place[DIM_MAX];   /* [g->count] of a cell along each axis: its part of the number of the block, shifted by
+                                  INSIDE_BITS, and of the number of the cell in the block */
+    int32_t *rank;             /* [blocks] position of a block in the order by colour */
     int32_t *fill;             /* [chunks][blocks] number of points; then index of the next point */
     int32_t *key, *bucket;     /* [n] rank of a point's block; points sorted by rank */
     uint16_t *inside, *sorted; /* [n] cell in the block; sorted by rank */
@@ -207,6 +208,7 @@ static void put_in_blocks(const struct sorting *s, int chunk)
     }
 }
 
+/* Largest number of cells of a block. */
 enum { CELLS_IN_BLOCK_MOST = BLOCK_LENGTH * BLOCK_EDGE * BLOCK_EDGE };
 
 /* Sorts the n particles of a block by cell (counting sort, stable). particle[n], inside[n]: the particles and their

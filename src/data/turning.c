@@ -57,7 +57,7 @@ static int64_t group_place(real u, bool odd)
 /* Extent and middle of joined bodies. Their groups of points are counted from the middle. */
 struct division {
     real low[DIM_MAX], high[DIM_MAX]; /* range of the reference positions [m] */
-    real middle[DIM_MAX];             /* [m] */
+    real middle[DIM_MAX];             /* middle of this range [m] */
     bool odd[DIM_MAX];                /* a row of particles is on the middle, across each axis */
 };
 

@@ -11,6 +11,7 @@
 #define STEP_COARSE 1e-3 /* and in later ones, for segments along faces inside the shape */
 enum { FINE_STEPS = 400 };
 enum { SOLIDS_MOST = 31 }; /* in bodies of more solids all pairs are tested */
+/* Result of solids_around for a particle inside a convex part of one solid, with no other solid nearby. */
 #define ALONE UINT32_MAX
 
 bool region_has_voxel_image(const struct region *r)

@@ -8,6 +8,7 @@
 #include "output/output.h"
 #include "data/extent.h"
 
+/* Names of couplings in scene files, for messages. */
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 

@@ -7,9 +7,9 @@
 #define TOUCHING 0.01      /* largest overlap of bodies that touch [spacings] */
 enum { FLYING_MOST = 64 }; /* largest number of bodies that are compared in pairs */
 
-/* Box round a body and range of its velocities at the start. */
+/* Bounding box of a body, and range of its velocities at the start. */
 struct flight {
-    real low[DIM_MAX], high[DIM_MAX];        /* [m] */
+    real low[DIM_MAX], high[DIM_MAX];        /* lower and upper corner of the box [m] */
     real slowest[DIM_MAX], fastest[DIM_MAX]; /* least and largest velocity along each axis [m/s] */
     bool known;                              /* the box is finite, and no force acts before the body meets another */
 };

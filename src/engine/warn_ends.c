@@ -8,8 +8,8 @@
 
 #include "engine_internal.h"
 
-#define CELL_OF_PAIRS 2.0 /* edge of the cells to which the errors refer [spacings] */
-enum { LONGER = 3, SHORTER = -1 };
+#define CELL_OF_PAIRS 2.0          /* edge of the cells to which the errors refer [spacings] */
+enum { LONGER = 3, SHORTER = -1 }; /* errors of the length of a body [spacings]: N - 1 + 4 and N - 1 instead of N */
 
 /* Range of the material points of a load, and of the body to which the first of them belongs. */
 struct supported {

@@ -4,10 +4,10 @@
 
 #include "engine_internal.h"
 
-#define ROWS_FEW                                                                                                       \
-    3.5 /* rows of particles up to which a body bears 1.4 to 1.8 times its force; from 5 on 2 to 12 % more */
+/* Rows of particles up to which a body carries 1.4 to 1.8 times its force; from 5 rows on 2 to 12 % more. */
+#define ROWS_FEW 3.5
 #define ROWS_ENOUGH 5 /* rows of the spacing that is named as a remedy */
-#define UNSOLVED 1e-8 /* residual of the weights from which on they are doubted: solved ones have 1e-13 */
+#define UNSOLVED 1e-8 /* residual of the bond weights from which on a warning is given; of converged weights: 1e-13 */
 
 /* Adds a warning to *to about the body with the index b if it is at most ROWS_FEW particles thick along an axis. */
 static void warn_of_thin(const struct scene *s, const struct particles *p, int b, struct warnings *to)

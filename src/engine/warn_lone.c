@@ -10,7 +10,7 @@ enum { MASS_POINTS = 7 }; /* bodies of at most so many particles are mass points
 /* Counts of the particles of one body. all: all particles; n: those without a neighbour; first: index of the first of
  * the latter. */
 struct lone {
-    int64_t all, n, first; /* all; without neighbour; index of the first without neighbour */
+    int64_t all, n, first; /* numbers of particles; index */
 };
 
 /* Counts particle i in *l, the particles of a body that have no neighbours. The first one is stored in l->first for the

@@ -6,14 +6,14 @@
 
 #include "engine_internal.h"
 
-enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are evaluated                             */
+enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* times, positions at which loads are evaluated */
 #define UNLIKE 30  /* factor between the densities of a rigid body and of materials in other units */
 #define EARLY 0.01 /* end of a function of time divided by the time step, below which the run does not see it */
 #define STIFF 1e9  /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 #define TOUGHNESS_LEAST 5e4  /* [Pa m^0.5] from STIFF on; waxes and salts that cleave have 8e4 */
 #define HARDENING_LEAST 1e-6 /* hardening modulus over Young's modulus below which stress hardly grows [1] */
 
-enum { RULES = ACCEPT_TIMES + 1 };
+enum { RULES = ACCEPT_TIMES + 1 }; /* number of quantities that are checked */
 
 /* Range of plausible values of each quantity that is checked: smallest and largest value, the beginning of the message,
  * the unit, and the input that the user should check.
