@@ -22,8 +22,8 @@
 #include "step/shock.h"
 
 #define ENOUGH 0.99      /* share of FEATURE horizons that is tolerated: 12 spacings are 3.98 horizons */
-#define WAVE 16          /* spacings */
-#define REACHED 4        /* rho c v  */
+#define WAVE 16          /* shortest front or pulse of which no remark is made [spacings] */
+#define REACHED 4        /* stress that a driven part may reach, divided by rho c v (see `stress` above) [1] */
 #define PASSAGES 4       /* passages of waves through a body up to which its stress is estimated */
 #define LITTLE 0.1       /* strain below which the reference frame is suggested */
 #define BESIDE_FACE 1.5  /* largest distance at which a probe counts as at a face [spacings] */
@@ -66,7 +66,7 @@ real solid_smallest_edge(const struct run *e, const struct solid *solid)
  * torsion of strips and square bars of 8 to 1 at a horizon of 3.015 spacings: `bond` at the Poisson's ratio of bonds,
  * `ospd` and `mospd` at ratios from 0 to 1/3, `uncorrected` for bonds with pd.surface: none. The first row applies to
  * all thinner parts, the last row to all thicker ones. */
-enum { OFF_PLANE, OFF_SOLID, OFF_TWISTED, OFFS };
+enum { OFF_PLANE, OFF_SOLID, OFF_TWISTED, OFFS }; /* columns of the table; OFFS: their number */
 static const struct {
     double layers;
     int bond[OFFS], ospd[OFFS], mospd[OFFS], uncorrected[OFFS];

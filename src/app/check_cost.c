@@ -26,13 +26,13 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define PATIENCE 3.0               /* factor on SECONDS_WHOLE, for conversion or a busy machine */
 #define WALL_MOST 60.0             /* wall-clock time of such a trial [s] */
 #define COARSER_MOST 4.0           /* factor on the spacing up to which a body breaks in about the same positions */
-#define PARTS_BYTES 56             /* ... in addition with bonds: fragments of a broken body, damage */
-#define OUTPUT_BYTES 2.1e6         /* of the HDF5 library, code and data; measured 1.7 to 2.8e6 */
-#define START_SECONDS 0.02         /* of a process: its start and the summary */
-#define FILE_SECONDS 4e-3          /* per frame, checkpoint or profile of any size; both values are measured: */
-#define FILE_SECONDS_PARTICLE 8e-8 /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
-#define BONDS_MOST 2e8             /* of a body that is tried with all particles peridynamic */
-#define BONDS_TRIED 2e7            /* of a coarser body that is tried in its place */
+#define PARTS_BYTES 56             /* per particle, in addition with bonds: fragments of a broken body, damage */
+#define OUTPUT_BYTES 2.1e6         /* memory of the HDF5 library, code and data; measured 1.7 to 2.8e6 [byte] */
+#define START_SECONDS 0.02         /* start of a process and its summary [s] */
+#define FILE_SECONDS 4e-3          /* time of a frame, checkpoint or profile of any size; measured [s] */
+#define FILE_SECONDS_PARTICLE 8e-8 /* further time per particle; measured: frames of 320,000 take 26 ms [s] */
+#define BONDS_MOST 2e8             /* largest number of bonds of a body that is tried as peridynamic throughout */
+#define BONDS_TRIED 2e7            /* number of bonds of the coarser body that is tried instead of a larger one */
 
 /* Returns the quartiles of n measured times spent[n] [s]; the array is sorted in place. */
 static struct quartiles quartiles_of(double *spent, int n)
@@ -200,7 +200,7 @@ static double output_seconds(const struct run *e)
 static const struct {
     double below, above;
 } range[] = {[COST_TRIED] = {1.3, 1.5}, [COST_SCALED] = {1.6, 1.6}, [COST_FIRST] = {2, 1.5}};
-#define SPREAD_MOST 1.5 /* of what is measured on a busy machine */
+#define SPREAD_MOST 1.5 /* largest factor by which the scatter of measurements widens the bounds of the time [1] */
 
 /* Estimates the time c->run of the whole run with set-up and output, and its bounds c->least and c->most [s]. Stores in
  * c->basis whether the time was measured, scaled or extrapolated. If the whole run was measured, its warnings replace

@@ -9,7 +9,7 @@
 #define CELLS_MOST 6e6 /* largest number of cells of the bounding box of a body; more take too long */
 enum {
     PLACES = 64
-}; /* points sampled in a cell that a face crosses; sampling errors average out over a part of several cells */
+}; /* number of points that are sampled in a cell which a face crosses; errors average out over several cells */
 
 bool piece_contains(const struct piece *p, const real *X, real tolerance)
 {

@@ -128,10 +128,10 @@ static void say_vector(const real *a, int n) { printf(n > 1 ? "(%s)" : "%s", pos
 /* Faces on which a pressure acts, compared with the shapes of their bodies. */
 struct faced {
     const struct run *e;
-    real area;       /* of the faces [m^2] */
-    real along, off; /* projected to the shapes' surfaces [m^2]; times the distance from them,
-                        outside positive [m^3] */
-    bool unknown;    /* for one of the bodies no distance is known */
+    real area;       /* sum of the areas of the faces [m^2] */
+    real along, off; /* sum of the areas projected to the surfaces of the shapes [m^2]; sum of area times distance from
+                        the surface, outside positive [m^3] */
+    bool unknown;    /* the distance from the shape of at least one body is not known */
 };
 
 /* Returns true if distances from the surface of body number `body` of scene s can be computed: it has a shape of its
@@ -323,15 +323,15 @@ static void say_load(const struct run *e, int which)
 
 /* ---- balance ----------------------------------------------------------------------------------------------------- */
 
-#define UNBALANCED 0.01 /* net force from which on loads do not balance, over the sum of their forces */
-#define LASTING 0.5     /* net force at the end of the run over its largest one from which on the load lasts [1] */
+#define UNBALANCED 0.01 /* net force divided by the sum of all forces, from which on loads do not balance [1] */
+#define LASTING 0.5     /* net force at the end divided by the largest one, from which on the load lasts [1] */
 #define CROSSED 2.0     /* passages of waves through the body after which it is faster than the waves in it [1] */
 enum { INSTANTS = 64 }; /* times at which the net force is evaluated */
 
 /* Largest net force of the loads on a body that nothing holds along it, and the motion of the body by the net force. */
 struct drift {
     real force[DIM_MAX], net;               /* largest net force and its magnitude [N] */
-    real acceleration, speed, displacement; /* by it [m/s^2]; at the end of the run [m/s], [m] */
+    real acceleration, speed, displacement; /* by this force [m/s^2]; at the end of the run [m/s], [m] */
     int axis;                               /* axis of the largest component of the force */
     bool lasts;                             /* the net force acts at the end as well, and waves have crossed the body */
 };

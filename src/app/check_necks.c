@@ -24,17 +24,18 @@ enum {
     NECKS_MOST = 64 /* largest number of necks that are measured in a piece */
 };
 
+/* Search for necks (narrow parts) of one piece: a body, or its part of one material. */
 struct necks {
-    const struct cover *cover;
+    const struct cover *cover; /* share of each cell that the shape covers; its cells index the arrays below */
     const struct run *engine;
     const struct piece *piece;
-    int axis; /* axis of the widths */
-    int64_t stride[DIM_MAX];
+    int axis;                /* axis of the widths */
+    int64_t stride[DIM_MAX]; /* step of the cell index along each axis */
     uint8_t *rows;  /* [cells] 1 + number of particles in the run along the axis through the cell, at most NARROW; 0: no
                        run */
-    uint8_t *seen;  /* [cells] belongs to runs that have been compared */
-    int64_t *stack; /* [cells] */
-    int measured;
+    uint8_t *seen;  /* [cells] 1: the cell belongs to runs that have been compared */
+    int64_t *stack; /* [cells] working memory: cells of a neck whose neighbours are not yet visited */
+    int measured;   /* number of necks that have been measured */
 };
 
 /* The width of a piece (a body, or its part of one material) on one line along an axis: midpoint and length of the part
@@ -146,11 +147,13 @@ static bool chord_measure(const struct necks *k, const real *X, struct chord *ch
     return true;
 }
 
+/* Largest number of chords on either side of chord 0. */
+enum { CHORDS_MOST = SAMPLES * (LONGEST + 8 * NARROW) };
+
 /* Parallel chords across a neck, from chord `first` to chord `last`, at a distance of 1/SAMPLES spacing. Chord 0 is on
  * a lattice line. */
-enum { CHORDS_MOST = SAMPLES * (LONGEST + 8 * NARROW) };
 struct chords {
-    int across, first, last;                 /* axis; numbers of chords, first <= 0 <= last */
+    int across, first, last;                 /* axis along which chords follow each other; first <= 0 <= last */
     bool mirrored[2];                        /* the piece ends at a plane of symmetry */
     real X[DIM_MAX];                         /* point of chord 0 */
     struct chord chord[2 * CHORDS_MOST + 1]; /* chord m is [CHORDS_MOST + m] */

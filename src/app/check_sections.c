@@ -21,14 +21,15 @@ struct section {
     int32_t before, after;  /* largest section that it touches in the previous and in the next slice; -1: none */
 };
 
+/* All sections of a body across one axis. */
 struct sections {
-    const struct cover *cover;
-    int axis, across[2];
-    int64_t stride, side[2]; /* index offset from a cell to the next slice; to neighbours in the slice */
+    const struct cover *cover; /* share of each cell that the shape covers */
+    int axis, across[2];       /* axis of the slices; the other axes */
+    int64_t stride, side[2];   /* index offset from a cell to the next slice; to neighbours in the slice */
     int32_t n;
-    struct section *section;
-    int32_t *of;    /* [cells] section of a cell, -1: none */
-    uint8_t *named; /* [cells] bit d: belongs to a reported part, with a wrong width along axis d */
+    struct section *section; /* [n] */
+    int32_t *of;             /* [cells] section of a cell, -1: none */
+    uint8_t *named; /* [cells] bit d: the cell belongs to a part that was reported for its width along axis d */
 };
 
 static bool is_covered(const struct cover *c, int64_t cell) { return c->filled[cell] || c->share[cell] > COVERED; }

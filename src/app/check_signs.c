@@ -5,12 +5,12 @@
 #include "probes/probes_part.h"
 
 #define FRICTION_MOST 3.0   /* coefficient; dry metals in vacuum have 1 to 2 */
-#define EARTH 9.81          /* [m/s^2] */
-#define GRAVITY_MOST 1000.0 /* divided by that of the Earth; centrifuges of geotechnics have up to 300 */
-#define DAMPING_MOST 0.1    /* c times the time step */
+#define EARTH 9.81          /* gravity on the Earth [m/s^2] */
+#define GRAVITY_MOST 1000.0 /* largest gravity divided by EARTH [1]; geotechnical centrifuges have up to 300 */
+#define DAMPING_MOST 0.1    /* largest damping coefficient times the time step [1] */
 
-#define FRAME_BYTES 60.0 /* of a frame with its usual fields, per particle; measured in 2D and 3D: 54 and 63 */
-#define FRAMES_MANY 10e9 /* bytes of all frames from which on they are reported */
+#define FRAME_BYTES 60.0 /* size of a frame with its usual fields per particle; measured: 54 in 2D, 63 in 3D [byte] */
+#define FRAMES_MANY 10e9 /* size of all frames from which on they are reported [byte] */
 
 /* Returns true if the components of boundary b are given as numbers, none of them as a formula. */
 static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }

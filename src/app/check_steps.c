@@ -13,7 +13,7 @@
 #define LOADS_LOOKS 64   /* number of times at which loads are evaluated */
 #define PEAK_LOOKS 240   /* number of times at which peaks between load steps are looked for */
 #define PEAK_MISSED 0.01 /* least height of a peak above the load steps beside it, divided by the largest loads */
-#define FEW 20.0         /* spacings of crack, or of material ahead, below which loads deviate from handbooks */
+#define FEW 20.0         /* length of a crack, or of the material ahead, below which loads deviate [spacings] */
 #define NOTHING_BREAKS 0.8 /* tip stretch divided by critical stretch without an increment; 0.9 at Griffith's load */
 #define SLOWER 2.0         /* factor on the number of iterations of the first equilibrium for those with a long crack */
 #define LEAST_SHARE 0.1    /* least run time divided by the largest: early separation, fewer iterations */

@@ -11,7 +11,8 @@
 #include "probes/probes_part.h"
 #include "step/step.h"
 
-#define NEAR_ENOUGH 1e-6 /* [spacings], and share of a largest component */
+#define NEAR_ENOUGH 1e-6 /* tolerance of positions [spacings], and of vectors as a share of the largest component [1]  \
+                          */
 
 /* Returns the index of the particle of run e at the position X[dim] [m]; -1 if there is none or more than one. */
 static int64_t particle_at(const struct run *e, const real *X)

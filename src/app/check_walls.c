@@ -4,7 +4,7 @@
 #include "check_parts.h"
 #include "mesh/mesh_part.h"
 
-#define TOUCHING 1e-3 /* largest gap at which a body lies at a plane of symmetry [spacings] */
+#define TOUCHING 1e-3 /* largest gap between a body and a plane of symmetry that counts as contact [spacings] */
 
 /* Returns the distance [cells] between a plane of symmetry and the face of a body on the grid below which the plane
  * acts on the body as if they touched. shape: shape function of the body. Measured with cells of two spacings and a

@@ -23,10 +23,11 @@ enum { KEY_LENGTH = 64 };
  * because runs with different time steps have no frames at identical times. */
 static const double SAME_TIME = 0.05;
 
+/* Two runs that are compared: their folders. */
 struct pair {
     const char *folder[2];
-    bool frames_differ; /* no fields were compared                    */
-    double spacing;     /* of the first run; 0 if there are no frames [m] */
+    bool frames_differ; /* the frames have different particles, so that no fields were compared */
+    double spacing;     /* spacing of the first run [m]; 0: no frames */
     int dim;
 };
 
@@ -100,9 +101,10 @@ static bool last_common(const struct times *a, const struct times *b, int *i, in
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
+/* Difference of a field between both runs, in its unit. */
 struct difference {
-    double largest, rms, scale; /* of |a - b|; scale: largest |a| */
-    int64_t where;              /* particle of the largest        */
+    double largest, rms, scale; /* largest |a - b|; root mean square of a - b; largest |a| */
+    int64_t where;              /* index of the particle with the largest difference */
 };
 
 /* Returns the largest and the root-mean-square difference |a - b| of the fields a and b over n particles, the particle

@@ -37,6 +37,7 @@ static void names_print(FILE *out)
     for (int k = 0; k < commands_count; k++) fprintf(out, "%s%s", k ? " " : "", commands[k].name);
 }
 
+/* Texts of the scripts for both shells: head, beginning of the function, its rest after the lists of words. */
 static const char head[] = "# Completion of cleave, for %s; made by `cleave help --completion %s`.\n"
                            "_cleave_keys='\n";
 

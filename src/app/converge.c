@@ -15,12 +15,13 @@ static const char usage[] = "converge " CONVERGE_WORDS;
 enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
 #define BUDGET_USUAL 600.0 /* default of --budget [s] */
 
+/* Arguments of `cleave converge`. */
 struct converge_arguments {
     struct convergence_request wish;
-    struct varied_key *key; /* overrides, each with one value */
-    const char **wanted;
+    struct varied_key *key; /* [keys] overrides (-s), each with one value */
+    const char **wanted;    /* [wanteds] names of requested figures */
     int keys, wanteds;
-    struct picture_size size;                      /* of pictures, and their format */
+    struct picture_size size;                      /* size and format of pictures */
     char folder[NAME_MAX_LENGTH + CASE_NAME_ROOM]; /* name of the folder without -o */
 };
 

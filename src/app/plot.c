@@ -13,12 +13,13 @@
 
 static const char usage[] = "plot " PLOT_WORDS;
 
+/* Arguments of `cleave plot`. */
 struct plot_words {
     struct plot_request request;
     struct run_arguments scene;          /* words of --scene, with its overrides */
     const char *times, *frames, *format; /* as on the command line */
-    struct picture_size size;
-    char *range; /* allocated copy of the value of --range, cut in two */
+    struct picture_size size;            /* size of pictures */
+    char *range;                         /* allocated copy of the value of --range, cut in two */
 };
 
 /* Largest number of frames of a film; still images have PANELS_MAX. */

@@ -10,17 +10,18 @@
 
 static const char usage[] = "sweep " SWEEP_WORDS;
 
-enum { FIGURES_MOST = 6 }; /* panels of a picture */
+enum { FIGURES_MOST = 6 }; /* largest number of figures (panels) of a picture */
 
+/* Arguments of `cleave sweep`. */
 struct sweep_arguments {
-    const char *scene, *folder;
-    struct varied_key *key;
+    const char *scene, *folder; /* path of the scene file; folder of the study, NULL: default */
+    struct varied_key *key;     /* [keys] varied keys with their values */
     int keys;
     struct study_options options;
-    bool list, collect;
-    const char *of[FIGURES_MOST]; /* figures of the pictures */
+    bool list, collect;           /* only list the runs; only collect the results of finished runs */
+    const char *of[FIGURES_MOST]; /* [asked] names of the figures that pictures show */
     int asked;
-    struct picture_size size; /* of pictures, and their format */
+    struct picture_size size; /* size and format of pictures */
     char *words;              /* text of study_options_compose_from_arguments */
 };
 

@@ -3,6 +3,7 @@
 
 #include "commands.h"
 
+/* A promise about runs, and the names of the tests that check it, separated by blanks. */
 struct promise {
     const char *what, *tests;
 };

@@ -16,7 +16,7 @@
 /* Sizes of names and of lines of text in the file, with the terminating zero [byte]; largest number of variables at
  * nodes, and at elements. */
 enum { NAME_WIDTH = 33, LINE_WIDTH = 81, VARIABLES_MOST = 32 };
-#define EXODUS_SIGN ", exported by Cleave"
+#define EXODUS_SIGN ", exported by Cleave" /* end of the title, by which a file is recognised as an export */
 
 /* A number over time at every particle, as a variable of the file. field: index of the field of frames; component:
  * index of its component, or -1 for a component that 2D lacks, whose value is 0. */
@@ -32,19 +32,19 @@ static const struct exported_field {
     bool nodal;
 } fields[] = {{"displacement", true},    {"velocity", true}, {"damage", false},  {"stress", false},
               {"plastic_strain", false}, {"kind", false},    {"fragment", false}};
-enum { FIELDS = COUNT_OF(fields) };
+enum { FIELDS = COUNT_OF(fields) }; /* number of fields of frames that can be exported */
 
-/* An export. */
+/* An export of a scene or of the frames of a run to an Exodus II file. */
 struct exodus_export {
     const struct export_request *request;
     struct export_mesh mesh;
-    const char *folder; /* of a run; NULL: a scene */
+    const char *folder; /* folder of the run; NULL: a scene is exported */
     int frames;
-    struct listed_frame *frame;
-    int variables[2]; /* number of element variables, of nodal ones */
-    struct variable variable[2][VARIABLES_MOST];
-    int width[FIELDS]; /* components of each field; 0: the run has it not */
-    char title[LINE_WIDTH], rows[3][LINE_WIDTH];
+    struct listed_frame *frame;                  /* [frames] */
+    int variables[2];                            /* number of variables at elements [0], at nodes [1] */
+    struct variable variable[2][VARIABLES_MOST]; /* [variables[k]] */
+    int width[FIELDS];                           /* number of components of each field; 0: the run lacks the field */
+    char title[LINE_WIDTH], rows[3][LINE_WIDTH]; /* title of the file; lines of information */
     struct netcdf_writer w;
 };
 

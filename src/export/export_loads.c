@@ -17,6 +17,7 @@ static const char axis_name[] = "xyz";
 /* Largest number of rows of a table in time that is exported. */
 enum { TABLE_MOST = 500 };
 
+/* A word of the script of LAMMPS, returned by value. */
 struct word {
     char text[32];
 };

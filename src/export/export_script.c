@@ -7,7 +7,7 @@
 #include "step/report.h"
 
 #define SKIN 0.3         /* skin of the neighbour list [spacings] */
-#define FRAMES_MOST 1000 /* most frames at irregular steps, each a term of a variable */
+#define FRAMES_MOST 1000 /* largest number of frames at irregular steps, each a term of a variable of LAMMPS */
 #define FAR 0.5          /* stretch beyond which ghost particles of unbreakable bonds may be lost */
 
 static real stretch_of(const struct exported *x, int a, int b)

@@ -8,10 +8,11 @@
 #include "kernels/kernels.h"
 #include "base/memory.h"
 
-#define FASTEST 0.9 /* limit of the tip speed over the Rayleigh speed */
-/* Tip speed over the Rayleigh speed below which the fields of a crack at rest are used [1]: factors differ by 1e-4. */
+#define FASTEST 0.9 /* largest tip speed divided by the Rayleigh speed [1] */
+/* Tip speed divided by the Rayleigh speed below which the fields of a crack at rest are used: factors differ by
+ * 1e-4. */
 #define SLOWEST 0.01
-#define SMOOTHING 0.3 /* time of the mean of the speed over the settling time T (growth.h) */
+#define SMOOTHING 0.3 /* averaging time of the speed divided by the settling time T (growth.h) [1] */
 
 void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule)
 {

@@ -78,13 +78,14 @@ struct sif_point {
     struct crack_state state;
 };
 
+/* The n particles that contribute to the integrals of a crack tip. */
 struct sif_points {
     const struct sif_tip *tip;
-    const struct contour *contour; /* of the present sum */
+    const struct contour *contour; /* contour of the present sum */
     bool inner;                    /* the second sum contributes: inertia, or loads inside the contours */
     int64_t n;
-    int32_t *particle;
-    struct sif_point *point;
+    int32_t *particle;       /* [n] indices */
+    struct sif_point *point; /* [n] positions, areas and fields */
 };
 
 /* Transforms the vector v from the global axes to those of the crack at `tip`: local[0] is the component along the

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#define HALVINGS 45 /* bisections of a speed interval, to round-off of k */
-#define REST 0.01   /* speed over c_s below which the field is that of a crack at rest */
+#define HALVINGS 45 /* number of bisections of a speed interval, to round-off of k */
+#define REST 0.01   /* tip speed divided by the shear wave speed below which the crack counts as at rest [1] */
 
 static const real pi = 3.14159265358979323846;
 

@@ -6,7 +6,8 @@
 
 enum { QUADRATIC = 6, LINEAR = 3 }; /* terms of complete polynomials in the plane */
 
-#define SINGULAR 1e-10 /* least pivot over the diagonal entry; smaller if neighbours are on a line or a conic */
+/* Least pivot divided by the diagonal entry [1]. Pivots are smaller if all neighbours are on a line or a conic. */
+#define SINGULAR 1e-10
 
 /* ---- visibility across cracks ------------------------------------------------------------------------------------ */
 

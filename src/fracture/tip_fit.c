@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Number of terms of the Williams series for each mode; number of unknowns, with a rigid displacement. */
 enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 
 /* Distance ahead of the tip from which visibility is tested, since the crack itself ends at the tip [inner radius]. */
@@ -11,7 +12,7 @@ enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 /* Distance from the line of the last segment of the crack below which a particle counts as on neither side [inner
  * radius]. */
 #define ON_FACE 0.03
-#define SINGULAR 1e-12 /* least pivot over the diagonal entry */
+#define SINGULAR 1e-12 /* least pivot divided by the diagonal entry [1] */
 
 /* Computes the displacements, times 2 G, of term n of the Williams series (expansion of the field at a crack tip) with
  * a unit coefficient [1], along the crack and perpendicular to it: mode_1[2] for mode I, mode_2[2] for mode II. G:

@@ -11,6 +11,8 @@
 #include "abaqus_lines.h"
 #include "abaqus_type.h"
 
+/* Largest numbers: of parts; of set members that GENERATE makes per byte of the deck; of files included by each other;
+ * room for the path of a file [byte]. */
 enum { PARTS_MAX = 256, GENERATED_MOST = 16, DEPTH_MAX = 10, PATH_LENGTH = 4096 };
 
 /* A range of nodes and elements whose labels are unique: one part of the deck, or all that is outside parts. */
@@ -21,7 +23,7 @@ struct scope {
     bool placed;                                  /* has an instance */
 };
 
-/* A deck while it is read. */
+/* An input file (deck) of Abaqus while it is read. */
 struct deck {
     struct source *s;
     struct element_mesh *m;

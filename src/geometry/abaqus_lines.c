@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LABEL_MAX = 999999999 };
+enum { LABEL_MAX = 999999999 }; /* largest number of a node or element in a deck */
 
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
 

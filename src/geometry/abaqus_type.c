@@ -19,6 +19,7 @@ static const char *const left_out[] = {
     "ASI",  "T2D",     "T3D",     "B2",     "B3",      "PIPE",  "ELBOW", "FRAME", "SAX",  "MAX",   "RAX",  "R2D",
     "RB",   "SFMAX",   "COH",     "CIN",    "F2D",     "F3D",   "FAX",   "DC1D",  "AC1D", "ACIN",  "LS"};
 
+/* Shapes with number of nodes that are read; plane or not, number of nodes, kind of element. */
 static const struct abaqus_shape shapes[] = {
     {true, 3, ELEMENT_TRIANGLE},      {true, 6, ELEMENT_TRIANGLE},    {true, 4, ELEMENT_QUAD},
     {true, 8, ELEMENT_QUAD},          {true, 9, ELEMENT_QUAD},        {false, 4, ELEMENT_TETRAHEDRON},

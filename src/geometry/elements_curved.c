@@ -5,14 +5,14 @@
 #include "base/memory.h"
 #include "elements.h"
 
-enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
+enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 }; /* largest number of pieces of an edge in 3D, in 2D */
 #define COARSE_MOST 10.0 /* coarse curves are accepted up to this multiple of the wanted distance */
 /* Default of the largest distance of chords from curved edges, relative to the largest sagitta (distance of an
  * edge's middle node from its chord) [1]. */
 #define SAGITTA_SHARE (1.0 / 256)
 /* An edge is straight if its middle node is closer to its chord than this share of the length of the chord [1]. */
 #define STRAIGHT 1e-6
-#define FARTHEST 1e30 /* [m] squares and triple products stay finite */
+#define FARTHEST 1e30 /* largest coordinate, so that squares and triple products stay finite [m] */
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 

@@ -5,16 +5,18 @@
 #include "base/memory.h"
 #include "exodus_parts.h"
 
+/* Tags of the lists in the header, as the format defines them. */
 enum { TAG_DIMENSIONS = 10, TAG_ARRAYS = 11, TAG_ATTRIBUTES = 12 };
 
+/* Size of a number of each type of the format [byte], by enum exodus_type. */
 static const int type_bytes[EXODUS_TYPES] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
 
-/* A header while it is read. */
+/* The header of a classic netCDF file while it is read. */
 struct header {
     struct exodus_file *f;
-    int64_t at;
-    int version; /* 1, 2 or 5 */
-    bool good;   /* false: it has ended too early, or holds what it must not */
+    int64_t at;  /* position of the next byte */
+    int version; /* version of the format: 1, 2 or 5 */
+    bool good;   /* false: the header ends too early or has invalid contents */
 };
 
 /* Reads an unsigned number of `bytes` bytes at the reading position h->at, which advances. Returns 0, and sets h->good

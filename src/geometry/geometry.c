@@ -9,7 +9,7 @@
 #include "geometry/exodus_file.h"
 
 #define DOUBT_MOST 0.02 /* share of sample points that may be neither inside nor outside */
-#define FARTHEST 1e30   /* [m] squares and triple products stay finite */
+#define FARTHEST 1e30   /* largest coordinate, so that squares and triple products stay finite [m] */
 
 /* Functions that read meshes, by the extension of the file name. */
 static const struct format {

@@ -35,9 +35,9 @@ static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_PYRAMID] = {0, 3, 4, 1, 5, 2, 6, 7, 8},
     [ELEMENT_PRISM] = {0, 2, 6, 1, 7, 8, 3, 5, 4, 11, 13, 12},
     [ELEMENT_HEXAHEDRON] = {0, 3, 8, 1, 9, 2, 10, 11, 4, 7, 5, 6, 12, 14, 17, 15, 16, 13, -1}};
-#define STRAIGHT 1e-6 /* a node of an edge may be off the chord by this share of the edge's length */
+#define STRAIGHT 1e-6 /* an edge is straight up to this distance of its nodes from the chord [length of the edge] */
 
-enum { GROUPS_MAX = 16 }; /* most groups per entity */
+enum { GROUPS_MAX = 16 }; /* largest number of groups of an entity */
 
 /* A Gmsh file while it is read. */
 struct gmsh {
@@ -45,17 +45,17 @@ struct gmsh {
     struct element_mesh *m;
     bool bytes, old;       /* numbers are binary; format 2.2 */
     const char *items;     /* what the current section counts, such as "nodes" or "blocks"; NULL: nothing */
-    int64_t announced;     /* how many of them it announces */
+    int64_t announced;     /* number of these items according to the file */
     struct label_map node; /* index of each node label, once the nodes are read */
-    int64_t names;         /* physical groups that have a name */
+    int64_t names;         /* number of physical groups that have a name: name[names] */
     struct group_name {
         int64_t dim, tag;
         char text[NAME_MAX_LENGTH];
     } * name;
-    int64_t links;              /* pairs of an entity and a physical group it belongs to */
-    int64_t *entity, *group;    /* key of the entity (entity_key); tag of the group */
+    int64_t links;              /* number of pairs of an entity and a physical group to which it belongs */
+    int64_t *entity, *group;    /* [links] key of the entity (entity_key); tag of the group */
     struct label_map of_entity; /* pairs of each entity */
-    int64_t last_dim, last_tag; /* the group of the last element added; its set is last_set */
+    int64_t last_dim, last_tag; /* dimension and tag of the group of the last element added; last_set: its set */
     int last_set;
 };
 

@@ -56,11 +56,12 @@ static int tag_of(TIFF *tiff, uint32_t tag)
 
 enum { SAMPLES_MOST = 64, TILE_MOST = 1 << 22 }; /* samples per pixel; pixels of a tile of a small image */
 
-/* Layout of a page's samples. */
+/* Layout of the samples of a page of a TIFF file, with the numbers of the format. */
 struct samples {
-    int bits, format, photometric, count, orientation;
-    bool tiled, separate; /* stored in tiles; each sample in its own plane */
-    int64_t width, height;
+    int bits, format, photometric, count,
+        orientation;       /* bits and type of a sample; meaning; samples per pixel; order */
+    bool tiled, separate;  /* stored in tiles; each sample in its own plane */
+    int64_t width, height; /* size of the page [pixel] */
 };
 
 /* Returns the layout of the samples of the current page of `tiff`, from its tags. */

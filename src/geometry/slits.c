@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "geometry/geometry.h"
 
-#define SAME 1e-6 /* corners closer than this share of a face's size coincide */
+#define SAME 1e-6 /* distance of corners that coincide, divided by the size of their face [1] */
 
 /* A face of a mesh: corners, centre, and longest distance from its first corner [m]. */
 struct sheet {

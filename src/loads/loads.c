@@ -154,6 +154,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
     l->constraint_work += work * (1 + l->damped.increments);
 }
 
+/* Argument of the sum of one force component over all particles. */
 struct force_sum {
     const struct particles *p;
     int component;

@@ -25,20 +25,23 @@
  * s)/(2 pi s) if positions are shifted by up to s spacings. */
 #define ORDER_LEAST 0.05
 #define ORDER_CHANCE 3.0 /* times sqrt(n): sum that n disordered particles may reach by chance */
+/* Columns per mean width of disordered particles; number of particles that are examined; first size of the hash
+ * table. */
 enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
 
+/* The columns of a body normal to a face: lines of particles one behind the other. */
 struct columns {
-    int body, axes, axis[DIM_MAX - 1]; /* the body, and the axes across its columns                  */
-    real middle[DIM_MAX - 1];          /* middle line of column 0 [m]                                */
-    real spacing;                      /* spacing of the scene [m]                                   */
-    real width, step;                  /* mean width of the particles; distance of columns [m]       */
-    bool even;                         /* all particles of the body have one volume                  */
-    int64_t n, room;                   /* columns; size of the hash table, a power of two            */
-    int64_t *key;                      /* [room] key of the column's position, -1: free              */
-    int32_t *number;                   /* [room] number of the column, 0 .. n-1                      */
-    int64_t *count;                    /* [room/2] particles in column c                             */
-    int64_t *start;                    /* particles of column c, ascending along the normal:         */
-    int32_t *order;                    /*    order[start[c] .. start[c+1]-1]                         */
+    int body, axes, axis[DIM_MAX - 1]; /* index of the body; number of axes across the columns; these axes */
+    real middle[DIM_MAX - 1];          /* coordinates of the middle line of column 0 [m] */
+    real spacing;                      /* spacing of the scene [m] */
+    real width, step;                  /* mean width of the particles; distance of columns [m] */
+    bool even;                         /* all particles of the body have one volume */
+    int64_t n, room;                   /* number of columns; size of the hash table, a power of two */
+    int64_t *key;                      /* [room] key of the position of a column, -1: free entry */
+    int32_t *number;                   /* [room] number of this column, 0 .. n-1 */
+    int64_t *count;                    /* [room/2] number of particles in column c */
+    int64_t *start;                    /* [n + 1] range of `order` for column c: start[c] .. start[c+1]-1 */
+    int32_t *order;                    /* indices of the particles of the columns, ascending along the normal */
 };
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
@@ -341,8 +344,8 @@ static real column_area(const struct columns *c, const struct boundary *b, int d
  *
  *     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) ... f.columns ... */
 struct faced {
-    bool known, has[UINT8_MAX + 1];
-    int next, body; /* next body to be examined; present body */
+    bool known, has[UINT8_MAX + 1]; /* `has` is set; whether body b has a selected particle */
+    int next, body;                 /* next body to be examined; present body */
     struct columns columns;
 };
 

@@ -122,7 +122,7 @@ real prescribed_velocity_at(const struct prescribed_motion *motion, const real *
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
-enum { MOMENTS = 1000, PLACES = 64 };
+enum { MOMENTS = 1000, PLACES = 64 }; /* numbers of times and of particles at which motions are evaluated */
 
 /* Returns the largest speed [m/s] that load l prescribes for its particle number k (of p) between times 0 and t [s],
  * from differences between MOMENTS + 1 equidistant times. */

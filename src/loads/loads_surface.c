@@ -21,31 +21,31 @@
 #define SINGULAR 1e-10    /* smallest variance that counts as extent [spacings^2] */
 #define BESIDE 3.0        /* distance from a mirror beyond which a corner has no images [spacings] */
 #define TORN 3.0          /* edge length of a face beyond which it counts as torn [spacings] */
-enum { FACE_CORNERS = 4, STENCIL_MOST = 32, SITE_BITS = 18 };
+enum { FACE_CORNERS = 4, STENCIL_MOST = 32, SITE_BITS = 18 }; /* in 3D; particles of a corner; bits of a site index */
 
-/* The surface of one load. All arrays are owned. */
+/* The surface of one load: its faces, their corners, and the particles that move the corners. All arrays are owned. */
 struct surface {
     int dim;
-    real section, longest; /* thickness in 2D [m], 1 in 3D; largest edge [m] */
-    int64_t faces, corners, particles;
-    int32_t *corner; /* [faces][4] in order around the outward normal of an upper face */
-    int8_t *sign;    /* [faces] sign of the area in this order */
-    uint8_t *turned; /* [first[corners]] bit d: component d is that of an image */
+    real section, longest; /* thickness in 2D [m], 1 in 3D; length beyond which an edge counts as torn [m] */
+    int64_t faces, corners, particles; /* numbers; particles: of the load */
+    int32_t *corner; /* [faces][4] indices of its corners, in order around the outward normal of an upper face */
+    int8_t *sign;    /* [faces] sign of the area with this order: -1 on a lower face */
+    uint8_t *turned; /* [first[corners]] bit d: component d of the displacement is reversed (image at a mirror) */
     int64_t *first, *face_first,
-        *share_first;      /* ranges: [corners + 1] in the stencils, in `part`; [particles + 1] in share_corner */
-    int32_t *particle;     /* [first[corners]] particles of the corners' stencils */
-    real *weight;          /* their weights [1] */
-    int32_t *part;         /* [4 faces] 4 face + position, of the faces that meet in a corner */
-    int32_t *share_corner; /* [first[corners]] corners that depend on each particle of the load */
-    real *share_weight;
-    uint8_t *share_turned;
-    real *place;                /* [corners][dim] reference position [m] */
+        *share_first;           /* ranges: [corners + 1] in particle, in `part`; [particles + 1] in share_corner */
+    int32_t *particle;          /* [first[corners]] particles with which each corner moves */
+    real *weight;               /* [first[corners]] weights of these particles [1] */
+    int32_t *part;              /* [4 faces] faces that meet in each corner: 4 face + position of the corner in it */
+    int32_t *share_corner;      /* [first[corners]] corners that move with each particle of the load */
+    real *share_weight;         /* [first[corners]] weight of the particle for this corner [1] */
+    uint8_t *share_turned;      /* [first[corners]] bits as in `turned` */
+    real *place;                /* [corners][dim] reference positions [m] */
     real *x, *face_area, *area; /* working memory: [corners][dim], [faces][4][dim], [corners][dim] */
 };
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* A site of a body's lattice, or the corner of cubes below it: its number, and the particle or corner there. */
+/* A lattice site of a body, or the corner below it: its key (site_key), and index of the particle or corner there. */
 struct site {
     int64_t key;
     int32_t value;
@@ -57,9 +57,9 @@ struct sites {
     const struct boundary *all; /* boundaries of the scene, including mirrors */
     int boundaries;
     real spacing;
-    int32_t first[UINT8_MAX + 1]; /* a particle of each body, -1: none */
+    int32_t first[UINT8_MAX + 1]; /* first particle of each body, -1: none */
     int64_t n;
-    struct site *site; /* ascending by key */
+    struct site *site; /* [n] sites with a particle, ascending by key */
 };
 
 static int by_key(const void *a, const void *b)
@@ -216,7 +216,7 @@ static void parts_make(struct surface *a, const struct site *all, int64_t n)
     }
 }
 
-/* The particles that determine a corner of the surface, their positions relative to it [spacings] and weights. */
+/* The n particles with which a corner moves: index, mirror bits, position r from the corner [spacings], weight. */
 struct around {
     int n;
     int32_t particle[STENCIL_MOST];

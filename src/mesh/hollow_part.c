@@ -10,11 +10,11 @@
 #include "output/output.h"
 #include "grid/grid_part.h"
 
-enum { PAYS = 400000 }; /* number of particles left out above which this saves time; measured */
-/* Ranges of cells around level 0 that have particles, as a margin for crack growth. MARGIN: around all of it; AHEAD:
- * around those cells of level 0 that had no particles before, as level 0 goes on growing there. Measured on half of
- * Kalthoff's plate in space at 0.5 mm, beside one range of 8: 3 replacements of the run instead of 4, and 381,504
- * particles instead of 517,760. */
+enum { PAYS = 400000 }; /* number of particles that are not created, above which this saves time; measured */
+/* Ranges of cells around level 0 (the finest cells) that have particles, as a margin for crack growth. MARGIN: around
+ * all of level 0; AHEAD: around those cells of level 0 that had no particles before, as level 0 goes on growing there.
+ * Measured on half of Kalthoff's plate in space at 0.5 mm, beside one range of 8: 3 replacements of the run instead of
+ * 4, and 381,504 particles instead of 517,760. */
 enum { MARGIN = 4, AHEAD = 16 };
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */

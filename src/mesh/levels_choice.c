@@ -15,7 +15,7 @@ enum { PAYS = 100000 };      /* particles of a body above which coarse cells sav
 #define RISES 2.5            /* minimum number of cell edges that waves travel during a rise */
 #define ACROSS 50            /* minimum number of cell edges across a body with sudden loads */
 #define ACROSS_LEAST 25      /* number of cell edges below which a warning is given */
-enum { CARRIED_BY_ANY = 1 }; /* level that carries all loads but pulses */
+enum { CARRIED_BY_ANY = 1 }; /* coarsening level that resolves all loads except pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 

@@ -14,9 +14,10 @@ enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 };
  * nearer, two slits 5 to 18 spacings apart with faces in contact gained energy without bound, a single slit did not;
  * the cause is not known. */
 enum { FLANK_MORE = 2 };
-#define SPLITS 0.5 /* stress at which cells split, over that at which points convert */
-#define MERGES 0.25
-/* Largest energy of motion per mass that a coarser cell may lose, over the mean energy per mass of the body [1]. */
+#define SPLITS 0.5  /* stress at which cells split, divided by the stress at which points convert [1] */
+#define MERGES 0.25 /* stress below which cells may merge, divided by the stress at which points convert [1] */
+/* Largest energy of motion per mass that a coarser cell may lose, divided by the mean energy per mass of the body
+ * [1]. */
 #define ROUGH 0.01
 /* Number of steps between checks whether cells may merge, and number of consecutive checks without a demand for finest
  * cells nearby after which a cell may merge. */

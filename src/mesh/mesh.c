@@ -8,8 +8,8 @@
 #include "mesh_parts.h"
 #include "base/team.h"
 
-#define PLACE_TOLERANCE 1e-6 /* tolerance of the positions of points in a cell [cells] */
-#define VOLUME_TOLERANCE 1e-9
+#define PLACE_TOLERANCE 1e-6  /* tolerance of the positions of points in a cell [cells] */
+#define VOLUME_TOLERANCE 1e-9 /* relative tolerance of the volumes of points [1] */
 /* Displacements of nodes are multiples of 2^-60 cell edges. This is far below the last bit of a position; the tiny
  * precursor of a wave is rounded to 0, so that nodes ahead of the wave stay at rest. */
 #define DISPLACEMENT_BITS 60

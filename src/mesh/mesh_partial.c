@@ -10,7 +10,7 @@
 #include "mesh_parts.h"
 #include "kernels/mesh/mesh_point.h"
 
-enum { TERMS_MAX = 3 };
+enum { TERMS_MAX = 3 }; /* largest number of terms of the strain field of a mode */
 
 /* A term of the strain field of a mode: `factor` times the amplitude of the mode, times the signs of the coordinates
  * along the axes in the bit set `set`, is added to symmetric component `row` of the strain. */
@@ -18,6 +18,7 @@ struct mode_term {
     uint8_t row, set;
     real factor;
 };
+/* The strain field of a mode: the sum of the n terms at[n]. */
 struct mode_terms {
     int n;
     struct mode_term at[TERMS_MAX];
@@ -72,7 +73,7 @@ struct cell_maker {
     const struct mesh_source *source;
     int dim, modes, columns; /* dimension; number of modes; columns of D: symmetric components */
     real (*whole)[SYM_MAX * SYM_MAX], (*isotropic)[SYM_MAX * SYM_MAX]; /* [materials] stress by strain */
-    struct mode_terms in[MODES_MAX];
+    struct mode_terms in[MODES_MAX];                                   /* [modes] strain field of each mode */
 };
 
 /* Computes the matrix C[n][n] of stress by strain of a material m [Pa], n = symmetric_component_count(dim); shear

@@ -6,9 +6,9 @@
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
-enum { ITERATIONS_MOST = 500 };
-enum { ROW_NONE = -1, ROW_BESIDE = -2 };
-#define TOLERANCE 1e-15 /* tolerance of the residual [largest nodal momentum] */
+enum { ITERATIONS_MOST = 500 };          /* largest number of iterations of conjugate gradients */
+enum { ROW_NONE = -1, ROW_BESIDE = -2 }; /* values of projection.row_of without a row of the matrix */
+#define TOLERANCE 1e-15                  /* tolerance of the residual [largest nodal momentum] */
 
 /* Parameters of a projection from points to nodes, and the mass matrix. node: flags of the nodes whose values are
  * computed, others do not change; NULL: all nodes with mass. */
@@ -17,7 +17,8 @@ struct projection {
     const struct particles *p;
     const uint8_t *node;
     real *mass; /* [nodes] mass of a point, if a node has all its points with equal masses; else 0 [kg] */
-    /* [nodes] row of each other unknown node; ROW_NONE; ROW_BESIDE: beside a slit, nodes around it are not in line */
+    /* [nodes] row in `row` of each other node that is computed; ROW_NONE: no row is needed; ROW_BESIDE: the node is
+     * beside a slit, so that the nodes around it have no regular indices */
     int32_t *row_of;
     real *row; /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };

@@ -24,21 +24,23 @@ struct extra {
     int piece;
     uint8_t open;
 };
+/* A list of n extra nodes or cells. */
 struct extras {
     struct extra *at;
     int64_t n;
 };
 
+/* Working data of the construction of slits. nodes: number of nodes of the box, of which each is also a cell. */
 struct slit_maker {
     const struct mesh *mesh;
     const struct particles *p;
     const struct mesh_source *source;
-    int32_t *point;        /* [nodes << dim] particle at a quarter point of a cell, -1: none */
-    uint8_t *piece;        /* [nodes << dim] piece of the cell that it belongs to */
-    uint8_t *pieces;       /* [nodes] number of pieces of a cell with points near a slit, else 0 */
-    uint8_t *split, *open; /* [nodes] as in struct mesh_slits */
-    uint8_t *voids;        /* [nodes] 1: within two cells of a particle near a void */
-    struct extras node, cell;
+    int32_t *point;           /* [nodes << dim] particle at each quarter position of a cell, -1: none */
+    uint8_t *piece;           /* [nodes << dim] number of the piece of the cell to which this particle belongs */
+    uint8_t *pieces;          /* [nodes] number of pieces of a cell with points near a slit, else 0 */
+    uint8_t *split, *open;    /* [nodes] as in struct mesh_slits */
+    uint8_t *voids;           /* [nodes] 1: within two cells of a particle near a void */
+    struct extras node, cell; /* extra nodes, extra cells */
 };
 
 static void extra_add(struct extras *to, struct extra one)

@@ -9,13 +9,14 @@
 
 #include "output/output_files.h"
 
-enum { BLOCK = 1 << 14 }; /* [byte] fits the stack of any thread; a multiple of STRIDE */
+enum { BLOCK = 1 << 14 }; /* size of a read [byte]: fits the stack of any thread; a multiple of STRIDE */
 
 /* ---- the hash ---------------------------------------------------------------------------------------------------- */
 
 /* The hash has LANES_OF_HASH lanes that are computed independently, since within a lane each step waits for the
  * multiplication of the previous one. STRIDE: bytes that are added to all lanes at once. */
 enum { LANES_OF_HASH = 4, STRIDE = LANES_OF_HASH * 8 };
+/* A hash under construction: its lanes, and the number of bytes added so far. */
 struct hash {
     uint64_t lane[LANES_OF_HASH], length;
 };
@@ -106,6 +107,7 @@ static int hash_file(int fd, uint64_t length, uint64_t *value)
 
 /* ---- the footer -------------------------------------------------------------------------------------------------- */
 
+/* Last bytes of a checked file: mark of Cleave, length of the file before them, and its hash. */
 struct footer {
     char magic[8];
     uint64_t length, hash;

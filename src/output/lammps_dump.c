@@ -15,9 +15,12 @@ enum {
     LEAST_LINE = 8
 }; /* LEAST_LINE: bytes of `1 0 0 0\n`, the shortest
     * possible line */
+
+/* Quantities that are read from a dump, by the names of their columns; WANTED: their number. */
 enum { WANTED = 8 };
 static const char *const wanted_name[WANTED] = {"id", "x", "y", "z", "vx", "vy", "vz", "c_damage"};
 
+/* A dump file of LAMMPS while it is read. bytes: its size; line: number of the line `text`, from 1. */
 struct dump {
     FILE *file;
     const char *path;

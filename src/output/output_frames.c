@@ -18,29 +18,29 @@
 #include "output_index.h"
 #include "particles_file.h"
 
-enum { FRAME_VERSION = 2 };
+enum { FRAME_VERSION = 2 }; /* version of the format of frames */
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
 /* Everything that is needed to write one frame in another thread. */
 struct frame_job {
-    struct path path;
-    struct output *o;            /* borrowed */
+    struct path path;            /* path of the file */
+    struct output *o;            /* output of the run; borrowed */
     struct frame_series *series; /* borrowed; read only for its name by the writing thread */
-    int64_t n, step;             /* number of rows; number of the time step */
+    int64_t n, step;             /* number of rows (particles); number of the time step */
     int dim;
-    real t;
-    bool compress, broken;
-    unsigned fields; /* bit set of the fields of this frame */
-    bool untouched;  /* contact forces are left out because all are 0 */
+    real t;                /* time of the frame [s] */
+    bool compress, broken; /* compress with gzip; HDF5 has failed and must not be called again */
+    unsigned fields;       /* bit set of the fields of this frame */
+    bool untouched;        /* contact forces are left out because all are 0 */
     /* rows of the fields that change, in output.frame_copy; NULL: in the particles file, or not in this frame */
     char *field[FRAME_FIELDS];
-    struct particles_file particles; /* to which the frame links */
-    struct frame_indices index;      /* including this frame */
+    struct particles_file particles; /* particles file to which the frame links */
+    struct frame_indices index;      /* lists of all frames, including this frame */
     pthread_t thread;
-    bool apart; /* the thread is running */
-    status ended;
-    char message[512];
+    bool apart;        /* the thread is running */
+    status ended;      /* result of the thread */
+    char message[512]; /* its message, if it failed */
 };
 
 /* Returns true if field number k is stored in the frame of `job`, the description of a frame to be written. Fields that
@@ -333,8 +333,8 @@ struct particles_seen {
     int32_t number;            /* -1: none has been checked */
     char name[PATH_NAME_ROOM]; /* relative to the folder of the run */
     const char *fault;         /* a phrase that completes "NAME ..." if the file is lost for certain; else NULL */
-    bool known;                /* the hash of its contents has been read */
-    int64_t content;           /* this hash */
+    bool known;                /* `content` has been read */
+    int64_t content;           /* hash of the contents of the file */
 };
 
 /* Checks particles file number `number` of a series of frames in the folder of a run, and stores name, fault and hash

@@ -140,16 +140,16 @@ void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* A table that is being written. */
+/* A table (dataset of HDF5) that is being written. */
 struct table {
-    hid_t set, space, native;
-    int rank;
-    int64_t rows, chunk; /* rows in all and in a chunk */
-    size_t row;          /* size of the stored numbers of a row [byte] */
-    hsize_t stored;      /* stored numbers per row */
-    const char *data;    /* [rows] rows */
-    uint64_t fill;       /* bytes of the number that fills what is not stored */
-    size_t number;       /* size of a number [byte] */
+    hid_t set, space, native; /* handles: dataset, its dataspace, type of a number in memory */
+    int rank;                 /* number of dimensions of the dataset */
+    int64_t rows, chunk;      /* number of all rows; of the rows of a chunk */
+    size_t row;               /* size of the stored numbers of a row [byte] */
+    hsize_t stored;           /* number of stored numbers per row */
+    const char *data;         /* [rows] rows */
+    uint64_t fill;            /* bytes of the number that fills entries that are not stored */
+    size_t number;            /* size of a number [byte] */
 };
 
 /* Returns true if all numbers in the rows first .. end - 1 of a table equal the fill value, bit for bit. */

@@ -11,6 +11,7 @@
 
 #include "output/output_files.h"
 
+/* Name of the lock file of a folder; beginning of its text, before the number of the process. */
 static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 }; /* a lock file may be removed between open and lock */

@@ -19,10 +19,11 @@
  * frames. */
 enum { TEMPORAL_MOST = 2000 };
 
+/* A temporal file under construction. */
 struct temporal {
-    const char *folder;            /* of the run */
+    const char *folder;            /* folder of the run */
     int n;                         /* number of times */
-    real *time;                    /* [n] [s] */
+    real *time;                    /* [n] times of the frames [s] */
     char (*frame)[PATH_NAME_ROOM], /* [n] paths of the frames and of their particles files, relative to the run's folder
                                     */
         (*particles)[PATH_NAME_ROOM];

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "output/checksum.h"
 
-enum { PARTICLES_VERSION = 1, VTK_VERTEX = 1 };
+enum { PARTICLES_VERSION = 1, VTK_VERTEX = 1 }; /* version of the format; VTK's type of a cell of one point */
 
 /* Datasets, besides fields, that frames link to their particles file. */
 static const char *const linked[] = {

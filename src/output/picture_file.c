@@ -10,7 +10,7 @@
 
 #include "output/output_files.h"
 
-enum { END_LENGTH = 64, END_SLACK = 3 }; /* bytes searched for the mark; most line feeds after the end [byte] */
+enum { END_LENGTH = 64, END_SLACK = 3 }; /* bytes in which the mark is sought; largest number of line feeds after it */
 
 #define BYTES(text) text, sizeof text - 1
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* File names of the standard pictures, without extension. */
 static const char *const picture_name[DRAWN_KINDS] = {
     [DRAWN_DAMAGE] = "damage",     [DRAWN_KIND] = "kind",     [DRAWN_LAST] = "last",
     [DRAWN_PROFILES] = "profiles", [DRAWN_CRACK] = "crack",   [DRAWN_ENERGY] = "energy",

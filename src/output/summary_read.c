@@ -14,15 +14,17 @@
 #include "output/output_files.h"
 #include "output/renamed_results.h"
 
+/* Largest depth of nested values; largest file [byte]; room for a key with its dots [byte]. */
 enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20, KEY_ROOM = 512 };
 
+/* State of the reading of a summary, a JSON text. */
 struct reader {
-    const char *at;       /* next byte; the text ends with a 0 byte   */
-    const char *found;    /* first byte of the wanted value, or NULL  */
+    const char *at;       /* next byte; the text ends with a 0 byte */
+    const char *found;    /* first byte of the wanted value; NULL: not found so far */
     summary_visit *visit; /* receives every number; NULL if there is none */
     void *context;
-    char key[KEY_ROOM]; /* dotted key of the value that is read     */
-    size_t length;
+    char key[KEY_ROOM]; /* dotted key of the value that is being read */
+    size_t length;      /* length of `key` [byte] */
 };
 
 static bool value(struct reader *r, const char *rest, int depth);
