@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 
+/* A colour of a colour table: its position, 0 to 1; red, green and blue, 0 to 255. */
 struct stop {
     double at, red, green, blue;
 };
@@ -37,7 +38,7 @@ static const struct stop cividis[] = {
     {0.888889, 225, 204, 85},
     {1, 254, 232, 56},
 };
-/* Ten evenly spaced colours of inferno and magma (Smith & van der Walt 2015). */
+/* Ten evenly spaced colours of inferno (Smith & van der Walt 2015). */
 static const struct stop inferno[] = {
     {0, 0, 0, 4},
     {0.111111, 27, 12, 65},
@@ -50,6 +51,7 @@ static const struct stop inferno[] = {
     {0.888889, 247, 209, 61},
     {1, 252, 255, 164},
 };
+/* Ten evenly spaced colours of magma (Smith & van der Walt 2015). */
 static const struct stop magma[] = {
     {0, 0, 0, 4},
     {0.111111, 24, 15, 61},
@@ -62,7 +64,9 @@ static const struct stop magma[] = {
     {0.888889, 254, 202, 141},
     {1, 252, 253, 191},
 };
+/* Dark to light grey. */
 static const struct stop grey[] = {{0, 20, 20, 20}, {1, 235, 235, 235}};
+/* Colours of damage: grey where no bond is broken, then red. */
 static const struct stop damage_stops[] = {
     {0.00, 226, 228, 231}, {0.12, 246, 220, 190}, {0.35, 240, 160, 110},
     {0.60, 214, 80, 62},   {0.80, 158, 24, 42},   {1.00, 84, 2, 24},

@@ -15,6 +15,7 @@
 #include "output/output_files.h"
 #include "output/picture_file.h"
 
+/* Exit status of a child process whose program does not exist; largest number of words of a command of ffmpeg. */
 enum { NOT_FOUND = 127, FILM_WORDS = 24 };
 static const int FRAMES_PER_SECOND = 8;
 

@@ -224,8 +224,8 @@ int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixel
 
 bool picture_is_too_narrow_for_key(void) { return usual.width > 0 && usual.width < NARROW; }
 
-/* Sizes of letters of titles: in large pictures, in narrow pictures, the smallest one for which a title is not broken
- * into two lines, and the smallest one of all. */
+/* Sizes of letters of titles [point]: in large pictures, in narrow pictures, the smallest one for which a title is not
+ * broken into two lines, and the smallest one of all. */
 enum { TITLE_LARGE = 16, TITLE_NARROW = 14, TITLE_ONE_LINE = 11, TITLE_SMALL = 7 };
 
 double text_width(const char *text, size_t n)

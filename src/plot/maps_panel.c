@@ -7,8 +7,8 @@
 
 /* Least distance of tics of the vertical axis [pixel]. */
 enum { TICS_Y = 36, TICS_Y_NARROW = 22 };
-#define TIC_NUMBERS                                                                                                    \
-    "%.9g" /* format of the numbers at axes: those of a small body far from the origin have many digits */
+/* Format of the numbers at axes: numbers of a small body far from the origin have many digits. */
+#define TIC_NUMBERS "%.9g"
 enum { NUMBERS_APART = 14, NUMBERS_APART_LEAST = 8 };     /* blank between numbers of a horizontal axis [pixel] */
 enum { BESIDE_NUMBERS = 50, BESIDE_NUMBERS_NARROW = 44 }; /* label of a vertical axis beside its numbers [pixel] */
 

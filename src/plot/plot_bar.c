@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "curves_parts.h"
 
+/* Room for a path [byte]; number of panels, one for each quantity; significant digits of numbers at axes. */
 enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 
 #define TINT "#e8f1f9" /* background of peridynamic parts of a bar with both kinds */

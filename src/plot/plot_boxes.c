@@ -15,6 +15,7 @@ static const double HALF = 0.52;
  * a few degrees. */
 static const double STRAIGHT = 0.999, OBLIQUE = 0.94;
 
+/* A picture of a 3D body under construction. pixel: [height][width] colours; size: width and height [pixel]. */
 struct scene_canvas {
     struct colour *pixel;
     float *depth; /* [height][width] depth of the painted surface, towards the viewer [m] */

@@ -131,6 +131,7 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
+/* The n energies of a history that are drawn: column, row of the ledger, and factor to the unit of the axis. */
 struct energies {
     int column[LEDGER_ROWS];
     const struct ledger_row *row[LEDGER_ROWS];

@@ -24,6 +24,7 @@
 #define JUMP 0.75
 #define JUMP_TIMES 4
 #define LOOSE 0.6
+/* Largest number of surely connected pairs that are sampled; of pairs of a particle of which the median is taken. */
 enum { SURE_MOST = 100000, NEAR_MOST = 64 };
 
 /* Pairs of neighbours of a frame. limit: elongation above which two particles without all their bonds are apart;

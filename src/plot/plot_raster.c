@@ -14,6 +14,7 @@
  * lattice cell to close the gaps of rotated or irregular particles. */
 static const double SQUARE = 0.55, DISC = 0.9;
 
+/* A picture of a 2D body or slice under construction. pixel: [height][width] colours; width, height: [pixel]. */
 struct canvas {
     struct colour *pixel;
     float *rank; /* [height][width] rank of the painted particle; the smallest wins */

@@ -7,11 +7,11 @@
 #include "plot/plot.h"
 #include "shading.h"
 
-static const struct colour RIGID = {120, 120, 126, 255};
+static const struct colour RIGID = {120, 120, 126, 255}; /* colour of rigid bodies */
 
 /* Largest extension of a picture to show rigid bodies beside the particles, relative to its longer side. */
 #define BESIDE 0.3
-enum { MARCH_MOST = 300 };
+enum { MARCH_MOST = 300 }; /* largest number of steps along the line of sight of a pixel */
 
 struct colour rigid_body_colour(enum map map)
 {

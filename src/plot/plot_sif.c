@@ -35,11 +35,13 @@ static int plot_sif_column_of(const struct history *h, const char *probe, const 
 
 /* ---- factors over time ------------------------------------------------------------------------------------------- */
 
+/* Stress-intensity factors of a history that are drawn, of n probes, and the unit of the axis. */
 struct factors {
     int n;
     char name[PROBES_SHOWN][NAME_MAX_LENGTH];
     int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN]; /* columns of K_I and K_II of each probe; of contour_spread */
-    double factor[2 * PROBES_SHOWN], percent[PROBES_SHOWN];
+    double factor[2 * PROBES_SHOWN],
+        percent[PROBES_SHOWN]; /* factors from columns to the unit of the axis, to per cent */
     struct unit unit;
 };
 
@@ -131,10 +133,11 @@ status sif_curves_draw(const char *title, const struct series *series)
 
 /* ---- paths of tips ----------------------------------------------------------------------------------------------- */
 
+/* Path of a crack tip in a history. */
 struct tip_path {
     char name[NAME_MAX_LENGTH];
-    int x, y, length;                    /* columns                                                         */
-    double from[2], to[2], grown;        /* start and end [m]; length [m] */
+    int x, y, length;                    /* columns of the position and of the length */
+    double from[2], to[2], grown;        /* start and end [m]; length of growth [m] */
     double angle, experiment, direction; /* angle of the chord, of an experiment, of the initial direction; NAN:
                                           * unknown [degree] */
 };

@@ -14,7 +14,7 @@
 #define DRIVEN 0.02     /* least component of a displacement along which a body is driven, as a share of its length */
 #define ROUND_OFF 1e-9  /* displacements below this number of spacings are round-off */
 #define REST_SHOWN 3    /* motion without force is shown up to this multiple of that with force */
-#define LINE_WIDE 0.002 /* width of a line over the length of an axis */
+#define LINE_WIDE 0.002 /* width of a line divided by the length of an axis [1] */
 enum {
     REACTIONS_SHOWN = CURVE_COLOURS - 1,
     TOUGHNESSES_SHOWN = 3,
@@ -120,6 +120,7 @@ struct reaction {
     struct component force, displacement;
     int64_t peak; /* row of the largest force */
 };
+/* All curves of a picture, of[n], and the ends of its axes. */
 struct reactions {
     int n;
     bool moving; /* a support or rigid body moves */

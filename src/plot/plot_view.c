@@ -36,6 +36,7 @@ static int64_t sample_positions(double *sample, const double *position, int64_t 
     return kept;
 }
 
+/* A range of values. */
 struct span {
     double from, to;
 };

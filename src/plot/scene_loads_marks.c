@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "rigid/rigid_part.h"
 
+/* Largest numbers of arrows of a load: usually, of a body force, in a bar; room for texts [byte]. */
 enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 160 };
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */

@@ -117,6 +117,7 @@ void bar_probe_compute_profile_line(const struct bar *bar, const struct observed
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
 
+/* Results of an EXACT probe, in the order of its table: errors, positions of fronts, values of plateaus. */
 enum figure {
     L1,
     L2,
@@ -136,6 +137,7 @@ enum figure {
     FIGURES
 };
 
+/* Sets of solutions that have a result, one bit each. */
 #define STEP (1 << EXACT_STEP_BAR)
 #define PLASTIC (1 << EXACT_PLASTIC_BAR)
 #define EVERY ((1 << EXACT_FORMS) - 1)

@@ -17,6 +17,7 @@ static status refuse(const struct probe *q, const char *what)
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
+/* A particle i and its reference coordinate X [m], for sorting. */
 struct located {
     real X;
     int32_t i;

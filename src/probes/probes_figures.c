@@ -11,6 +11,7 @@
 
 /* ---- single particles -------------------------------------------------------------------------------------------- */
 
+/* Names of the stress components of a probe by dimension; in 2D the last one is reported in plane strain only. */
 static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [1] = {"xx"},
     [2] = {"xx", "yy", "xy", "zz"},
@@ -127,6 +128,7 @@ void probe_compute_reaction_of_supports(const struct probe *q, const struct load
 
 /* ---- sums over a region ------------------------------------------------------------------------------------------ */
 
+/* Argument of a sum over the particles of probe q in run o. component: axis, for momentum. */
 struct region_sum {
     const struct probe *q;
     const struct observed_run *o;
@@ -220,6 +222,7 @@ void probe_compute_momentum_of_particles(const struct probe *q, const struct par
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
 
+/* Receiver of the figures of probe q in run o: emit(context, name of the probe, name of the figure, value). */
 struct emitter {
     void (*emit)(void *context, const char *probe, const char *quantity, real value);
     void *context;

@@ -13,6 +13,7 @@ const struct column rigid_figure[RIGID_FIGURES] = {{"angle", "rad"},
                                                    {"angular_momentum_error", ""},
                                                    {"kinetic_energy_error", ""}};
 
+/* Argument of sums over the particles of probe q: present and reference centre of mass [m]. */
 struct rigid_sum {
     const struct probe *q;
     const struct particles *p;

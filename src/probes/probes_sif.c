@@ -7,7 +7,7 @@
 #include "probes_parts.h"
 
 #define OUTER 20.0               /* default outer radius of a contour [spacings] */
-#define OUTER_LEAST 10.0         /* where the body or another tip is nearer, it is reduced to no less [spacings] */
+#define OUTER_LEAST 10.0         /* smallest outer radius where the body or another tip is nearer [spacings] */
 #define CORE 1.5                 /* default radius left out of the inertial integral (sif.h) [horizons] */
 #define NARROWEST 3.0            /* least width of the ring of a contour [spacings] */
 #define STEP_BACK 8.0            /* the direction of a moving tip is that of its last 8 to 16 spacings */
@@ -21,22 +21,23 @@ static const real pi = 3.14159265358979323846;
 const struct column sif_figure[SIF_FIGURES] = {
     {"K_I", "Pa m^(1/2)"}, {"K_II", "Pa m^(1/2)"}, {"J", "J/m^2"}, {"contour_spread", ""}};
 
+/* The crack tip of a SIF probe, and the fields from which its factors are computed. Arrays are owned. */
 struct sif_tracked {
     struct sif_tip tip;
-    struct gradient_rule rule;
-    int follows; /* index of the tip in the run; -1 if none */
-    int growth;  /* index of the crack with prescribed or SIF-controlled growth; -1 if none */
-    real reach;  /* outer radius of the largest contour [m] */
+    struct gradient_rule rule; /* how displacement gradients are computed */
+    int follows;               /* index of the tip in the run; -1: none */
+    int growth;                /* index of the crack with prescribed or SIF-controlled growth; -1: none */
+    real reach;                /* outer radius of the largest contour [m] */
     int contours;
-    /* [0] is the contour of the figures, the others are compared with it */
+    /* [contours] contour 0 gives the figures, the others are compared with contour 0 */
     struct contour contour[SIF_CONTOURS_MAX + 1];
-    struct crack *crack; /* pre-cracks of the scene, and a straight crack behind a tip without one */
-    real behind[2][DIM_MAX];
+    struct crack *crack;             /* pre-cracks of the scene, and a straight crack behind a tip without one */
+    real behind[2][DIM_MAX];         /* ends of this straight crack [m] */
     bool kept;                       /* displacement and velocity are those of t and t_velocity */
-    real t, t_velocity;              /* of displacement, of velocity [s] */
+    real t, t_velocity;              /* times of the displacement and of the velocity [s] */
     real *u[2], *v[2], *stress[3];   /* [n_all] displacement [m], velocity [m/s], stress [Pa] */
-    real *mean[2], *acceleration[2]; /* [n_all] at the time of a sample [m/s], [m/s^2] */
-    real *body[2];                   /* [n_all] forces of loads over masses [m/s^2] */
+    real *mean[2], *acceleration[2]; /* [n_all] velocity [m/s] and acceleration [m/s^2] at the time of a sample */
+    real *body[2];                   /* [n_all] forces of loads divided by masses [m/s^2] */
 };
 
 /* Returns true if the scene gives `value` for a key of the probe: it is then positive, else NAN. */

@@ -19,6 +19,8 @@
 #include "loads/mirrors.h"
 
 #define GAIN_MOST 0.01 /* largest energy gain of a solution, as a share of the uncertainty of the work of loads */
+
+/* Largest number of attempts; factor on the number of substeps from one attempt to the next. */
 enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 
 /* ---- predictor --------------------------------------------------------------------------------------------------- */

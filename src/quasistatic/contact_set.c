@@ -21,7 +21,7 @@
 
 #define CARRIED 1e-6     /* largest gap at which contact is searched: another body may support this one [spacings] */
 #define SUBSTEP_MOST 0.2 /* largest displacement of a rigid body in a substep [spacings] */
-enum { SUBSTEPS_MOST = 10000 };
+enum { SUBSTEPS_MOST = 10000 }; /* largest number of substeps of an increment */
 
 bool crack_faces_are_in_contact(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
 

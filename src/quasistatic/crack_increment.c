@@ -27,11 +27,13 @@
 
 #include "fracture/fracture_part.h"
 
-#define STRESSED 0.85        /* stretch ratio below which no first increment is computed */
-#define STRESSED_FURTHER 0.5 /* the same for later ones: bonds relax between increments */
+#define STRESSED 0.85        /* ratio of stretch to critical stretch below which no first increment is computed [1] */
+#define STRESSED_FURTHER 0.5 /* such a ratio for later increments: bonds relax between increments [1] */
 #define LEFT 0.3             /* stretch ratio below which no further bond of an increment breaks, whatever its cost */
 #define REMNANT 0.3    /* share of the largest stretch ratio within which bonds break at the end of SIF-driven fronts */
 #define DUE_ERROR 2e-3 /* relative error of the load size of an increment */
+
+/* Length of a crack increment [spacings]; largest number of secant steps for its load size. */
 enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 /* Number of spacings across the section of a bar in space: line, which parts at once. With the default load steps of a
  * quarter spacing its largest load is right to 1 %. */

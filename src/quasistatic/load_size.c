@@ -38,7 +38,7 @@ real statics_norm_of_prescribed_loads(const struct run *e, real t)
     return sqrt(sum > 0 ? sum : forces);
 }
 
-enum { SECANTS_MOST = 30 };
+enum { SECANTS_MOST = 30 }; /* largest number of secant steps */
 
 real statics_time_of_load_size(const struct run *e, real load_size)
 {

@@ -33,7 +33,7 @@
 #define ROUND_OFF 1e-6  /* relative difference of equal loads */
 #define SLID_LEAST 0.01 /* see warn_of_sliding: a judgement; faces of particles that touch at their edges may part */
 #define THROUGH 1e-2    /* share of the largest load size at which the body counts as severed */
-enum { APPROACHES_MOST = 12 };
+enum { APPROACHES_MOST = 12 }; /* largest number of loads that are tried before a crack increment */
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 

@@ -12,6 +12,8 @@
 #define OPENING_ERROR 1e-4 /* relative error of a prescribed opening */
 #define OPENING_FAR 1e-2   /* relative error of a prescribed opening that ends the run */
 #define FAR_OFF 2.0        /* largest distance of a gauge position from the body [spacings] */
+
+/* Largest numbers of secant steps, and of steps within a bracket. */
 enum { SECANTS_MOST = 12, BRACKETS_MOST = 60 };
 
 status gauge_check_positions(const struct scene *scene, const struct particles *part)
@@ -56,9 +58,9 @@ bool body_may_yield(const struct particles *part, const struct bonds *bonds)
  * the loads, but its slope changes by a factor of hundreds: the secant method is then confined to a bracket. */
 struct opening_search {
     real t[2];      /* the last two pseudo-times, or the ends of the bracket: opening too small, too large [s] */
-    real differ[2]; /* opening there less the wanted one [m] */
+    real differ[2]; /* opening at these times minus the wanted opening [m] */
     bool bracket;   /* t[] and differ[] are the ends of a bracket */
-    int last;       /* the end of the bracket that was replaced last */
+    int last;       /* end of the bracket that was replaced last, 0 or 1 */
 };
 
 /* Adds a result to the search r for a body that yields: the equilibrium at pseudo-time t [s] has an opening that

@@ -25,7 +25,7 @@
 #define REST 0.1      /* distance to another crack at which the tip has reached it [spacings] */
 #define REACH 1.2     /* radius in which particles ahead of the tip are counted [spacings] */
 
-enum { INCREMENT_SPACINGS = 2 };
+enum { INCREMENT_SPACINGS = 2 }; /* length of a crack increment [spacings] */
 
 bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip)
 {

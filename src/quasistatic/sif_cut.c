@@ -13,11 +13,11 @@
 #include "kernels/kernels.h"
 #include "kernels/pd/bond_last.h"
 
-#define STRESSED 0.5  /* stretch ratio below which no increment is computed */
+#define STRESSED 0.5  /* ratio of stretch to critical stretch below which no increment is computed [1] */
 #define AGAIN 1.25    /* growth of the load size after which an increment that is not due is recomputed */
 #define TOGETHER 0.02 /* relative difference of load sizes below which tips grow together */
 #define BEYOND 0.01   /* extension of a segment, so that bonds through its end are cut on both sides [spacings] */
-enum { CONVERSIONS_MOST = 4 }; /* of material points and direction, one after the other */
+enum { CONVERSIONS_MOST = 4 }; /* largest number of conversions of material points for one increment */
 
 /* ---- bonds across a segment -------------------------------------------------------------------------------------- */
 

@@ -10,8 +10,8 @@
 #define HERE 1e-6    /* largest distance of the tip from the end of its pre-crack [spacings] */
 #define ON_ROW 0.05  /* largest distance of a row of particles from a crack along it [spacings] */
 #define ROW_SEEN 8.0 /* length ahead of the tip in which particles are examined [spacings] */
-#define ROWS_APART                                                                                                     \
-    0.9 /* smallest distance of rows of particles: that of rows along a lattice axis, not a diagonal [spacings] */
+/* Smallest distance of rows of particles: that of rows along a lattice axis, not a diagonal [spacings]. */
+#define ROWS_APART 0.9
 enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 
 /* Stores in tip->length_behind the length of the longest pre-crack of the scene of l that ends at the tip [m], and in

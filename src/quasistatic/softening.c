@@ -9,8 +9,9 @@
 #include "kernels/pd/state_driving.h"
 
 #define FACTOR_ERROR 1e-10 /* relative error of a factor */
-#define LEAST_WEIGHT 1e-9  /* least weight of a bond of a state-based model over that before it softened [1] */
-enum { BISECTIONS_MOST = 100 };
+/* Least weight of a bond of a state-based model divided by the weight before it softened [1]. */
+#define LEAST_WEIGHT 1e-9
+enum { BISECTIONS_MOST = 100 }; /* largest number of bisections for a factor */
 
 /* Loop over the intact bonds that have begun to soften: row `row` of all rows, and the iterator `it` over the bonds of
  * this row. */

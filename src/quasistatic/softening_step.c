@@ -32,12 +32,14 @@
 
 #define FACTOR_ERROR 1e-5  /* largest difference of the last factor from 1 */
 #define RESIDUAL_MOST 1e-5 /* residual of an equilibrium, unless solver_tolerance is larger [1] */
-#define SOLVED_TO 0.1      /* residual of a solution with fixed k over that of the state before */
+#define SOLVED_TO 0.1      /* residual of a solution with fixed k divided by that of the previous state [1] */
 #define SOLVED_LEAST 1e-3  /* largest residual of such a solution [1] */
 #define THROUGH 1e-2       /* share of the largest load size at which the body counts as severed */
 #define STEP_SPACINGS 0.25 /* crack growth of a load step by default [spacings] */
 #define FIRST_SHARE 1e-3   /* share of the energy of a load step that the first one dissipates */
-#define AT_SURFACE 1.002   /* stress over that on the strength surface at which an equilibrium ends */
+#define AT_SURFACE 1.002   /* ratio of stress to strength at which an equilibrium ends [1] */
+
+/* Largest numbers of iterations of an equilibrium, of attempts, and of steps of the search for a factor. */
 enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
 
 /* A search for the next equilibrium. Pointers are borrowed. */

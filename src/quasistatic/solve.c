@@ -101,9 +101,8 @@ static void warn_large_rotation(struct warnings *to, const struct bonds *b, cons
     if (falsified > TURN_STRAIN_MOST * largest) warnings_add_and_print(to, text);
 }
 
-#define STRAIN_LARGE                                                                                                   \
-    0.1 /* strain above which linear elasticity does not describe a solid [1]; a limit by judgement                    \
-         */
+/* Strain above which linear elasticity does not describe a solid [1]; a limit by judgement. */
+#define STRAIN_LARGE 0.1
 
 /* Adds a warning to *to if a stress of particles p exceeds STRAIN_LARGE times Young's modulus of its material, beyond
  * the strength of any solid: a linear elastic body has an equilibrium under any load. material: materials of the

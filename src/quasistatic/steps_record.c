@@ -11,11 +11,10 @@
 #include "fracture/fracture_part.h"
 #include "probes/diagnostics.h"
 
-#define GROWTH                                                                                                         \
-    4 /* growth over which a release rate is computed [spacings]: lengths by damage change in steps of one             \
-       */
+/* Growth over which a release rate is computed [spacings], since lengths by damage change in steps of one spacing. */
+#define GROWTH 4
 
-enum { STATICS_COLUMNS = 13 }; /* one less for a plane body */
+enum { STATICS_COLUMNS = 13 }; /* number of columns of load steps in history.csv; one less in 2D */
 
 int statics_list_history_columns(const struct run *e, struct column *column)
 {

@@ -8,9 +8,8 @@
 #include "kernels/kernels.h"
 #include "kernels/pd/bond_last.h"
 
-#define ALIKE                                                                                                          \
-    1e-7 /* relative difference of stretch ratios below which bonds break together, so that round-off decides no order \
-          */
+/* Relative difference of stretch ratios below which bonds break together, so that round-off decides no order. */
+#define ALIKE 1e-7
 
 /* Returns the dimensionless ratio of stretch to critical stretch of a bond in the row of particle i of p. limit:
  * critical stretches. If the critical stretch is 0 or less, ratios do not give the order in which bonds break. */
@@ -97,8 +96,8 @@ struct broken_bond broken_bond_make_record(const struct bonds *b, const struct p
 /* Directed bonds with stretch ratios above a threshold. */
 struct overstretched {
     int64_t n;
-    real *ratio;                /* [n] of stretch to critical stretch [1] */
-    struct broken_bond *record; /* [n] */
+    real *ratio;                /* [n] ratio of stretch to critical stretch [1] */
+    struct broken_bond *record; /* [n] the bonds */
 };
 
 /* Appends a bond to the list o of bonds whose stretch may exceed the critical stretch. over: dimensionless ratio of its

@@ -17,7 +17,7 @@
 #define RESISTS_LEAST 1e-8 /* smallest rate of a gap under a unit motion that is not round-off [1] */
 #define SLIDES_MOST 1e-3   /* see sliding_update: the square of a slope of faces of 2 degrees; a judgement */
 #define DROPPED 1e-6       /* relative norm of the rest of a motion below which it depends linearly on previous ones */
-#define ROUND_OFF 1e-9     /* coordinate of a centre over the radius of the fragment below which it is 0 [1] */
+#define ROUND_OFF 1e-9     /* coordinate of a centre divided by the radius of the fragment, below which it is 0 [1] */
 
 /* ---- connected components ---------------------------------------------------------------------------------------- */
 
@@ -45,9 +45,9 @@ struct search {
     const struct loads *loads;
     int32_t *particle, *node;    /* unknown of each particle and of each node of the mesh, -1: none */
     struct field x;              /* [unknowns] present positions [m] */
-    int32_t *parent, *fragment;  /* [unknowns] in the forest of joined unknowns; number of the piece */
-    int64_t n;                   /* pieces */
-    struct candidate *candidate; /* [n] */
+    int32_t *parent, *fragment;  /* [unknowns] parent in the forest of joined unknowns; number of the fragment */
+    int64_t n;                   /* number of fragments */
+    struct candidate *candidate; /* [n] the fragments */
 };
 
 /* Joins the unknowns of the nodes of each cell of the mesh of s to one connected component. */
@@ -144,7 +144,7 @@ struct candidate {
     real radius;                             /* root mean square distance of its nodes from the centre [m] */
     real resistance[MODES_MOST][MODES_MOST]; /* sum over constraints of the product of two motions along them [1] */
     bool touches;                            /* it is in contact with another fragment or a rigid body */
-    int64_t n;                               /* nodes */
+    int64_t n;                               /* number of its nodes */
 };
 
 /* Returns the number of rigid motions in a body of dimension dim. */

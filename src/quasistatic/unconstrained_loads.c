@@ -3,8 +3,8 @@
 
 #include "unconstrained.h"
 
-#define UNHELD_MOST                                                                                                    \
-    0.05 /* tolerated unbalanced share of the loads on a fragment; faces of lattices are uneven (empirical) */
+/* Tolerated share of the loads on a fragment that is unbalanced: faces of lattices are uneven (empirical). */
+#define UNHELD_MOST 0.05
 #define UNHELD_SMALL 0.01 /* share of all loads below which unbalanced loads do not end a run (empirical) */
 
 /* Returns how far the applied forces on fragment f (a piece of the body that nothing holds) are from balance along its

@@ -16,6 +16,9 @@
 /* Distance by which the shown part of an unbounded rigid body extends beyond the particles, over the longest edge of
  * the bounding box of the particles [1]. */
 #define RIGID_BESIDE 0.08
+
+/* Least number of cells along the longest edge in 2D and in 3D, and across the thinnest part; largest number of
+ * nodes. */
 enum { CELLS_PLANE = 200, CELLS_SPACE = 24, THICKNESS_CELLS = 6, NODES_MOST = 200000 };
 /* CELL_EDGES: edges of a cell in space. CROSSING_STEPS, FIT_STEPS: steps of the search for a crossing and for the point
  * of a cell; CROSSING_PRECISION: of a crossing [cells]. */
@@ -36,13 +39,13 @@ struct cell_crossing {
 /* Grid over a region, one cell larger than it on all sides, and the values of its level set at the nodes. */
 struct net {
     int dim;
-    int64_t count[DIM_MAX], nodes; /* of nodes */
-    real from[DIM_MAX], step;
-    real *value;                /* [nodes] negative inside [m] */
-    int32_t *point;             /* [nodes] index of the point of the cell above a node; -1: none */
-    struct crossing *crossing;  /* [nodes][dim] on the edge along each axis from a node; 0: none */
-    const struct region *shape; /* borrowed */
-    const real *low, *high;     /* box to which the shape is cut [m]; borrowed */
+    int64_t count[DIM_MAX], nodes; /* number of nodes along each axis; in all */
+    real from[DIM_MAX], step;      /* position of node 0; distance of nodes [m] */
+    real *value;                   /* [nodes] level set, negative inside [m] */
+    int32_t *point;                /* [nodes] index of the point of the cell above a node; -1: none */
+    struct crossing *crossing;     /* [nodes][dim] crossing on the edge along each axis from a node; 0: none */
+    const struct region *shape;    /* borrowed */
+    const real *low, *high;        /* box to which the shape is cut [m]; borrowed */
 };
 
 /* Returns the level set [m] of the region of g at X[dim] [m], cut to the box of g: negative inside both, 0 on the

@@ -125,6 +125,8 @@ real particles_kinetic_energy(const struct particles *p)
     return kinetic;
 }
 
+/* Argument of the sum of the kinetic energy that a velocity update changes. before: [dim] velocities before the update,
+ * or NULL to compute them from the forces and dt, the duration of the update [s]. */
 struct kick {
     const struct particles *p;
     real *const *before;

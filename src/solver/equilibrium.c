@@ -52,7 +52,7 @@ static void all_fields(struct newton_solver *q, struct field **list)
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
     memcpy(list, fields, sizeof fields);
 }
-enum { FIELDS = 10 };
+enum { FIELDS = 10 }; /* number of vectors of a solver */
 
 void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count)
 {

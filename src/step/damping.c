@@ -26,10 +26,10 @@
 struct damped {
     int64_t n;
     int dim;
-    real factor; /* of the velocities [1] */
-    const real *mass;
-    real *const *v, *const *before; /* before: v- of the current step */
-    const uint8_t *flag;
+    real factor;                    /* factor on the velocities [1] */
+    const real *mass;               /* [n] masses [kg] */
+    real *const *v, *const *before; /* [dim] velocities [m/s]; velocities before the update of this step [m/s] */
+    const uint8_t *flag;            /* [n] flags of the particles (enum particle_flag) */
 };
 
 /* Returns true if bulk damping acts on entry i of a (a particle or a mesh node) itself. Returns false for a material

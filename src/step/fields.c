@@ -6,12 +6,11 @@
 #include "mesh/mesh_part.h"
 #include "output/output.h"
 
-#define NEAR_REACH                                                                                                     \
-    1.5 /* radius of neighbours of a material point: the nearest lattice neighbours, diagonal ones included [spacings] \
-         */
-#define SHAPE_LEAST                                                                                                    \
-    1e-6 /* least determinant of K over (tr K/3)^3, which is 1 if neighbours are isotropic: below it they do not span  \
-            the space */
+/* Radius of the neighbours of a material point [spacings]: nearest lattice neighbours, diagonal ones included. */
+#define NEAR_REACH 1.5
+/* Least determinant of K divided by (tr K/3)^3, which is 1 if neighbours are isotropic [1]: below it they do not span
+ * the space. */
+#define SHAPE_LEAST 1e-6
 
 /* ---- displacement gradients -------------------------------------------------------------------------------------- */
 

@@ -16,7 +16,7 @@ enum { PARTS_OF_DURATION = 25 }; /* number of comparisons per run */
 /* Rotation of a surface above which a pressure along the undeformed normals is reported [degrees]: it is wrong by sin
  * 10 degrees = 0.17 of its value across the surface. */
 #define TURNED_MOST 10
-#define DEGREES (180 / 3.14159265358979323846)
+#define DEGREES (180 / 3.14159265358979323846) /* degrees in a radian */
 
 /* ---- parts that pass through each other -------------------------------------------------------------------------- */
 

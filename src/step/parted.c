@@ -15,8 +15,9 @@
 #define NEIGHBOUR 1.2
 /* Ratio of present to reference distance of neighbouring points below which they cannot be parted [1]. */
 #define PARTED_LEAST 1.25
-enum { PARTS_OF_DURATION = 50 }; /* number of comparisons per run: later by a fiftieth, a warning is soon enough */
+enum { PARTS_OF_DURATION = 50 }; /* number of comparisons per run: a delay of a fiftieth does not matter */
 
+/* Shape functions with which bodies separate under tension, with their limits. */
 static const struct weak_shape weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
                                                 {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
 
@@ -57,7 +58,7 @@ static void pairs_make(struct point_pairs *pairs, const struct cells *cells, con
 struct held_cells {
     struct grid g; /* size of the cells and corner of one of them, as in the grid of the points; no nodes */
     uint64_t mask; /* number of slots, a power of 2, less 1 */
-    uint64_t *key; /* of a cell in each slot, 0: none */
+    uint64_t *key; /* key of the cell in each slot, 0: none */
 };
 
 /* Returns the slot in h, the hash table of cells that contain points, of the cell at the position x[dim] [m], or the

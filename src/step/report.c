@@ -20,10 +20,10 @@
 #include "step/sample.h"
 #include "step/checks.h"
 
-#define PROGRESS_SECONDS 0.5       /* between progress lines on a terminal [s] */
-#define PROGRESS_SECONDS_FILE 60.0 /* between progress lines in a file [s] */
-#define CHECKPOINT_SECONDS 60.0    /* between checkpoints with output.checkpoint: auto, at least [s] */
-#define CHECKPOINT_SHARE 0.03      /* of the time of a run that such checkpoints take, at most */
+#define PROGRESS_SECONDS 0.5       /* time between progress lines on a terminal [s] */
+#define PROGRESS_SECONDS_FILE 60.0 /* time between progress lines in a file [s] */
+#define CHECKPOINT_SECONDS 60.0    /* least time between checkpoints with output.checkpoint: auto [s] */
+#define CHECKPOINT_SHARE 0.03      /* largest share of the time of a run that such checkpoints take [1] */
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 

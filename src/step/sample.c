@@ -25,7 +25,7 @@
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 25 };
+enum { RECORD_FIXED = 25 }; /* number of columns that all histories have */
 
 /* History columns of all runs: name and unit; gaps are energies (run/ledger.h). */
 static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},

@@ -10,18 +10,19 @@
 #include "run/say.h"
 #include "step/checks.h"
 
-#define ENERGY_DOUBTFUL                                                                                                \
-    0.05 /* relative error of the energy balance that is reported: 10 times the largest in inputs/ */
-#define FLOW_DOUBTFUL                                                                                                  \
-    0.003 /* relative error of the energy balance that is reported of points that flow on the grid: bars of several    \
-             diameters that hit a wall have less, shorter ones up to three times that */
+/* Relative error of the energy balance from which on it is reported [1]: 10 times the largest in inputs/. */
+#define ENERGY_DOUBTFUL 0.05
+/* Such an error of points that flow on the grid [1]: bars of several diameters that hit a wall have less, shorter bars
+ * up to three times as much. */
+#define FLOW_DOUBTFUL 0.003
 /* Ratio of the energy that broken bonds have released beyond what they had stored to the largest energy, above which a
  * run warns [1]: far above round-off, and a fifth of the error of the energy balance that tests/scenes allow
  * peridynamics. */
 #define RELEASED_NOTICED 1e-3
-#define FAST_TIP 5 /* [spacings] least growth of a tip whose speed is judged: shorter ones have not settled */
-#define DAMPED_DOUBTFUL                                                                                                \
-    0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
+#define FAST_TIP 5 /* least growth of a tip whose speed is judged [spacings]: the speed of a shorter one varies */
+/* Share of the energy that interface damping dissipates, from which on it is reported [1]: 3 times the largest in
+ * inputs/. */
+#define DAMPED_DOUBTFUL 0.1
 
 /* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
  * largest energy. w: energies of the run; to: list of warnings. */
@@ -79,7 +80,7 @@ static bool say_flight(const struct particles *p, const struct diagnostics *w, s
     return true;
 }
 
-#define SPIN_DOUBTFUL 0.01 /* relative error of angular momentum that is reported */
+#define SPIN_DOUBTFUL 0.01 /* relative error of angular momentum from which on it is reported [1] */
 /* Ratio of angular momentum to momentum times spacing up to which angular momentum is round-off [1]. */
 #define SPIN_OF_ROUND_OFF 1e-9
 

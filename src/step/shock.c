@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-#define SHOCK 0.1 /* least reported collision speed, over the speed at which a front breaks or yields a body */
+/* Least collision speed that is reported, divided by the speed at which a front breaks or yields a body [1]. */
+#define SHOCK 0.1
 
 /* Returns the strain at which material m breaks or yields in the scene s [1]; INFINITY if it does neither. */
 static real strain_limit(const struct scene *s, const struct material *m)

@@ -27,7 +27,7 @@
  * -(dt/dt_critical)^2. */
 #define KINETIC_LEAST -0.9
 enum { INVERSION_STEPS = 50 }; /* steps between checks for inverted cells, which cost about half a step */
-enum { MOMENTS = 256 };        /* samples of a function of time */
+enum { MOMENTS = 256 };        /* number of times at which a function of time is evaluated */
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 

@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-#define SAFETY                                                                                                         \
-    1.25 /* factor of the grid convergence index with three spacings and an order that is seen (Roache 1998) */
-#define ORDER_LEAST 0.5 /* below, convergence is slow */
+/* Factor of the grid convergence index with three spacings and an observed order (Roache 1998). */
+#define SAFETY 1.25
+#define ORDER_LEAST 0.5 /* order below which convergence counts as slow */
 #define ORDER_MOST 2.0  /* formal order of the methods, which an observed order may exceed by chance */
 
 const char *const verdict_name[VERDICTS] = {

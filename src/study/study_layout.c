@@ -5,14 +5,14 @@
 
 #include "study_picture.h"
 
-enum { COLUMNS_MOST = 3 };
+enum { COLUMNS_MOST = 3 }; /* largest number of panels side by side */
 
 /* Sizes in the pictures of a study [pixel]. WIDE, HIGH: usual size of a panel; NARROW_PANEL: width below which panels
  * have a row of their own; LEAST: least width; NUMBERS: width of the numbers at an axis; BELOW: height of tics and
  * label below the axis; SAMPLE: width of an entry of the key (legend) without its text. */
 enum { WIDE = 320, HIGH = 220, NARROW_PANEL = 150, LEAST = 60, NUMBERS = 100, BELOW = 68, SAMPLE = 50 };
 
-static const double PROPORTION = 0.7; /* height of a panel over its width in pictures of a given width */
+static const double PROPORTION = 0.7; /* height of a panel divided by its width in pictures of a given width */
 
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 

@@ -23,13 +23,14 @@ enum { WORDS_FIXED = 12 };
 
 #define PATIENCE 0.5 /* time after the budget at which runs that have not stopped are killed [s] */
 
+/* State of the runs of a study while they run as processes. */
 struct runner {
     struct study *study;
     struct study_options how;
-    struct core_shares *shares;
-    int running, ended;
-    bool stopped; /* running runs have been told to stop */
-    double since; /* time of that on wall_clock_seconds [s] */
+    struct core_shares *shares; /* shares of the processor cores, one for each process */
+    int running, ended;         /* number of processes that run; that have ended */
+    bool stopped;               /* the running processes have received a signal to stop */
+    double since;               /* time of this signal on wall_clock_seconds [s] */
 };
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
