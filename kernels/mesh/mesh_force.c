@@ -216,7 +216,9 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
     }
 }
 
-enum { FEW = 16 }; /* groups that one thread computes in less time than a thread team; empirical */
+enum { FEW = 16 }; /* number of groups that one thread computes in less time than a thread team; empirical */
+
+/* Calls X(dimensions, finite strain) for each instance of the forces. */
 
 #define CUTS(D, FINITE)                                                                                                \
     static NEVER_INLINE void cut_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p,                    \

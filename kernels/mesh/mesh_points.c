@@ -58,7 +58,7 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
     }
 }
 
-enum { FEW = 128 }; /* cells whose points one thread moves in less time than a thread team; empirical */
+enum { FEW = 128 }; /* number of cells whose points one thread moves in less time than a team; empirical */
 
 #define MOVE(D)                                                                                                        \
     static void all_move_##D(const struct mesh *mesh, struct particles *p)                                             \

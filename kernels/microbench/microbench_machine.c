@@ -14,6 +14,7 @@
  * fixed index distances, fixed lengths, one stiffness. What remains is the arithmetic: one reciprocal root and some
  * twenty operations. No bond breaks. */
 
+/* Largest number of bonds of a particle; width of the margin around the lattice [spacings]. */
 enum { STENCIL_MOST = 128, MARGIN = 3 };
 
 /* A lattice of particles and its bonds. A particle's index is the sum over the axes of its position (in spacings) times
@@ -22,7 +23,8 @@ enum { STENCIL_MOST = 128, MARGIN = 3 };
  * positions and forces of all particles. */
 struct microbench_lattice {
     int dim;
-    int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all; /* particles, index of the first; all: with margins */
+    /* particles along each axis; strides; index of the first particle; number of particles; number with margins */
+    int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all;
     int neighbours;
     int64_t offset[STENCIL_MOST];
     real inverse_length[STENCIL_MOST];
@@ -135,12 +137,13 @@ void microbench_lattice_free(struct microbench_lattice *s)
 
 /* ---- triad ------------------------------------------------------------------------------------------------------- */
 
+/* The three arrays of the triad a = b + factor c, each [n]. */
 struct microbench_triad {
     int64_t n;
     real *a, *b, *c;
 };
 
-#define TRIAD_LEAST 64000000 /* size of an array [byte] */
+#define TRIAD_LEAST 64000000 /* least size of an array of the triad, above that of caches [byte] */
 
 struct microbench_triad *microbench_triad_make(bool quick)
 {

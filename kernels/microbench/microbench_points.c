@@ -10,6 +10,7 @@
 #include "microbench.h"
 #include "base/team.h"
 
+/* Numbers of cells along both axes, of corners of a cell, and of nodes. */
 enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES = NODES_X * (CELLS_Y + 1) };
 
 /* Data of the plain material point method. n: number of points; h: edge of a cell [m]; dt: time step [s]; c11, c12,

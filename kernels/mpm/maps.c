@@ -1,6 +1,7 @@
 /* The tables of the maps between points and grid. */
 #include "maps.h"
 
+/* Entries of the tables of maps: the instance of NAME for dimension D, shape function S and transfer T. */
 #define MAP_ENTRY(NAME, D, S, T) [D][SHAPE_##S][TRANSFER_##T] = NAME##_##D##d_##S##_##T,
 #define P2G_ENTRY(D, S, T) MAP_ENTRY(p2g, D, S, T)
 #define P2G_ENTRIES(D, S) TRANSFER_VARIANTS(P2G_ENTRY, D, S)

@@ -23,7 +23,7 @@
 #include "kernels/kernels.h"
 
 #define PULL 1.5   /* see above */
-#define PIVOT 1e-6 /* least pivot of a fit over the sum of its weights [1] */
+#define PIVOT 1e-6 /* least pivot of a fit divided by the sum of its weights [1] */
 
 /* A bond that may begin to soften, from particle i to j: its stretch [1], and the range of softening (onset and end)
  * that it would have in slow loading [1]. */

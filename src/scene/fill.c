@@ -21,7 +21,7 @@
  * was probably given twice. */
 static const real too_close = 1e-3;
 
-enum { PARTICLES_MAX = INT32_MAX - 64 };
+enum { PARTICLES_MAX = INT32_MAX - 64 }; /* largest number of particles, since indices are 32-bit numbers */
 
 static void draft_free(struct particle_draft *d)
 {
@@ -68,7 +68,7 @@ status particle_draft_append_particle(struct particle_draft *d, const real *posi
 /* Positions of a lattice along one axis: centre + (k + 1/2 - m/2) spacing for k = first .. last, where half_count is
  * m/2. */
 struct axis {
-    real centre, half_count, spacing; /* [m], m/2, [m] */
+    real centre, half_count, spacing; /* centre [m]; m/2; spacing [m] */
     int64_t first, last;
 };
 

@@ -40,17 +40,17 @@ struct crowd {
     const struct scene *s;
     int body;
     int64_t n;
-    real *X[DIM_MAX], *volume; /* [n] [m], [m^3] */
+    real *X[DIM_MAX], *volume; /* [n] positions [m]; volumes [m^3] */
     real reach;                /* distance within which particles are neighbours [m] */
     real one_place;            /* distance below which positions count as one [m] */
 };
 
 /* Statistics of a sample of the particles of a body, which show whether the body's list has the right unit. */
 struct verdict {
-    real lone;   /* share without a neighbour                          [1]     */
-    real apart;  /* median distance of the nearest other position    [m] */
-    real family; /* mean number of neighbours within reach [1]                 */
-    real filled; /* median volume over space up to the nearest [1]             */
+    real lone;   /* share of the particles without a neighbour [1] */
+    real apart;  /* median distance of the nearest other position [m] */
+    real family; /* mean number of neighbours within reach */
+    real filled; /* median of the volume divided by that of a cell up to the nearest neighbour [1] */
 };
 
 /* Copies positions and volumes of the particles of body c->body to new arrays c->X and c->volume, which the caller

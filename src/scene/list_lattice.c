@@ -12,7 +12,7 @@
 #define EVEN 1e-3            /* largest relative difference of a volume from the volume of a cell [1] */
 #define NEIGHBOURS_LEAST 0.5 /* least share of particles with a neighbour one spacing away along x */
 #define FARTHEST 1e6         /* largest distance of a site from the first [spacings] */
-enum { BODIES = 256 };
+enum { BODIES = 256 };       /* largest number of bodies in a list */
 
 /* A lattice site: integer position at[], in spacings from the first particle of the body, and index of its body. Sites
  * are sorted by body, then by the position along the last axis, and along x last. */

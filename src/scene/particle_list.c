@@ -23,7 +23,7 @@
 /* A dataset of an HDF5 file as a table of numbers. */
 struct table {
     int64_t rows, columns;
-    real *value; /* row major */
+    real *value; /* [rows][columns] */
     real factor; /* factor from the unit of the dataset to SI */
 };
 
@@ -179,6 +179,7 @@ static bool ends_with(const char *path, const char *ending)
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
+/* Format of a particle list. */
 enum { NO_LIST, LIST_CSV, LIST_HDF5, LIST_EXODUS };
 
 /* Returns the format of the particle list in the file `path` (LIST_CSV, LIST_HDF5, LIST_EXODUS) from its file name

@@ -7,6 +7,7 @@
 #include "base/team.h"
 #include "particle_list_parts.h"
 
+/* Names and units of the columns of a particle list, by enum list_column. */
 const struct list_quantity list_quantity[COLUMNS] = {
     {"x", UNIT_LENGTH},        {"y", UNIT_LENGTH},      {"z", UNIT_LENGTH},      {"vx", UNIT_SPEED},
     {"vy", UNIT_SPEED},        {"vz", UNIT_SPEED},      {"volume", UNIT_VOLUME}, {"mass", UNIT_MASS},

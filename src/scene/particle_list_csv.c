@@ -9,8 +9,9 @@
 #include "csv.h"
 #include "particle_list_parts.h"
 
-enum { FIELDS_MAX = 256 };
+enum { FIELDS_MAX = 256 }; /* largest number of fields of a line */
 
+/* A particle list in CSV format while it is read. */
 struct csv {
     struct csv_file in;
     int fields, column[FIELDS_MAX]; /* enum list_column of each field of a line */
@@ -18,7 +19,7 @@ struct csv {
     int first[FIELDS_MAX];          /* index of the first item in the file: 1 for blocks, else 0 */
     bool whole;   /* so far the volumes of a list without names are written as whole numbers, as blocks are */
     bool pending; /* the current line is the first entry, since the column names are in another line */
-    int64_t room;
+    int64_t room; /* number of particles for which the arrays have memory */
 };
 
 /* Returns k (0 to DIM_MAX - 1) if `name` is `vector:k` or `vector_k`, the two forms in which ParaView writes component

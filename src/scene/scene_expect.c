@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { EXAMPLE_LENGTH = 200 };
+enum { EXAMPLE_LENGTH = 200 }; /* room for an example in a message [byte] */
 
 /* Returns a text for messages on the values that key k expects. The text is static or in the arena of the reader r. */
 static const char *form_text(struct reader *r, const struct key *k)

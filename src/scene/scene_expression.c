@@ -7,18 +7,20 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { DEPTH_MOST = 24, NAME_MOST = 40 };
+enum { DEPTH_MOST = 24, NAME_MOST = 40 }; /* largest depth of brackets; room for a name [byte] */
 
 /* Rules by which the unit of a function's value follows from its operands. PLAIN: operands and value have no unit.
  * KEEPS: unit of the operand. ROOT: square root of the operand's unit. FORGETS: no unit, whatever the unit of the
  * operand. SAME: the unit that all operands must have. ANGLE: no unit, from two operands of equal units. */
 enum rule { PLAIN, KEEPS, ROOT, FORGETS, SAME, ANGLE };
+/* A function of formulas: its name, operation, rule for units, and explanation for `cleave help expression`. */
 struct function {
     const char *name;
     enum expression_op op;
     enum rule rule;
     const char *help;
 };
+/* All functions of formulas. */
 static const struct function functions[] = {
     {"sin", EXPRESSION_SIN, PLAIN, ""},
     {"cos", EXPRESSION_COS, PLAIN, ""},

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SHOWN_LONGEST = 40 };
+enum { SHOWN_LONGEST = 40 }; /* longest text of a scene that a message shows in full [byte] */
 
 const char *text_for_message(struct reader *r, const char *text)
 {

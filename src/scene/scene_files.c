@@ -10,7 +10,7 @@
 #include "output/checksum.h"
 #include "base/memory.h"
 
-enum { FILE_LONGEST = 16 * 1024 * 1024 }; /* [byte]; a scene of 1e5 entries is far smaller */
+enum { FILE_LONGEST = 16 * 1024 * 1024 }; /* largest scene file [byte]: a scene of 1e5 entries is far smaller */
 
 status file_read_bytes(const char *path, char **bytes, size_t *length)
 {

@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 
-enum { CHAIN_MOST = 8, KEYS_MOST = 1100 };
+enum { CHAIN_MOST = 8, KEYS_MOST = 1100 }; /* largest depth of inclusion; largest number of keys of a mapping */
 
 /* Chain of the files that are being read, identified by device and inode number. Each file is included by the file
  * `up`; the last one is the scene itself, with up = NULL. */

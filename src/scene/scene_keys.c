@@ -7,6 +7,9 @@
 
 #include "output/output.h"
 
+/* Parts of a row of the table of keys. NOWHERE, AT: position of the value in the structure s; FLAG: position of the
+ * flag that the key is given; ANY to INSIDE: range of the value, ABOVE and INSIDE without a itself, FROM and BETWEEN
+ * with a; REQUIRED, NONE: default. */
 #define NOWHERE .place = 0
 #define AT(s, member) .place = 1 + offsetof(struct s, member), .size = sizeof(((struct s *)0)->member)
 #define FLAG(s, member) 1 + offsetof(struct s, member)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Keys by which a solid is moved or copied. */
 static const char *const motion_words[] = {"move", "rotate", "mirror", "pattern"};
 
 bool node_is_motion_key_of_solid(const struct yaml_node *n)

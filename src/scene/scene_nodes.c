@@ -5,10 +5,12 @@
 
 #include "base/memory.h"
 
-enum { ARENA_BLOCK = 32768 };
+enum { ARENA_BLOCK = 32768 }; /* usual size of a block of an arena [byte] */
 
 /* ---- memory of one reading --------------------------------------------------------------------------------------- */
 
+/* A block of an arena: memory from which nodes and texts are taken, all released together. next: previous block; used,
+ * room: number of bytes in use, and in all. */
 struct arena_block {
     struct arena_block *next;
     size_t used, room;

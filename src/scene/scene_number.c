@@ -5,12 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHAIN_MOST = 32, NAME_LONGEST = 40 };
+enum { CHAIN_MOST = 32, NAME_LONGEST = 40 }; /* largest number of variables in a chain; longest name [byte] */
 
+/* A variable of a scene. */
 struct variable {
-    const struct yaml_node *n; /* node whose key is the name of the variable */
-    struct quantity q;
-    enum { WAITING, OPEN, KNOWN } state;
+    const struct yaml_node *n;           /* node whose key is the name of the variable */
+    struct quantity q;                   /* value, if `state` is KNOWN */
+    enum { WAITING, OPEN, KNOWN } state; /* not evaluated; being evaluated; evaluated */
 };
 
 /* ---- variables --------------------------------------------------------------------------------------------------- */

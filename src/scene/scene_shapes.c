@@ -14,7 +14,7 @@
 #include "scene_parts.h"
 #include "scene_shapes.h"
 
-enum { SLICES_MOST = 65536 };
+enum { SLICES_MOST = 65536 }; /* largest number of slices of an image */
 
 /* ---- names of files ---------------------------------------------------------------------------------------------- */
 

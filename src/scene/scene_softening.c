@@ -6,7 +6,7 @@
 #include "scene_parts.h"
 #include "scene_remedies.h"
 
-enum { ITERATIONS = 30 }; /* of stretches; each leaves about a tenth of the error */
+enum { ITERATIONS = 30 }; /* number of iterations for the stretches; each leaves about a tenth of the error */
 
 struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m)
 {

@@ -8,8 +8,8 @@
 #include "base/memory.h"
 #include "geometry/geometry.h"
 
-enum { SOLIDS_MOST = 200000 };
-#define EFFORT_MOST 1e5 /* largest number of primitive solids with which a lattice position is compared */
+enum { SOLIDS_MOST = 200000 }; /* largest number of solids of a scene */
+#define EFFORT_MOST 1e5        /* largest number of primitive solids with which a lattice position is compared */
 
 /* ---- shapes ------------------------------------------------------------------------------------------------------ */
 

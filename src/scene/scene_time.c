@@ -36,7 +36,7 @@ static status read_table(struct reader *r, const struct yaml_node *n, struct tim
 
 /* ---- a CSV file -------------------------------------------------------------------------------------------------- */
 
-enum { TIMES_MAX = 1000000, UNIT_LONGEST_NAME = 40 };
+enum { TIMES_MAX = 1000000, UNIT_LONGEST_NAME = 40 }; /* largest number of lines of a table; room for a unit [byte] */
 
 /* Columns of time and values of a function in a CSV file, while it is read. */
 struct time_columns {

@@ -186,6 +186,7 @@ static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 
 /* ---- lists of numbers -------------------------------------------------------------------------------------------- */
 
+/* Names of spaces, by enum space. */
 const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
 
 const char *space_name_for_message(const struct reader *r)
@@ -226,7 +227,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
     return OK;
 }
 
-enum { SERIES_MOST = 100000 };
+enum { SERIES_MOST = 100000 }; /* largest number of values of a series */
 
 /* Reads a list of ascending numbers from node n, in the SI unit and range of key k, into *series, which the scene
  * frees. Returns REFUSED, with a message, for another form. */

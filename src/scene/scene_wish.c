@@ -9,7 +9,7 @@
 #include "scene_internal.h"
 #include "scene_remedies.h"
 
-#define WITHIN_USUAL 0.01
+#define WITHIN_USUAL 0.01  /* default of accuracy.within [1] */
 #define BUDGET_USUAL 300.0 /* default of accuracy.budget [s] */
 
 /* ---- the key accuracy -------------------------------------------------------------------------------------------- */

@@ -7,10 +7,11 @@
 
 #include "base/memory.h"
 
-enum { DEPTH_MOST = 16, EVENTS_MOST = 1000000 };
+enum { DEPTH_MOST = 16, EVENTS_MOST = 1000000 }; /* largest depth of nested values; number of events of libyaml */
 
 /* ---- events ------------------------------------------------------------------------------------------------------ */
 
+/* State of the parsing of text[length] by libyaml. origin: as in struct yaml_node; events: number of events so far. */
 struct parse {
     struct reader *r;
     yaml_parser_t yaml;

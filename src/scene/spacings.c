@@ -8,7 +8,9 @@
  * The lattice of a body is placed by its first solid and divides its edges into whole numbers of spacings (fill.c);
  * gaps and crack tips along the axes keep their positions only if they, too, are between particles. */
 
-enum { LENGTHS_MOST = 64 };
+enum { LENGTHS_MOST = 64 }; /* largest number of lengths that are considered */
+
+/* A list of n lengths [m]. */
 struct lengths {
     int n;
     real of[LENGTHS_MOST];
@@ -106,11 +108,12 @@ real spacing_that_fits_box_edges(const struct scene *s, real h, bool even_edge_c
  * Each length that a solution has to resolve gets as many spacings as show its convergence; two coarser levels still
  * have half as many. */
 
-#define ACROSS_BODY 10.0 /* spacings across a body ... */
-#define IN_HOLE 4.0      /* ... in the radius of a hole, a cylinder, a ball */
-#define IN_CRACK 8.0     /* ... in a crack, or from its end to a face */
-#define IN_PULSE 10.0    /* ... in a pulse or a wavelength */
-#define IN_RING 12.5     /* ... in the radius of a ring of a sif probe, which requires at least 6 */
+/* Numbers of spacings in a length of the scene, which determine the suggested spacing. */
+#define ACROSS_BODY 10.0 /* across a body */
+#define IN_HOLE 4.0      /* in the radius of a hole, a cylinder, a ball */
+#define IN_CRACK 8.0     /* in a crack, or from its end to a face */
+#define IN_PULSE 10.0    /* in a pulse or a wavelength */
+#define IN_RING 12.5     /* in the radius of a ring of a sif probe, which requires at least 6 */
 #define PARTICLES_MOST 5e4
 static const double particles_usual[] = {0, 200, 3000,
                                          8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
