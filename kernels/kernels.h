@@ -16,6 +16,8 @@
 /* Shape functions of the material points on the background grid; and schemes (FLIP, APIC) by which velocities are
  * transferred between points and grid. */
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
+/* Transfer of velocities from the grid to points: changes of velocity (FLIP), or velocities and their gradient
+ * (APIC). */
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
 /* Peridynamic models, each with kernels of its own. */
 enum pd_model {

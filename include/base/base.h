@@ -20,8 +20,10 @@
 
 typedef double real;
 
+/* Largest numbers: of coordinates; of components of a symmetric tensor; room for a name, with its final 0 [byte]. */
 enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 
+/* Attributes of functions; number of elements of an array. */
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 #define NEVER_INLINE __attribute__((noinline)) /* for large functions called from several places: compiled once */
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))

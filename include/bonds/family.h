@@ -9,13 +9,19 @@
 #include "data/softening.h"
 #include "data/voids.h"
 
-/* Rules by which the weights of bonds are computed (keys pd.* of the scene). volume_rule: which part of the volume of a
- * neighbour near the horizon counts: all (WHOLE), or a part that falls linearly over one spacing (RAMP; CUT_RAMP
- * without neighbours beyond the horizon); calibration: how the micro-modulus follows from the elastic constants;
- * surface_rule: correction of bonds near faces; shell_rule: whether weights depend on the direction of the bond. */
+/* Part of the volume of a neighbour near the horizon that counts: all (WHOLE), or a part that falls linearly over one
+ * spacing (RAMP; CUT_RAMP without neighbours beyond the horizon). This rule and the next ones determine the weights of
+ * bonds (keys pd.* of the scene). */
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
+
+/* How the micro-modulus of bonds follows from the elastic constants: from the sum over a full family of the lattice,
+ * from the integral over a continuum, or by the rule vmpd of Zeng et al. 2021. */
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
+
+/* Correction of the weights of bonds near faces: none, by the volume of the neighbours, by moments of the families. */
 enum surface_rule { SURFACE_NONE, SURFACE_VOLUME, SURFACE_MOMENTS };
+
+/* Whether weights depend on the direction of a bond: no, or so that the lattice is isotropic. */
 enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
 
 /* Influence function omega(r) of a bond of length r, with the horizon delta; in the order of the names: 1,

@@ -9,6 +9,7 @@
  * which points are found [spacings]. Contact begins at one spacing. Faces that approach at a tenth of the wave speed
  * come closer by a quarter of a spacing in five steps, so that no contact is missed. */
 enum { APPROACH_STEPS = 5 };
+/* Distance from another body within which material points convert [spacings]. */
 #define APPROACH_REACH 3.0
 
 /* Finds the particles of p within `max_distance` [m] of a particle of another body or of a rigid body. Material points

@@ -5,6 +5,7 @@
 
 #include "base/base.h"
 
+/* Operations of a compiled formula, on a stack of numbers. */
 enum expression_op {
     EXPRESSION_NUMBER, /* push a number */
     EXPRESSION_X,

@@ -38,6 +38,7 @@ struct hull {
     real volume;           /* enclosed volume by the divergence theorem [m^3]; in 2D enclosed area [m^2] */
 };
 
+/* Largest number of corners of a surface, since faces have 32-bit indices. */
 enum { HULL_CORNERS_MAX = INT32_MAX / 4 };
 
 /* Creates the closed surface s in 3D (dim 3) or 2D (dim 2) from corner_positions[corner_count] [m] and

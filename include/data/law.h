@@ -23,6 +23,7 @@
     X(JOHNSON_COOK, johnson_cook, NULL, true, true)
 /* clang-format on */
 #define FLOW_NAME(upper, ...) FLOW_##upper,
+/* Flow laws, in the order of the table above; FLOW_LAWS is their number. */
 enum flow { FLOWS(FLOW_NAME) FLOW_LAWS };
 
 /* Properties of a flow law (yield stress as a function of plastic strain). flow_properties is indexed by enum flow.

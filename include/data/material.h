@@ -10,6 +10,7 @@
 #include "scatter.h"
 #include "strength_surface.h"
 
+/* Dimension of a scene, and the plane state in 2D. */
 enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
 
 /* Returns the dimension of the space s: 1 for a line, 2 for plane stress and plane strain, 3 for a solid. */

@@ -21,6 +21,7 @@
 #include "data/particles.h"
 #include "data/active_set.h"
 
+/* Largest numbers of corners of a cell, of their displacement components, and of deformation modes of a cell. */
 enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 18 };
 
 /* A run: consecutive whole cells along x (cells with all their points, of one material, without bonds). */

@@ -58,6 +58,7 @@ struct number_list {
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
+/* Forms of a function of time; struct time_function has the formulas. */
 enum time_kind { TIME_CONSTANT, TIME_STEP, TIME_PULSE, TIME_RAMP, TIME_TABLE };
 
 /* A dimensionless factor of time:

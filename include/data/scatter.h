@@ -13,7 +13,10 @@
 
 #include "base/base.h"
 
+/* Quantity that has a random distribution: strength, critical stretch, toughness K_c, energy release rate G_c. */
 enum scatter_of { SCATTER_STRENGTH, SCATTER_STRETCH, SCATTER_TOUGHNESS, SCATTER_ENERGY };
+
+/* Form of this distribution. */
 enum scatter_form { SCATTER_WEIBULL, SCATTER_LOGNORMAL };
 
 /* Parameters of the random field of strength of one material. given: false if the scene gives none; form: distribution;

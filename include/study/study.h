@@ -8,6 +8,8 @@
 #include "output/output_lock.h"
 #include "scene/scene.h"
 
+/* Room for the name of a run [byte]; largest number of runs; room for a unit and for the header of history.csv
+ * [byte]. */
 enum { CASE_NAME_ROOM = 200, CASES_MOST = 100000, UNIT_ROOM = 16, HEADER_ROOM = 8192 };
 
 /* A key of the scene and the values that the key has in the runs of a study. key, value[values]: owned texts, as they

@@ -7,6 +7,7 @@
 
 enum { THREADS_MOST = 4096 }; /* of a run; and runs at once */
 
+/* Arguments that several commands have. */
 struct run_arguments {
     const char *scene, *folder;      /* borrowed from argv; folder NULL: default */
     struct scene_override *override; /* owned; strings point into copies of argv */

@@ -9,7 +9,7 @@ struct piece {
     const struct scene *scene;
     int body, material; /* index into scene.material; ANY_MATERIAL: the whole body */
 };
-enum { ANY_MATERIAL = -1 };
+enum { ANY_MATERIAL = -1 }; /* piece.material: all materials of the body */
 
 /* Returns true if the piece p (a body, or its part of one material) contains the point X[dim] [m]. The shape of the
  * body is enlarged by `tolerance` [m] for this test. */

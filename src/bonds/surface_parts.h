@@ -112,6 +112,8 @@ struct surface_fit_targets {
                                           plane face, less at smaller faces, 0 without a face nearby */
     uint8_t *thin;                     /* [n] too few layers between two faces: fewer than THIN or THIN_ROTATING */
 };
+
+/* Number of layers from which on a part is not thin: of models without and with particle rotations. */
 enum { THIN = 4, THIN_ROTATING = 5 };
 
 /* Computes into f, for the particles `near` near faces, the outward areas, moments and normals to which bond weights

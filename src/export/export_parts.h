@@ -19,7 +19,7 @@ enum {
 struct lammps_setting {
     const char *key, *value, *effect;
 };
-enum { SETTINGS_MOST = 16 };
+enum { SETTINGS_MOST = 16 }; /* largest number of such keys */
 
 /* List of n keys of the scene whose values differ from what LAMMPS does: of[n]. */
 struct lammps_settings {
@@ -49,6 +49,8 @@ struct touched {
     uint8_t *cut;
     uint64_t *key; /* [n] particles with equal keys may share a colour */
 };
+
+/* Largest number of colours; kinds of a pair of colours: no neighbours so far, bonded, without bond. */
 enum { COLOURS_MOST = 3000 };
 enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 

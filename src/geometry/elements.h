@@ -24,6 +24,7 @@ enum element_kind {
  * element_sides; the last one of a triangle or quadrilateral belongs to the element itself. */
 extern const int element_corners[ELEMENT_KINDS], element_dim[ELEMENT_KINDS], element_middles[ELEMENT_KINDS];
 
+/* Largest numbers of corners, sides, edges and middle nodes of an element. */
 enum { ELEMENT_CORNERS_MAX = 8, ELEMENT_SIDES_MAX = 6, ELEMENT_EDGES_MAX = 12, ELEMENT_MIDDLES_MAX = 18 };
 
 /* An element of a finite-element mesh, and its nodes. */
@@ -80,6 +81,7 @@ struct element_mesh {
     char skipped[NAME_MAX_LENGTH]; /* name of an element type that was left out; "": none */
 };
 
+/* Largest number of sets of a mesh. */
 enum { ELEMENT_SETS_MAX = 1000 };
 
 /* Appends a node with the three coordinates `coordinates` [unit of the file] to the mesh m. label: its number in the

@@ -6,6 +6,7 @@
 #include "page.h"
 #include "plot/plot.h"
 
+/* Largest number of fields of a page; largest level of merged cells. */
 enum { FILM_FIELDS_MOST = 24, FILM_LEVELS = 3 };
 
 /* A field of the frames as the page stores it, with 8 bits per particle (fragments: 16). */

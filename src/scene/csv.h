@@ -6,7 +6,7 @@
 
 #include "base/base.h"
 
-enum { CSV_LINE_LENGTH = 4096 };
+enum { CSV_LINE_LENGTH = 4096 }; /* room for a line of a CSV file [byte] */
 
 /* An open CSV file and its current line. */
 struct csv_file {

@@ -252,6 +252,7 @@ const char *reserved_word_meaning(const char *word);
 
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
 
+/* Types of keys, which determine how a value is read, written and checked. */
 enum key_type {
     KEY_REAL,
     KEY_INT,
