@@ -307,8 +307,8 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     return OK;
 }
 
-/* Prints the texts of a list, one per line: the first after `heading`, the others indented below it. Prints nothing if
- * the list is empty. */
+/* Prints the texts of the list `lines`, one per line: the first after `heading`, the others indented below it. Prints
+ * nothing if the list is empty. */
 static void say_list(const struct warnings *lines, const char *heading)
 {
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);

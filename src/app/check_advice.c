@@ -40,7 +40,7 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
 /* Returns the edge length of the box `a` along axis d [m]: doubled if one end of the box is at a plane of symmetry of
- * `source`, and INFINITY if both ends are. */
+ * `source`, and INFINITY if both ends are. scene: spacing. */
 static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
     const real near = ON_MIRROR * scene->spacing;
@@ -337,10 +337,10 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
                 stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 
-/* Writes to `out` a remark if the supports in l stretch the body so far that it separates without fracture. An elastic
- * body separates where neighbouring material points share no grid nodes, a metal body earlier. Concerns only material
- * points whose shape functions follow their present positions, not their reference positions. p: particles on which l
- * acts. */
+/* Writes to `out` a remark if the supports in l stretch the body of scene s so far that it separates without fracture.
+ * An elastic body separates where neighbouring material points share no grid nodes, a metal body earlier. Concerns only
+ * material points whose shape functions follow their present positions, not their reference positions. p: particles on
+ * which l acts. */
 static void advise_separation(const struct scene *s, const struct loads *l, const struct particles *p, FILE *out)
 {
     bool yields = false;

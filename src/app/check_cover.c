@@ -95,9 +95,10 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     return piece_near(p, X, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
-/* Returns true if more than one face of the body may cross the lattice cell number `cell`, because the body or a gap in
- * it is only one cell wide there. A cell with a particle is thin if both its neighbours along some axis are empty. An
- * empty cell is thin if both its neighbours along some axis contain particles, or if none of its neighbours does. */
+/* Returns true if more than one face of the body may cross the lattice cell number `cell` of c, because the body or a
+ * gap in it is only one cell wide there. A cell with a particle is thin if both its neighbours along some axis are
+ * empty. An empty cell is thin if both its neighbours along some axis contain particles, or if none of its neighbours
+ * does. */
 static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;

@@ -39,8 +39,8 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
 
 /* Creates in c a table of the heights of a face: the particles are sorted into columns along the axis b->face, and the
  * height of a column is the coordinate of its particle that is exposed on the face [spacings, positive outwards].
- * f->normal[i] > 0 for exposed particles. Returns false, with nothing to release, if the exposed particles occupy too
- * small a part of the table. Release c->height otherwise. */
+ * f->normal[i] > 0 for exposed particles; scene: spacing. Returns false, with nothing to release, if the exposed
+ * particles occupy too small a part of the table. Release c->height otherwise. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
                       const struct exposed_face *f)
 {
@@ -106,7 +106,8 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
 /* Returns the area of the face f, and the area of that part of it which is inclined: there the surface normal deviates
  * from the axis of the face by more than ELSEWHERE degrees. Only particles whose inner side has a coordinate of at
  * least `from` along this axis count [m, positive outwards]; with -INFINITY all particles count. b: boundary of the
- * face; c: heights of its columns of particles, from which the normals are computed if c->height is not NULL. */
+ * face; c: heights of its columns of particles, from which the normals are computed, or from the shapes in `scene` if
+ * c->height is NULL. */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
                                        const struct boundary *b, const struct exposed_face *f, const struct ends *c,
                                        real from)
@@ -128,7 +129,7 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
 /* Returns a coordinate along the axis of the face f of boundary b [m, positive outwards] for a message that advises the
  * user to restrict the load: a region that begins at this coordinate contains nearly no inclined part of the face.
  * Returns INFINITY if no such coordinate is found. c: heights of the columns of particles of the face; all: area of the
- * whole face and of its inclined part. */
+ * whole face and of its inclined part; part, scene: particles and scene. */
 static real elsewhere_cut(const struct particles *part, const struct scene *scene, const struct boundary *b,
                           const struct exposed_face *f, const struct ends *c, const struct elsewhere *all)
 {

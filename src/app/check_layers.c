@@ -58,8 +58,8 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Returns the number of consecutive lattice sites with particles along `axis` in the direction `way` (1 or -1), from
- * the neighbour of the site from[dim] on, at most RUNS_MOST. from: indices of the site along the axes; *mirrored:
+/* Returns the number of consecutive lattice sites of m with particles along `axis` in the direction `way` (1 or -1),
+ * from the neighbour of the site from[dim] on, at most RUNS_MOST. from: indices of the site along the axes; *mirrored:
  * receives whether the sites end at a plane of symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {

@@ -75,8 +75,8 @@ static real largest_at(const struct load *l, const struct particles *p, vector_f
     return best;
 }
 
-/* Returns the time at which the force of load l is reported, with a text that gives the reason: the time at which the
- * force is largest, or `duration`, the end of the run [s]. */
+/* Returns the time at which the force of load l on its particles p is reported, with a text that gives the reason: the
+ * time at which the force is largest, or `duration`, the end of the run [s]. */
 static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
 {
     const struct boundary *b = l->boundary;
@@ -167,8 +167,8 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Prints the area on which the pressure load number `which` acts, and how far this area is from the surface of the
- * body's shape. The pressure acts on faces of particles. Along a slanted or curved surface these form steps, whose
+/* Prints the area on which the pressure load number `which` of run e acts, and how far this area is from the surface of
+ * the body's shape. The pressure acts on faces of particles. Along a slanted or curved surface these form steps, whose
  * total area exceeds that of the surface, so each face is projected on the surface. Prints the sum of the projected
  * areas, and the mean distance of the faces from the surface: negative distances are below it. The radius of a bore
  * differs from that of its particles by this distance. Prints the area of the faces if the normals of the shape are not
@@ -194,9 +194,9 @@ static void say_pressed(const struct run *e, int which)
                off < 0 ? "below" : "above");
 }
 
-/* Computes the exact area of the face normal to axis b->face [m^2] of a body that is a box along the axes, within the
- * region of boundary b, and stores it in *area. Returns false if the body is no such box, or if no part of the face is
- * in the region. */
+/* Computes the exact area of the face normal to axis b->face [m^2] of a body of scene s that is a box along the axes,
+ * within the region of boundary b, and stores it in *area. Returns false if the body is no such box, or if no part of
+ * the face is in the region. */
 static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
 {
     const int body = b->body >= 0 ? b->body : 0;
@@ -227,7 +227,7 @@ static void say_traction_area(const struct scene *scene, const struct load *l)
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
 /* Prints, as part of a sentence, the total force and moment of load l, the time for which they are computed and the
- * reason for this time. */
+ * reason for this time. part, scene: particles and scene of the load. */
 static void say_force(const struct particles *part, const struct scene *scene, const struct load *l)
 {
     const int dim = part->dim;
@@ -279,8 +279,8 @@ static void say_mean_displacement(const struct particles *part, const struct loa
     printf(" m%s", boundary_motion_varies_in_space(l->boundary) ? " on average" : "");
 }
 
-/* Prints the mean displacement that the support l prescribes, at its maximum and at the end of the run, and its largest
- * speed if the solver of `scene` is explicit. */
+/* Prints the mean displacement that the support l prescribes for its particles, at its maximum and at the end of the
+ * run, and its largest speed if the solver of `scene` is explicit. */
 static void say_displacement(const struct scene *scene, const struct particles *part, const struct load *l)
 {
     const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
@@ -358,9 +358,9 @@ static bool is_held_along(const struct loads *loads, int d)
     return held;
 }
 
-/* Computes the net force along the axes with is_free[axis], at time t [s], of all loads except those proportional to
- * mass such as gravity, and stores it in force[DIM_MAX] [N]. Returns the sum of the magnitudes of the forces of the
- * single loads [N]. */
+/* Computes the net force along the axes with is_free[axis], at time t [s], of all loads on the particles p except those
+ * proportional to mass such as gravity, and stores it in force[DIM_MAX] [N]. Returns the sum of the magnitudes of the
+ * forces of the single loads [N]. */
 static real net_force(const struct loads *loads, const struct particles *p, const bool *is_free, real t, real *force)
 {
     real all = 0;
@@ -422,7 +422,7 @@ void print_advice_on_unbalanced_loads(const struct run *e, FILE *out)
     fprintf(out, ": hold a face along %c, or balance the loads\n", "xyz"[a.axis]);
 }
 
-/* Prints the net force of loads that do not balance on a body that nothing holds along it, unless
+/* Prints the net force of the loads of run e that do not balance on a body that nothing holds along it, unless
  * print_advice_on_unbalanced_loads writes about it. */
 static void say_balance_of_loads(const struct run *e)
 {

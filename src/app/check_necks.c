@@ -202,9 +202,9 @@ static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
     return (best + end) / 2;
 }
 
-/* Returns the number of particle rows across the piece in the column of lattice cells that contains chord m. A chord is
- * the part of a line that is inside the piece. The rows are counted as the lattice lines between the two ends of the
- * chord in the middle of the column. Returns NAN if that chord was not measured. */
+/* Returns the number of particle rows across the piece of k in the column of lattice cells that contains chord m. A
+ * chord is the part of a line that is inside the piece. The rows are counted as the lattice lines between the two ends
+ * of the chord in the middle of the column. Returns NAN if that chord was not measured. */
 static real chord_rows(struct chords *p, const struct necks *k, int m)
 {
     const int column = (int)floor((m + 0.5 * SAMPLES) / SAMPLES) * SAMPLES;

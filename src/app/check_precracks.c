@@ -62,9 +62,10 @@ static int body_of(const struct scene *scene, const struct particles *part, int3
     return scene->body[part->body[i]].joined;
 }
 
-/* Returns the number of bonds whose cut depends on the exact length of crack c at its corner `end` (0 or 1). Crack c
- * cuts these bonds if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs of
- * particles of one body within the horizon. found[capacity]: work array for the indices of particles near the end. */
+/* Returns the number of bonds of run e whose cut depends on the exact length of crack c at its corner `end` (0 or 1).
+ * Crack c cuts these bonds if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs
+ * of particles of one body within the horizon. found[capacity]: work array for the indices of particles near the
+ * end. */
 static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int capacity)
 {
     const struct particles *p = &e->part;

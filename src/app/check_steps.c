@@ -178,7 +178,7 @@ static void advise_lengths(const struct run *e, FILE *out)
 }
 
 /* Returns the extent along `axis` of the particles of `part` on which load l acts [columns of particles]; 0 if the load
- * extends over the whole width of the body. */
+ * extends over the whole width of the body. scene: spacing. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;

@@ -11,8 +11,7 @@
 #include "probes/probes_part.h"
 #include "step/step.h"
 
-#define NEAR_ENOUGH 1e-6 /* tolerance of positions [spacings], and of vectors as a share of the largest component [1]  \
-                          */
+#define NEAR_ENOUGH 1e-6 /* tolerance of positions [spacings], of vectors as a share of the largest component [1] */
 
 /* Returns the index of the particle of run e at the position X[dim] [m]; -1 if there is none or more than one. */
 static int64_t particle_at(const struct run *e, const real *X)
@@ -136,8 +135,8 @@ static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *t
     return true;
 }
 
-/* Returns true if rigid body b is the mirror image of rigid body a in the plane normal to `axis` at `at` [m]: equal
- * motion, and equal distances from a sample of particles and from the images of these particles. */
+/* Returns true if rigid body b of `scene` is the mirror image of rigid body a in the plane normal to `axis` at `at`
+ * [m]: equal motion, and equal distances from a sample of particles and from the images of these particles. */
 static bool rigid_twins(const struct particles *p, const struct scene *scene, int axis, real at,
                         const struct scene_body *a, const struct scene_body *b)
 {
@@ -176,8 +175,8 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
 /* Returns true if the numbers a and b are equal or both are NAN, which denotes a number that is not given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Returns true if the settings for growing cracks in scene s are symmetric about the plane normal to `axis` at the
- * coordinate `at` [m]: each crack has a mirror image with equal speed, toughness and start. */
+/* Returns true if the settings for growing cracks in scene s, with the particles `part`, are symmetric about the plane
+ * normal to `axis` at the coordinate `at` [m]: each crack has a mirror image with equal speed, toughness and start. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {

@@ -17,9 +17,9 @@ static bool wanted(const struct scene *s)
     return false;
 }
 
-/* Stores the velocities of the particles p at the end of the reference run, and its energy change [1], in
- * probing->baseline. The particles have the same order as in the main run, because they are created and sorted before
- * any becomes peridynamic. */
+/* Stores the velocities of the particles p at the end of the reference run, and its relative energy change
+ * `energy_change` [1], in probing->baseline. The particles have the same order as in the main run, because they are
+ * created and sorted before any becomes peridynamic. */
 static void baseline_keep(struct probing *probing, const struct particles *p, real energy_change)
 {
     for (int d = 0; d < p->dim; d++) {

@@ -122,8 +122,9 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
     return s->conversion.alpha * most;
 }
 
-/* Creates the table of elastic constants that the kernels use, tables->elastic[materials], and the tables of stretches
- * at which bonds of these materials break, soften and yield, to which *source then refers. */
+/* Creates the table of elastic constants of the materials of scene s that the kernels use, tables->elastic[materials],
+ * and the tables of stretches at which bonds of these materials break, soften and yield, to which *source then
+ * refers. */
 static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->elastic = NEW("engine.elastic", s->materials, struct elastic);

@@ -128,7 +128,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     json_write_rounded(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
 }
 
-/* Writes the times of the timed sections of the time loop in this process [s] to the JSON object j. */
+/* Writes the times of the sections of the time loop in this process, timers->spent [s], to the JSON object j. */
 static void put_timers(struct json *j, const struct timers *timers)
 {
     json_open(j, "laps", '{');

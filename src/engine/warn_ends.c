@@ -31,7 +31,7 @@ static bool mirror_at_end(const struct scene *s, const struct supported *a)
 
 /* Describes in *a the end of a body that the load l supports, along the axis a->axis, which the caller has set. Returns
  * false if the load drives particles other than material points, more than one layer of points along the axis, or not
- * exactly one end of its body. */
+ * exactly one end of its body. s: scene, with planes of symmetry; p: particles. */
 static bool supported_end_find(const struct scene *s, const struct load *l, const struct particles *p,
                                struct supported *a)
 {
@@ -54,7 +54,7 @@ static bool supported_end_find(const struct scene *s, const struct load *l, cons
 }
 
 /* Returns true if the load l also drives the grid nodes half a cell before the end of the body, a->inner_nodes, because
- * they are in the region of the load. */
+ * they are in the region of the load. g: background grid; p: particles; s: scene. */
 static bool region_has_inner_nodes(const struct scene *s, const struct load *l, const struct particles *p,
                                    const struct grid *g, const struct supported *a)
 {
@@ -72,7 +72,7 @@ static bool region_has_inner_nodes(const struct scene *s, const struct load *l, 
 
 /* Adds a warning to *to that the support `boundary` holds the body named `body` as if its length were `length` + `off`
  * [spacings] instead of `length`, with the resulting errors of the stiffness, which varies as 1/length for a bar in
- * tension and as 1/length^3 in bending. */
+ * tension and as 1/length^3 in bending. a: the supported end. */
 static void warn_of_end(const struct supported *a, const char *boundary, const char *body, real length, int off,
                         struct warnings *to)
 {

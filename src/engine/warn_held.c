@@ -10,8 +10,8 @@
 
 enum { MOMENTS_OF_SUPPORTS = 8 }; /* times at which motions of supports and forces of loads are evaluated */
 
-/* Adds a warning to *to if load l prescribes zero displacement in all components for all particles p, so that nothing
- * can move. */
+/* Adds a warning to *to if load l of scene s prescribes zero displacement in all components for all particles p, so
+ * that nothing can move. */
 static void warn_of_held(const struct scene *s, const struct load *l, const struct particles *p, struct warnings *to)
 {
     const struct boundary *b = l->boundary;
@@ -30,8 +30,8 @@ static bool motion_known(const struct load *l)
 }
 
 /* Returns the components in which loads a and b prescribe different displacements of one particle, as bits (bit d for
- * component d). The displacements are compared at MOMENTS_OF_SUPPORTS times of the run. The particle is number j in the
- * list of load a and number k in that of load b. */
+ * component d). The displacements are compared at MOMENTS_OF_SUPPORTS times in the duration of scene s. The particle is
+ * number j in the list of load a and number k in that of load b. */
 static unsigned components_apart(const struct scene *s, const struct particles *p, const struct load *a, int64_t j,
                                  const struct load *b, int64_t k)
 {
@@ -87,8 +87,8 @@ uint8_t *engine_find_prescribed_components(const struct loads *loads, const stru
 }
 
 /* Returns the sum of the magnitudes of the forces of load l along axis d, over its particles and MOMENTS_OF_SUPPORTS
- * times [N]. *idle: receives the part of the sum on particles whose component d is prescribed [N]. prescribed[p->n]:
- * bit d is set if component d of a particle is prescribed. */
+ * times in the duration of scene s [N]. *idle: receives the part of the sum on particles whose component d is
+ * prescribed [N]. prescribed[p->n]: bit d is set if component d of a particle is prescribed. */
 static real force_and_idle_part(const struct scene *s, const struct particles *p, const struct load *l, int d,
                                 const uint8_t *prescribed, real *idle)
 {
@@ -104,8 +104,9 @@ static real force_and_idle_part(const struct scene *s, const struct particles *p
     return all;
 }
 
-/* Adds a warning to *to for each traction, pressure and body force in `loads` if the larger part of its force along an
- * axis acts on particles whose motion along this axis a support prescribes, so that this part has no effect. */
+/* Adds a warning to *to for each traction, pressure and body force in `loads`, the loads of scene s, if the larger part
+ * of its force along an axis acts on particles whose motion along this axis a support prescribes, so that this part has
+ * no effect. */
 static void warn_of_idle_forces(const struct scene *s, const struct loads *loads, const struct particles *p,
                                 struct warnings *to)
 {

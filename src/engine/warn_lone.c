@@ -27,8 +27,8 @@ static bool row_empty(const struct bonds *b, int64_t row)
     return !bond_next(&it);
 }
 
-/* Returns true if body number `body` is made from a particle list or a shape file, so that its particles may be
- * isolated. */
+/* Returns true if body number `body` of scene s is made from a particle list or a shape file, so that its particles may
+ * be isolated. */
 static bool from_file(const struct scene *s, int body)
 {
     bool any = s->body[body].file != NULL;
@@ -48,8 +48,8 @@ static void lone_bonds_count(const struct bonds *b, const struct particles *p, s
     }
 }
 
-/* Counts the material points that have no neighbour within a cell in lone[b], an entry for each body b of scene s. Only
- * bodies from files are examined. cells: cells of the neighbour search. */
+/* Counts the material points that have no neighbour within a cell in lone[b], an entry for each body b of scene s. p:
+ * particles. Only bodies from files are examined. cells: cells of the neighbour search. */
 static void lone_points_count(const struct scene *s, const struct cells *cells, const struct particles *p,
                               struct lone *lone)
 {
@@ -90,7 +90,8 @@ static void surroundings(const struct particles *p, const struct neighbour_list 
 }
 
 /* Adds a warning to *to if the particles of a list without volumes are farther apart or closer than the spacing from
- * which their volumes are computed. b: body made from the list; spacing: lattice spacing [m]. */
+ * which their volumes are computed. b: body made from the list; spacing: lattice spacing [m]; cells: cells of the
+ * neighbour search. */
 static void warn_of_list_spacing(const struct scene_body *b, real spacing, const struct cells *cells,
                                  const struct particles *p, struct warnings *to)
 {

@@ -8,8 +8,8 @@
 /* Largest extent of a crack along the axis of a load, divided by its largest extent, with which it lies across [1]. */
 #define ACROSS 0.15
 
-/* Returns true if nothing but the boundaries of scene s sets its bodies in motion: they are at rest and without stress
- * at the start, no rigid body touches them, and no crack grows by a rule. */
+/* Returns true if nothing but the boundaries of scene s sets its bodies in motion: its particles p are at rest and
+ * without stress at the start, no rigid body touches them, and no crack grows by a rule. */
 static bool only_boundaries_load(const struct scene *s, const struct particles *p)
 {
     bool only = s->initials == 0 && s->rigids == 0 && s->growths == 0 && p->n == p->n_body;

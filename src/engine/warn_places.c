@@ -18,8 +18,8 @@ struct overlap {
     real depth;
 };
 
-/* Returns true if particle i belongs to body number a and not to body number b. Bodies that interfaces join have one
- * number in p->body; they are told apart by their materials, and bodies of equal materials not at all. */
+/* Returns true if particle i belongs to body number a of scene s and not to body number b. Bodies that interfaces join
+ * have one number in p->body; they are told apart by their materials, and bodies of equal materials not at all. */
 static bool belongs_to_first_only(const struct scene *s, const struct particles *p, int64_t i, int a, int b)
 {
     const struct scene_body *one = &s->body[a], *other = &s->body[b];
@@ -27,9 +27,9 @@ static bool belongs_to_first_only(const struct scene *s, const struct particles 
            (one->joined != other->joined || !scene_body_can_have_material(other, p->material[i]));
 }
 
-/* Returns the particles of body number a that are inside the shape of body number b by more than `least` [m]: their
- * number, the deepest one and its depth. Returns none if b is made from a list of particles, whose surface is not
- * known, or if its bounding box has an infinite side. */
+/* Returns the particles of body number a of scene s that are inside the shape of body number b by more than `least`
+ * [m]: their number, the deepest one and its depth. Returns none if b is made from a list of particles, whose surface
+ * is not known, or if its bounding box has an infinite side. */
 static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
 {
     const struct region *shape = &s->body[b].shape;
@@ -52,8 +52,8 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
     return found;
 }
 
-/* Adds a warning to *to about the overlap of two bodies. inner: number of the body with particles inside the other one;
- * outer: number of the other body; found: those particles. */
+/* Adds a warning to *to about the overlap of two bodies of scene s. inner: number of the body with particles inside the
+ * other one; outer: number of the other body; found: those particles. */
 static void warn_of_overlap(const struct scene *s, const struct particles *p, int inner, int outer,
                             const struct overlap *found, struct warnings *to)
 {
@@ -79,8 +79,8 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         }
 }
 
-/* Returns true if at least one particle of the joined bodies number `body` (-1: of any body) is in `region`. Also
- * returns true if the run has cells whose particles are not created, since these may be in the region. */
+/* Returns true if at least one particle of the joined bodies number `body` of scene s (-1: of any body) is in `region`.
+ * Also returns true if the run has cells whose particles are not created, since these may be in the region. */
 static bool region_holds_particle(const struct scene *s, const struct particles *p, const struct region *region,
                                   int body)
 {
@@ -154,9 +154,9 @@ static real mirror_distance(const struct particles *p, const struct boundary *b)
     return real_max(low - b->at, b->at - high);
 }
 
-/* Adds a warning to *to about a plane of symmetry with a gap of `distance` [m] between it and the nearest particle, and
- * says what acts across the gap: bonds to the mirror image, up to their length of `horizon` [m]; grid nodes on the
- * plane, up to the size of a cell; contact with the image; or nothing. */
+/* Adds a warning to *to about the plane of symmetry `mirror` of scene s, with a gap of `distance` [m] to the nearest
+ * particle, and says what acts across the gap: bonds to the mirror image, up to their length of `horizon` [m]; grid
+ * nodes on the plane, up to the size of a cell; contact with the image; or nothing. */
 static void warn_of_mirror_beside(const struct scene *s, const struct particles *p, const struct boundary *mirror,
                                   real distance, real horizon, struct warnings *to)
 {

@@ -29,9 +29,9 @@ struct driver {
     real limit;
 };
 
-/* Returns true if nothing prevents the bodies on whose particles the load d->load acts from moving with this load: no
- * mirror across its components, no absorbing face, no damping, no contact with other bodies, and no other load that
- * drives the same components with a velocity that differs by more than d->limit. all: all loads of the run. */
+/* Returns true if nothing in scene s prevents the bodies on whose particles the load d->load acts from moving with this
+ * load: no mirror across its components, no absorbing face, no damping, no contact with other bodies, and no other load
+ * that drives the same components with a velocity that differs by more than d->limit. all: all loads of the run. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
                          const struct particles *p)
 {
@@ -59,9 +59,9 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
     return freely;
 }
 
-/* Returns the time in which a wave crosses the bodies with body[b] = true [s]. It follows from the diagonals of their
- * bounding boxes and the slowest material. body: [bodies]; for joined bodies only the one with the lowest index is
- * marked. */
+/* Returns the time in which a wave crosses the bodies with body[b] = true [s]. It follows from the diagonals of the
+ * bounding boxes of their particles p and the slowest material of scene s. body: [bodies]; for joined bodies only the
+ * one with the lowest index is marked. */
 static real body_crossing_time(const struct particles *p, const struct scene *s, const bool *body)
 {
     real slowest = INFINITY, most = 0;
@@ -76,7 +76,8 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
 }
 
 /* Adds a warning to *to about the load d->load, which acts on bodies that move freely, if its velocity changes by more
- * than d->limit within the time in which a wave crosses these bodies. Slower changes hardly strain them. */
+ * than d->limit within the time in which a wave crosses these bodies. Slower changes hardly strain them. s, p: scene
+ * and particles. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
                            struct warnings *to)
 {
@@ -90,9 +91,9 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
                             d->load->boundary->name, change, within, d->limit);
 }
 
-/* Adds warnings to *warnings about boundaries that move particles, or change their velocity at t = 0, by more than the
- * speed at which bonds next to them break. A face moved at speed v strains the material behind it by v/c at once, c
- * being the wave speed. */
+/* Adds warnings to *warnings about boundaries of scene s, whose loads are `loads`, that move particles, or change their
+ * velocity at t = 0, by more than the speed at which bonds next to them break. A face moved at speed v strains the
+ * material behind it by v/c at once, c being the wave speed. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *warnings)
 {

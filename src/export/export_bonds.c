@@ -108,9 +108,9 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
     return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
 }
 
-/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo 2 m +
- * 1 spacings along each axis, where m is the reach of bonds [spacings]. Two neighbours are at most m spacings apart
- * along each axis, so that the vector between them follows from both reduced positions. */
+/* Returns a hash of the material, the loads and the lattice position of particle i of the export x. The position is
+ * taken modulo 2 m + 1 spacings along each axis, where m is the reach of bonds [spacings]. Two neighbours are at most m
+ * spacings apart along each axis, so that the vector between them follows from both reduced positions. */
 static uint64_t key_of(const struct exported *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
@@ -119,7 +119,7 @@ static uint64_t key_of(const struct exported *x, int64_t i)
     return key;
 }
 
-/* Returns a hash of the lattice vector from particle i to particle j. */
+/* Returns a hash of the lattice vector from particle i to particle j of the export x. */
 static uint64_t offset_of(const struct exported *x, int64_t i, int64_t j)
 {
     uint64_t offset = 2;
@@ -156,9 +156,9 @@ static status touched_find(const struct exported *x, struct search *a, int64_t *
     return OK;
 }
 
-/* Lists in t the particles for which a->number is 1, those with a cut bond (a pair that LAMMPS would bond and the scene
- * does not). Allocates t->key, which later holds a sort key for each. Replaces a->number[i] by the index of particle i
- * in the list, or -1 for other particles. Call it after touched_find. */
+/* Lists in t the particles of the export x for which a->number is 1, those with a cut bond (a pair that LAMMPS would
+ * bond and the scene does not). Allocates t->key, which later holds a sort key for each. Replaces a->number[i] by the
+ * index of particle i in the list, or -1 for other particles. Call it after touched_find. */
 static void touched_list(struct touched *t, const struct exported *x, struct search *a)
 {
     const int64_t n = x->e->part.n;
@@ -172,10 +172,10 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-/* For each particle listed in t, those with a cut bond, lists the neighbours to which LAMMPS would bond the particle,
- * and the kind of each pair: bonded or cut in the scene. Computes t->key of the particle: the sum of a hash of its
- * material, loads and lattice position and of hashes of the lattice vectors to the neighbours at its cut bonds. a: work
- * arrays, after touched_list. */
+/* For each particle of the export x listed in t, those with a cut bond, lists the neighbours to which LAMMPS would bond
+ * the particle, and the kind of each pair: bonded or cut in the scene. Computes t->key of the particle: the sum of a
+ * hash of its material, loads and lattice position and of hashes of the lattice vectors to the neighbours at its cut
+ * bonds. a: work arrays, after touched_list. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

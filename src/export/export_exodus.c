@@ -393,8 +393,8 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
     return export_write_file_and_rename(x->request->folder, exodus_put, x);
 }
 
-/* Prints to standard output the name of the written Exodus file, what it contains, and what of the scene it does not
- * contain: rigid bodies and pre-cracks. */
+/* Prints to standard output the name of the Exodus file that the export x has written, what it contains, and what of
+ * the scene it does not contain: rigid bodies and pre-cracks. */
 static void exodus_print(const struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;

@@ -93,9 +93,9 @@ void lammps_initial_velocity(const struct exported *exported, int64_t particle, 
 
 /* ---- columns of plate.data --------------------------------------------------------------------------------------- */
 
-/* Returns component d of the force that `load` exerts on its k-th particle, from 0, at the factor 1 of its time
- * function. For bond styles of LAMMPS it is the force [N]; for pair styles, in which the density stands for the mass,
- * the force per volume [N/m^3]. */
+/* Returns component d of the force that `load` of the export x exerts on its k-th particle, from 0, at the factor 1 of
+ * its time function. For bond styles of LAMMPS it is the force [N]; for pair styles, in which the density stands for
+ * the mass, the force per volume [N/m^3]. */
 static real force_on(const struct exported *x, const struct load *load, int d, int64_t k)
 {
     const real force = load->boundary->value[d] * load->share[d][k];
@@ -107,8 +107,8 @@ static bool pushes_along(const struct load *load, int d)
     return is_force(load) && load->n > 0 && load->boundary->value[d] != 0;
 }
 
-/* Returns true if component d of the forces that `load` exerts differs between its particles by more than round-off.
- * Only for components in which it exerts a force. */
+/* Returns true if component d of the forces that `load` of the export x exerts differs between its particles by more
+ * than round-off. Only for components in which it exerts a force. */
 static bool force_varies(const struct exported *x, const struct load *load, int d)
 {
     for (int64_t k = 1; k < load->n; k++)
@@ -187,8 +187,8 @@ real lammps_column_value(const struct exported *exported, int c, int64_t particl
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Writes a number with 17 digits to the LAMMPS script `to`, in parentheses if it is negative. Infinite numbers become
- * 1e300 or -1e300. */
+/* Writes the number `value` with 17 digits to the LAMMPS script `to`, in parentheses if it is negative. Infinite
+ * numbers become 1e300 or -1e300. */
 static void put(FILE *to, real value)
 {
     if (!isfinite(value)) value = value > 0 ? 1e300 : -1e300;
@@ -256,9 +256,9 @@ static void group_write(FILE *to, int k, const struct lammps_types *t, const str
     fputc('\n', to);
 }
 
-/* Returns component d of the force of load k as an argument of a LAMMPS command: a number, or the name of a variable if
- * the force depends on time or on the particle. In the latter case the definition of the variable is written to the
- * script `to` first. */
+/* Returns component d of the force of load k of the export x as an argument of a LAMMPS command: a number, or the name
+ * of a variable if the force depends on time or on the particle. In the latter case the definition of the variable is
+ * written to the script `to` first. */
 static struct word force_word(FILE *to, const struct exported *x, int k, int d)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -278,9 +278,9 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
     return w;
 }
 
-/* Writes the LAMMPS commands that apply the force of load k to its particles to the script `to`. LAMMPS uses a force in
- * a velocity update that extends from half a step before to half a step after the time of a step. The time function is
- * therefore replaced by the mean of its values at the beginning and at the end of the update. */
+/* Writes the LAMMPS commands that apply the force of load k of the export x to its particles to the script `to`. LAMMPS
+ * uses a force in a velocity update that extends from half a step before to half a step after the time of a step. The
+ * time function is therefore replaced by the mean of its values at the beginning and at the end of the update. */
 static void force_write(FILE *to, const struct exported *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -296,9 +296,9 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-/* Writes the definition of a LAMMPS variable for particles with a prescribed displacement to the script `to`: component
- * d of the force by which they reach the prescribed position at the end of a step. k: number of the load that
- * prescribes the displacement. */
+/* Writes the definition of a LAMMPS variable for particles of the export x with a prescribed displacement to the script
+ * `to`: component d of the force by which they reach the prescribed position at the end of a step. k: number of the
+ * load that prescribes the displacement. */
 static void displacement_write(FILE *to, const struct exported *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
@@ -309,10 +309,10 @@ static void displacement_write(FILE *to, const struct exported *x, int k, int d)
     fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
 }
 
-/* Writes the LAMMPS commands that make the particles of load k follow its prescribed velocity or displacement to the
- * script `to`. LAMMPS cannot prescribe these; instead, a force replaces the force on the particles in each step. It
- * changes their velocity from the value in the middle of the previous step to the prescribed one in the middle of this
- * step. */
+/* Writes the LAMMPS commands that make the particles of load k of the export x follow its prescribed velocity or
+ * displacement to the script `to`. LAMMPS cannot prescribe these; instead, a force replaces the force on the particles
+ * in each step. It changes their velocity from the value in the middle of the previous step to the prescribed one in
+ * the middle of this step. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;

@@ -68,8 +68,8 @@ void export_mesh_free(struct export_mesh *m)
 
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the name of the node set of load number load_number, from 0: the name of its boundary, or nodelist_N with N =
- * load_number + 1 if the boundary has no name or an earlier load has the same one. */
+/* Returns the name of the node set of load number load_number, from 0, of m: the name of its boundary, or nodelist_N
+ * with N = load_number + 1 if the boundary has no name or an earlier load has the same one. */
 struct set_name export_node_set_name_of_load(const struct export_mesh *m, int load_number)
 {
     const struct load *load = m->e->loads.load;
@@ -84,7 +84,7 @@ struct set_name export_node_set_name_of_load(const struct export_mesh *m, int lo
     return set;
 }
 
-/* Compares two int32_t for qsort, in ascending order. */
+/* Compares the numbers (int32_t) *a and *b for qsort, in ascending order. */
 static int int32_order(const void *a, const void *b)
 {
     const int32_t *p = a, *q = b;

@@ -24,9 +24,9 @@ static real modulus_of(const struct exported *x, int a, int b)
     return first == second ? first : 2 * first * second / (first + second);
 }
 
-/* Writes the coefficients of the material law for bonds between the materials a and b to the LAMMPS script `to`, as
- * arguments of pair_coeff or bond_coeff. In 2D, the shear and bulk moduli G_L = 8 G/15 and K_L = 4 (lambda + G)/9 turn
- * the 3D law of LAMMPS into the 2D law. */
+/* Writes the coefficients of the material law for bonds between the materials a and b of the export x to the LAMMPS
+ * script `to`, as arguments of pair_coeff or bond_coeff. In 2D, the shear and bulk moduli G_L = 8 G/15 and K_L = 4
+ * (lambda + G)/9 turn the 3D law of LAMMPS into the 2D law. */
 static void law_write(FILE *to, const struct exported *x, int a, int b)
 {
     const struct material *m = &x->s->material[a];
@@ -123,9 +123,10 @@ static void particles_write(FILE *to, const struct exported *x)
     if (x->bond_style) fputs("compute damage all property/atom d_damage\n", to);
 }
 
-/* Writes the LAMMPS commands between the creation of bonds and the run to the script `to`: two runs of zero steps, then
- * initial displacements and time integration. Pairs of types that were excluded while bonds were created are no longer
- * excluded, since excluded pairs cannot come into contact. t: particle types, with these pairs. */
+/* Writes the LAMMPS commands of the export x between the creation of bonds and the run to the script `to`: two runs of
+ * zero steps, then initial displacements and time integration. Pairs of types that were excluded while bonds were
+ * created are no longer excluded, since excluded pairs cannot come into contact. t: particle types, with these
+ * pairs. */
 static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);
@@ -169,9 +170,9 @@ static int64_t frame_distance(const struct run *e, int64_t frames)
     return first;
 }
 
-/* Writes the LAMMPS command `dump` to the script `to`, with output at exactly the steps of Cleave's frames. If their
- * distance varies, a variable returns the step of the next frame; with more than FRAMES_MOST such frames, the dump has
- * a constant distance. */
+/* Writes the LAMMPS command `dump` of the export x to the script `to`, with output at exactly the steps of Cleave's
+ * frames. If their distance varies, a variable returns the step of the next frame; with more than FRAMES_MOST such
+ * frames, the dump has a constant distance. */
 static void frames_write(FILE *to, const struct exported *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"

@@ -22,9 +22,9 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
            (!x->bond_style || reals_are_bitwise_equal(p->mass[i], p->mass[j]));
 }
 
-/* Returns the index of the class of particle i in c, from 0. Particles of one class have the same material, the same
- * loads and, for bond styles, the same mass. Adds a class to c if particle i belongs to none. Returns -1 if there would
- * be more than CLASSES_MOST classes. */
+/* Returns the index in c, from 0, of the class of particle i of the export x. Particles of one class have the same
+ * material, the same loads and, for bond styles, the same mass. Adds a class to c if particle i belongs to none.
+ * Returns -1 if there would be more than CLASSES_MOST classes. */
 static int class_of(struct classes *c, const struct exported *x, int64_t i)
 {
     for (int k = c->n; k-- > 0;)
@@ -35,9 +35,9 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
     return c->n++;
 }
 
-/* Numbers n particle types from 1, such that the types of one material are consecutive. any[n]: index of a particle of
- * each type before the renumbering; number[n]: receives the new number of each type. Allocates t->material and t->any
- * and fills them in the order of the new numbers. */
+/* Numbers n particle types of the export x from 1, such that the types of one material are consecutive. any[n]: index
+ * of a particle of each type before the renumbering; number[n]: receives the new number of each type. Allocates
+ * t->material and t->any and fills them in the order of the new numbers. */
 static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
 {
     t->material = NEW("types.material", n + 1, int32_t);
@@ -82,10 +82,10 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
     return OK;
 }
 
-/* Sets the LAMMPS type t->of[i] of every particle i. It follows from the class of the particle (its material, loads
- * and, for bond styles, mass) or, if the particle is in the list `touched` of particles with cut bonds, from its
- * colour. Lists the excluded pairs of types. colour[touched->n]: colours of the listed particles, 0 .. colours - 1;
- * pair[a * colours + b]: kind of the pair of colours a and b, bonded or cut, or NULL if no bond is cut. Returns
+/* Sets the LAMMPS type t->of[i] of every particle i of the export x. It follows from the class of the particle (its
+ * material, loads and, for bond styles, mass) or, if the particle is in the list `touched` of particles with cut bonds,
+ * from its colour. Lists the excluded pairs of types. colour[touched->n]: colours of the listed particles, 0 .. colours
+ * - 1; pair[a * colours + b]: kind of the pair of colours a and b, bonded or cut, or NULL if no bond is cut. Returns
  * REFUSED, with a message, if the particles have too many classes. */
 static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
                          const int32_t *colour, int colours, const uint8_t *pair)

@@ -39,15 +39,15 @@ void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suf
 
 /* ---- the header -------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the first dimension of the array a is that of records (length 0), so that the array has a part in
- * every record of the file. */
+/* Returns true if the first dimension of the array a of w is that of records (length 0), so that the array has a part
+ * in every record of the file. */
 static bool is_over_records(const struct netcdf_writer *w, const struct netcdf_array *a)
 {
     return w->dimension[a->dimension[0]].length == 0;
 }
 
-/* Returns the size of the array a [byte], rounded up to a multiple of four. For an array over records it is the size of
- * its part in one record. */
+/* Returns the size of the array a of w [byte], rounded up to a multiple of four. For an array over records it is the
+ * size of its part in one record. */
 static int64_t array_size(const struct netcdf_writer *w, const struct netcdf_array *a)
 {
     int64_t size = type_size(a->type);

@@ -193,7 +193,7 @@ void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed)
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
-/* Compares two struct dashpot by their node index, for sorting and for binary search. */
+/* Compares the dashpots *a and *b (struct dashpot) by node index, for sorting and for binary search. */
 static int by_dashpot(const void *a, const void *b)
 {
     const struct dashpot *p = a, *q = b;

@@ -81,7 +81,7 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes k[dim], the lattice indices of particle i from its body's first particle. Returns false off the lattice. */
+/* Computes k[dim], the lattice indices of particle i from the first particle of its body; false: it is on no site. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -108,7 +108,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Lists in s->site, sorted, the lattice sites of bodies with faces in f. Returns REFUSED if a particle is on none. */
+/* Lists in s->site, sorted, the lattice sites of bodies with faces in f. Returns REFUSED if one is on no site. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -183,8 +183,8 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Gives each corner of the faces f a number, the same to corners that coincide: sets a->corners and a->corner. Returns
- * the corners of all faces sorted by position, with value = 4 face + corner; release the array with memory_free. */
+/* Gives each corner of the faces f a number, the same to corners that coincide: sets a->corners and a->corner. s:
+ * lattice sites. Returns the corners of all faces by position, value = 4 face + corner; free it with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -224,8 +224,9 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds the particle (or source of an image) at lattice site `site` to *t with weight `counts`, unless it is there or *t
- * is full. off[dim]: steps to `site` from the site above the corner that *t moves. Returns false if `site` is empty. */
+/* Adds the particle of `body` (or source of an image) at lattice site `site` to *t with weight `counts`, unless it is
+ * in or *t is full. off[dim]: steps to `site` from the site above the corner of *t. Returns false if `site` is
+ * empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -302,8 +303,8 @@ static void corner_weights(const struct around *t, int dim, real *w)
     }
 }
 
-/* Computes the reference position of corner c: the weighted mean of the particles and images t that move it, exactly,
- * so that forces have no moment. first: first particle of the body; site[dim]: lattice site above c. */
+/* Computes a->place of corner c, its reference position: the weighted mean of the particles and images t that move it,
+ * exactly, so that forces have no moment. first: first particle of the body; site[dim]: lattice site above c. */
 static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
                               const struct around *t)
 {
@@ -316,7 +317,7 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Computes the particles that move each corner, and its position. all: corners of the faces f, sorted by position. */
+/* Computes in a the particles that move each corner, and its position. s: lattice sites; all: sorted corners of f. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
@@ -432,7 +433,7 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes to[2][2], half the area vector of a 2D segment for each end [m^2]. x: ends [m]; sign: orientation, +-1. */
+/* Computes to[2][2], half the area vector of a 2D face of s for each end [m^2]. x: ends [m]; sign: orientation, +-1. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -503,7 +504,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area along axis d of particle number k of the load [m^2], a sum over the corners near it. */
+/* Returns the inward area of s along axis d of particle number k of the load [m^2], a sum over the corners near it. */
 static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;

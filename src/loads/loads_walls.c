@@ -111,7 +111,7 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
  * prescribed motion, or on a plane of symmetry. Adds nodes beyond such planes to g as mirror nodes, which copy the
  * motion of another node. Nodes doubled by slits have no mirror nodes. Must be called once for each box of nodes. mesh:
  * the mesh to which g belongs, or NULL; reference: true if nodes move with the material; only then regions of rotating
- * loads constrain nodes, because the region rotates with the material. */
+ * loads constrain nodes, because the region rotates with the material; p: particles. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {
@@ -255,9 +255,9 @@ static bool points_choose_driven_nodes(const struct loads *l, int which, const s
 }
 
 #define MOSTLY (0.5 * (1 - 1e-9)) /* share of its mass from points of a load with which a node is driven [1] */
-#define NEARLY_LARGEST 0.9 /* if no node reaches MOSTLY: share divided by the largest share, with which it is driven   \
-                            */
-#define HEAVY 0.01 /* mass from points of a load divided by the largest such mass, below which a node is ignored [1]   \
+/* If no node reaches MOSTLY: share divided by the largest share, from which on a node is driven [1]. */
+#define NEARLY_LARGEST 0.9
+#define HEAVY 0.01 /* mass from points of a load, divided by the largest such mass, below which a node is ignored [1]  \
                     */
 
 /* Returns the share (0 to 1) of its mass that a node must have from the points of a load to be driven by this load: one
@@ -276,9 +276,9 @@ static real least_driven_share(const real *share, const uint8_t *mask, const rea
 }
 
 /* Lists in *s the nodes of g that have at least the share `least` of their mass from points of load number `which`, for
- * each component that this load prescribes. l->share[g->n]: this mass [kg]. Skips node components that the load
- * constrains already because the node is in its region; a second entry would count the inertia of the node as a
- * reaction. */
+ * each component that this load prescribes. l->share[g->n]: this mass [kg]; p: particles. Skips node components that
+ * the load constrains already because the node is in its region; a second entry would count the inertia of the node as
+ * a reaction. */
 static void driven_nodes_add(const struct loads *l, int which, struct constrained_set *s, const struct grid *g,
                              const struct particles *p, real least)
 {

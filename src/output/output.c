@@ -300,7 +300,7 @@ static status region_each(const char *folder, const char *inner, const char *end
     return OK;
 }
 
-/* Returns true if `inner` is the name frames_NAME of the folder of a region of the scene with this text. */
+/* Returns true if `inner` is the name frames_NAME of the folder of a region of the scene scene_text. */
 static bool is_frames_of_region(const char *inner, const char *scene_text)
 {
     char line[PATH_NAME_ROOM + 16];
@@ -372,16 +372,16 @@ static bool index_lists(const char *path)
     return listed;
 }
 
-/* Checks a file that a run would remove. Returns REFUSED if it has the name of a frame or of a particles file, but
- * Cleave did not write it: it has no footer of Cleave's files, and the index of the older run does not list it. */
+/* Checks the file `path`, which a run would remove. Returns REFUSED if its name is that of a frame or particles file,
+ * but Cleave did not write it: it has no footer of Cleave's files and is not listed in the index of the older run. */
 static status frame_guard(const char *path)
 {
     if (!is_frame(strrchr(path, '/') + 1, "") || file_has_checksum_footer(path) || index_lists(path)) return OK;
     return status_set(REFUSED, "%s was not written by cleave, or is cut off; move or remove it", path);
 }
 
-/* Checks a file of rigid bodies that a run would remove. Returns REFUSED if it does not begin as Cleave's files of
- * rigid bodies do. */
+/* Checks the file `path` of rigid bodies, which a run would remove. Returns REFUSED if it does not begin as Cleave's
+ * files of rigid bodies do. */
 static status rigid_guard(const char *path)
 {
     static const char *const begin[] = {RIGID_FILE_BEGIN};

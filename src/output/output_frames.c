@@ -47,8 +47,8 @@ struct frame_job {
  * do not change from frame to frame are in the particles file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
-/* Copies the rows of those fields that are stored in the frame itself, not in the particles file, to o->frame_copy.
- * This memory is used again for the next frame. */
+/* Copies the rows of those fields of `source` that are stored in the frame of `job` itself, not in the particles file,
+ * to o->frame_copy. This memory is used again for the next frame. */
 static void job_copy_fields(struct frame_job *job, const struct frame_source *source)
 {
     struct output *o = job->o;
@@ -204,7 +204,8 @@ void output_discard_particle_order(struct output *o)
 
 /* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ------------------------------- */
 
-/* Writes the groups and attributes of a frame to the file f, and its time, which VTK shows beside the particles. */
+/* Writes the groups and attributes of the frame of `job` to the file f, and its time, which VTK shows beside the
+ * particles. */
 static void write_marks(struct hdf *f, const struct frame_job *job)
 {
     static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
@@ -354,8 +355,8 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
         seen->fault = "belongs to another run";
 }
 
-/* Reads time [s] and the hash of its particles file from the frame at `path`. Returns false if the frame cannot be
- * read. */
+/* Reads the time *time [s] of the frame at `path`, and *content, the hash of its particles file. Returns false if the
+ * frame cannot be read. */
 static bool frame_read_marks(const char *path, real *time, int64_t *content)
 {
     struct hdf f;
@@ -386,9 +387,9 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
     return snprintf(text, capacity, "and %s, to which it links, belong to different runs", particles->name) > 0;
 }
 
-/* Marks the frames of a series that are lost (damaged or missing) and adds their number to *lost. If *lost was 0,
- * describes the first of them in text[capacity]. Frames that were marked at an earlier restart and exist again lose
- * their mark. A particles file that is lost is not used for further frames. */
+/* Marks the frames of the series s of the output o that are lost (damaged or missing) and adds their number to *lost.
+ * If *lost was 0, describes the first of them in text[capacity]. Frames that were marked at an earlier restart and
+ * exist again lose their mark. A particles file that is lost is not used for further frames. */
 static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t capacity)
 {
     struct particles_seen seen = {.number = -1};
@@ -405,8 +406,8 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
     if (seen.fault) s->particles.number = -1;
 }
 
-/* Composes and writes both index files of a series of frames (frames.hdf.series and frames.xdmf). Returns FAILED if one
- * cannot be written. */
+/* Composes and writes both index files of `series`, a series of frames of the output o (frames.hdf.series and
+ * frames.xdmf). Returns FAILED if one cannot be written. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};

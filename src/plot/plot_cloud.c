@@ -119,8 +119,8 @@ static int thinnest_direction(const struct output_frame *f)
     return normal;
 }
 
-/* Returns the coordinate along the axis `normal` [m] of the particle whose coordinate is nearest to `wanted` [m], the
- * lower one of two that are equally near. */
+/* Returns the coordinate along the axis `normal` [m] of the particle of frame f whose coordinate is nearest to `wanted`
+ * [m], the lower one of two that are equally near. */
 static double nearest_coordinate(const struct output_frame *f, int normal, double wanted)
 {
     const double tie = TIE * frame_particle_spacing(f);
@@ -134,9 +134,9 @@ static double nearest_coordinate(const struct output_frame *f, int normal, doubl
     return at;
 }
 
-/* Returns the coordinate along the axis `normal` [m] of the particle layer that a slice shows. It is the layer nearest
- * to the middle among those whose sum of damage is at least 0.98 of the largest sum; in an undamaged body, the layer
- * nearest to the middle. Of two such layers it is the lower one. */
+/* Returns the coordinate along the axis `normal` [m] of the particle layer of frame f that a slice shows. It is the
+ * layer nearest to the middle among those whose sum of damage is at least 0.98 of the largest sum; in an undamaged
+ * body, the layer nearest to the middle. Of two such layers it is the lower one. */
 static double damaged_layer(const struct output_frame *f, int normal)
 {
     enum { LAYERS_MAX = 100000 };
@@ -198,8 +198,8 @@ struct camera camera_along_axis(int axis, int side)
     return c;
 }
 
-/* Computes the drawn position x[3] = X + magnify u of particle i [m]; components that the run lacks are 0. magnify:
- * factor on displacements [1]. */
+/* Computes the drawn position x[3] = X + magnify u of particle i of frame f [m]; components that the run lacks are 0.
+ * magnify: factor on displacements [1]. */
 static void place_now(const struct output_frame *f, int64_t i, double magnify, double *x)
 {
     for (int d = 0; d < 3; d++) x[d] = d < f->dim ? f->X[d][i] + magnify * f->u[d][i] : 0;
@@ -240,7 +240,8 @@ static void cloud_allocate(struct plotted_particles *c, const struct output_fram
     if (projection->value) c->value = NEW("plot.value", f->n, float);
 }
 
-/* Sets the axes of the map in c: x and y in 2D, the axes in the plane of a slice, or the directions of a camera. */
+/* Sets the axes of the map in c of frame f: x and y in 2D, the axes in the plane of the slice, or the directions of the
+ * camera, that `projection` requests in 3D. */
 static void cloud_axes(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
     c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along_axis(2, 1);

@@ -91,8 +91,9 @@ static bool column_varies(const struct history *h, int column)
     return false;
 }
 
-/* Draws the growth of the longest crack and the share of peridynamic particles against time, each only if it changes.
- * The crack growth of a bar is never drawn. Prints a message if neither changes. Returns FAILED if gnuplot fails. */
+/* Draws the growth of the longest crack and the share of peridynamic particles in the history s against time, each only
+ * if it changes. sheet: file and size of the picture; title: its title. The crack growth of a bar is never drawn.
+ * Prints a message if neither changes. Returns FAILED if gnuplot fails. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
@@ -144,8 +145,8 @@ struct energies {
 #define ENERGY_SHOWN 5e-4
 #define WORK_COLOUR "#c8c8c8" /* of the external work */
 
-/* Selects for drawing the energies whose largest value is at least ENERGY_SHOWN of the largest one of all, and chooses
- * their unit. */
+/* Selects for drawing the energies of the history h whose largest value is at least ENERGY_SHOWN of the largest one of
+ * all, and chooses their unit. */
 static void choose_energies(struct energies *e, const struct history *h)
 {
     double largest = 0;
@@ -192,8 +193,8 @@ static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
 /* Least extent of the axis of the balance error in both directions [%]; smaller errors are round-off. */
 static const double BALANCE_LEAST = 0.0012;
 
-/* Plots the relative error of the energy balance against time in a panel below the energies. l: layout of the picture;
- * largest: largest magnitude of the error [1]. */
+/* Plots the relative error of the energy balance in the history s against time in a panel below the energies. l: layout
+ * of the picture; largest: largest magnitude of the error [1]. */
 static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
 {
     const struct two_panels two = curves_layout_edges_of_two_panels(l);
@@ -210,8 +211,9 @@ static void plot_balance(FILE *to, const struct series *s, const struct curves_l
             1 - (l->above + 0.5 * (two.lower_from + two.lower_end)) / l->height, curve_colour[6]);
 }
 
-/* Draws the energies of a run against time, and below them the balance error if the history has it. Prints a message if
- * all energies are 0 or the run has one equilibrium. Returns FAILED if gnuplot fails. */
+/* Draws the energies of the history s against time, and below them the balance error if the history has it. sheet: file
+ * and size of the picture; title: its title. Prints a message if all energies are 0 or the run has one equilibrium.
+ * Returns FAILED if gnuplot fails. */
 static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {
     struct energies e;
@@ -247,8 +249,8 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     return gnuplot_close(&g);
 }
 
-/* Draws the pictures of the history s, which must have at least two samples. in_steps: the history has a row for each
- * load step instead of times. Returns FAILED if gnuplot fails. */
+/* Draws the pictures of the history s, which must have at least two samples, with the title `title`. in_steps: the
+ * history has a row for each load step instead of times. Returns FAILED if gnuplot fails. */
 static status draw_curves(const struct plot_request *r, const char *title, const struct series *s, bool in_steps)
 {
     const char *ending = picture_ending[r->format];

@@ -101,8 +101,8 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     return force > 0 ? pressure : 0;
 }
 
-/* Returns the largest magnitude of load l at time t [s] and the number of particles on which it is not 0. Only every
- * `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all
+/* Returns the largest magnitude of load l of run e at time t [s] and the number of particles on which it is not 0. Only
+ * every `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all
  * particles are included. */
 static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
@@ -122,7 +122,7 @@ static struct acting acting_at(const struct run *e, const struct load *l, const 
 }
 
 /* Sets the mark of particle `particle`, which has a face under pressure, to 1. context: uint8_t array with a mark for
- * each particle. It is called by pressure_visit_faces for each face. */
+ * each particle. Called by pressure_visit_faces for each face, whose axis, side and area do not matter here. */
 static void face_on(void *context, int32_t particle, int axis, int side, real area)
 {
     (void)axis, (void)side;
@@ -144,7 +144,7 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
     return on;
 }
 
-/* Returns the state of load l at the time at which its magnitude is largest, among evenly spaced times and the
+/* Returns the state of load l of run e at the time at which its magnitude is largest, among evenly spaced times and the
  * characteristic times of its time function. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles
  * are included. */
 static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
@@ -236,8 +236,8 @@ static int64_t chosen_count(const struct chosen *c, const struct particles *p, c
     return n;
 }
 
-/* Selects the particles of load l whose arrows are drawn. Along each axis they are on every n-th layer of the lattice,
- * with the smallest n for which at most `most` particles are selected. Returns the selection. */
+/* Selects the particles of load l whose arrows are drawn in the picture m. Along each axis they are on every n-th layer
+ * of the lattice, with the smallest n for which at most `most` particles are selected. Returns the selection. */
 static struct chosen choose_particles(const struct marks *m, const struct load *l, int64_t most)
 {
     const struct particles *p = &m->engine->part;
@@ -257,9 +257,10 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
     return c;
 }
 
-/* Draws the arrows of load l at its particles. An arrow of tension begins at the particle, an arrow of compression ends
- * at it. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles are included. acting: time for
- * which the arrows are drawn, and largest magnitude of the load at this time, which is drawn with full length. */
+/* Draws the arrows of load l at its particles in the picture m. An arrow of tension begins at the particle, an arrow of
+ * compression ends at it. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles are included.
+ * acting: time for which the arrows are drawn, and largest magnitude of the load at this time, which is drawn with full
+ * length. */
 static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t *on, const struct acting *acting)
 {
     const struct particles *p = &m->engine->part;
@@ -290,7 +291,8 @@ static void points_of_load(struct marks *m, const struct load *l)
     }
 }
 
-/* Draws a plane of symmetry: a line across the picture in 2D, a rectangle a little larger than the body in 3D. */
+/* Draws the plane of symmetry of boundary b in the picture m: a line across it in 2D, in 3D a rectangle a little larger
+ * than the body. */
 static void mirror_plane_mark(struct marks *m, const struct boundary *b)
 {
     const struct particles *p = &m->engine->part;
@@ -315,8 +317,8 @@ static const char *colour_of_load(int number)
     return k < CURVE_COLOURS ? curve_colour[k] : further[k - CURVE_COLOURS];
 }
 
-/* Draws the boundary condition with the index `number` in a colour of its own, as arrows, points or a plane of
- * symmetry, and adds its description to the key. */
+/* Draws the boundary condition with the index `number` in the picture m in a colour of its own, as arrows, points or a
+ * plane of symmetry, and adds its description to the key. */
 static void boundary_mark(struct marks *m, int number)
 {
     const struct scene *s = m->engine->scene;
@@ -345,8 +347,8 @@ static void boundary_mark(struct marks *m, int number)
     memory_free(on);
 }
 
-/* Draws all loads and supports, first those with arrows and then supports drawn as points, since arrows would hide
- * points. */
+/* Draws all loads and supports in the picture m, first those with arrows and then supports drawn as points, since
+ * arrows would hide points. */
 void marks_draw_symbols_of_loads(struct marks *m)
 {
     const struct run *e = m->engine;

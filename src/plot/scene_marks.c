@@ -34,7 +34,7 @@ void marks_add_point(struct marks *m, const real *position, const double *arrow)
     putc('\n', m->to);
 }
 
-/* Interrupts the line in the current data block: positions that follow are not connected with those before. */
+/* Interrupts the line in the current data block of m: positions that follow are not connected with those before. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
 /* Adds an entry `text` to the key (legend) of the picture of m. The entry belongs to the element (line, points or
@@ -215,7 +215,7 @@ void marks_draw_symbols_of_probes(struct marks *m)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Draws the bounding boxes of the named regions of the scene, and adds their names to the key. */
+/* Draws the bounding boxes of the named regions of the scene in the picture m, and adds their names to the key. */
 void marks_draw_boxes_of_named_regions(struct marks *m)
 {
     const struct scene *s = m->engine->scene;

@@ -171,7 +171,7 @@ static void figure_place(FILE *to, const struct figures_layout *l, int k)
 
 /* Draws the common key (legend) of all panels, on their right or in a narrow picture below them, through gnuplot's
  * stream `to`. The key is drawn as a panel of its own, as large as the picture, because gnuplot makes no key wider than
- * its panel. extrapolated: true if a panel has a curve to spacing 0. */
+ * its panel. l: layout of the picture; extrapolated: true if a panel has a curve to spacing 0. */
 static void draw_figures_key(FILE *to, const struct figures_layout *l, bool extrapolated)
 {
     fputs("unset border\nunset tics\nunset title\nunset xlabel\nunset grid\nset offsets\nset lmargin at screen 0\n"
@@ -417,8 +417,9 @@ static void paths_write_axes(const struct gnuplot *g, const struct extent *e, co
             l->key_lines);
 }
 
-/* Draws the crack paths of all runs in one picture. Their data are composed before the picture is opened, since their
- * extent determines its height. Returns FAILED, with a message, without memory or if gnuplot fails. */
+/* Draws the crack paths of all runs of the study s in one picture. Their data are composed before the picture is
+ * opened, since their extent determines its height. Returns FAILED, with a message, without memory or if gnuplot
+ * fails. */
 static status draw_paths(const struct convergence_study *s)
 {
     const struct path picture = convergence_picture(s->study.folder, "path");

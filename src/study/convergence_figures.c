@@ -58,10 +58,10 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes the error of the figure `name` (a number in summary.json) at each spacing level that results because cracks
- * grow from particle to particle, into resolution[levels]. It is half a spacing [m] for positions and lengths of
- * cracks; for angles it is the rotation of the crack if its end moves by half a spacing [degree]. Returns false, and
- * stores nothing, for figures that change continuously. */
+/* Computes the error of the figure `name` (a number in summary.json) at each spacing level of the study s that results
+ * because cracks grow from particle to particle, into resolution[levels]. It is half a spacing [m] for positions and
+ * lengths of cracks; for angles it is the rotation of the crack if its end moves by half a spacing [degree]. Returns
+ * false, and stores nothing, for figures that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;

@@ -34,8 +34,8 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
-/* Returns the spacing [m] of run number `run` (from 0) of a spacing level (0: finest). A level has several spacings
- * that differ by a few per cent; its runs use them in turn. */
+/* Returns the spacing [m] of run number `run` (from 0) of a spacing level (0: finest) of the study s. A level has
+ * several spacings that differ by a few per cent; its runs use them in turn. */
 static double spacing_in_turn(const struct convergence_study *s, int level, int run)
 {
     return s->spacings.at[level][run % s->spacings.n[level]];
@@ -189,8 +189,8 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
-/* Prints a warning for each figure that w requests (a number in summary.json) and the first run lacks, because its name
- * may be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
+/* Prints a warning for each figure that w requests (a number in summary.json) and the first run of the study s lacks,
+ * because its name may be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
     const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);

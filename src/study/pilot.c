@@ -99,10 +99,10 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
     return best;
 }
 
-/* Makes one convergence study of every candidate method. The studies together take the share PILOT_FIRST_SHARE of the
- * time that is left, in equal parts. If the scene is invalid at the spacing of a study, the study is repeated at finer
- * spacings. Returns OK even if a method fails (its reason is stored), INTERRUPTED after a stop signal, or REFUSED, with
- * a message, if the runs lack the requested figure. */
+/* Makes one convergence study of every candidate method of the search p. The studies together take the share
+ * PILOT_FIRST_SHARE of the time that is left, in equal parts. If the scene is invalid at the spacing of a study, the
+ * study is repeated at finer spacings. Returns OK even if a method fails (its reason is stored), INTERRUPTED after a
+ * stop signal, or REFUSED, with a message, if the runs lack the requested figure. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -122,9 +122,9 @@ static status search_first(struct pilot_search *p)
     return OK;
 }
 
-/* Repeats the study of the method *c at finer spacings, as fine as its prediction requires and the remaining time
- * allows. Replaces *c by the outcome and returns true. Returns false if no time is left, if the study has no better
- * outcome, or if it is interrupted. *done is INTERRUPTED in the last case, else OK. */
+/* Repeats the study of the method *c of the search p at finer spacings, as fine as its prediction requires and the
+ * remaining time allows. Replaces *c by the outcome and returns true. Returns false if no time is left, if the study
+ * has no better outcome, or if it is interrupted. *done is INTERRUPTED in the last case, else OK. */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
@@ -144,9 +144,9 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     return true;
 }
 
-/* Repeats the study of the method with the shortest predicted duration at finer spacings. Ends when this method has a
- * run that is accurate enough, or no refinement is possible. The method may change from one study to the next. Returns
- * INTERRUPTED after a stop signal, else OK. */
+/* Repeats the study of that method of the search p which has the shortest predicted duration, at finer spacings. Ends
+ * when this method has a run that is accurate enough, or no refinement is possible. The method may change from one
+ * study to the next. Returns INTERRUPTED after a stop signal, else OK. */
 static status search_finer(struct pilot_search *p)
 {
     status done = OK;
@@ -155,9 +155,9 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a candidate method that contradicts the method c: its value of the figure (scalar result) differs by more
- * than the uncertainties of both and the requested accuracy together, so that one of the two values must be wrong.
- * Returns NULL if there is none. */
+/* Returns a candidate method of the search p that contradicts the method c: its value of the figure (scalar result)
+ * differs by more than the uncertainties of both and the requested accuracy together, so that one of the two values
+ * must be wrong. Returns NULL if there is none. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {
@@ -169,8 +169,8 @@ static const struct pilot_candidate *contradiction(const struct pilot_search *p,
     return NULL;
 }
 
-/* Returns REFUSED, because no method is accurate enough, with a message that lists the accuracy that each method has
- * reached, or why it failed. */
+/* Returns REFUSED, because no method of the search p is accurate enough, with a message that lists the accuracy that
+ * each method has reached, or why it failed. */
 static status search_failed(const struct pilot_search *p)
 {
     char text[900] = "";
@@ -194,9 +194,9 @@ static status search_failed(const struct pilot_search *p)
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
-/* Prints the chosen method *best and its spacing, and stores the overrides for them in *to. best: NULL if no method has
- * a prediction. Returns REFUSED, with a message, if `best` is NULL or not accurate enough within the budget, or if two
- * methods converge to different values. */
+/* Prints the chosen method *best of the search p and its spacing, and stores the overrides for them in *to. best: NULL
+ * if no method has a prediction. Returns REFUSED, with a message, if `best` is NULL or not accurate enough within the
+ * budget, or if two methods converge to different values. */
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)

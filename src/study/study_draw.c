@@ -90,8 +90,8 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 
 /* ---- lines with bars --------------------------------------------------------------------------------------------- */
 
-/* Sends the points of each line of panel number `panel` to gnuplot's stream `to` as a data block: position along the
- * axis, mean and scatter. A point without a value is NaN, which leaves a gap in the line. */
+/* Sends the points of each line of panel number `panel` of the picture p to gnuplot's stream `to` as a data block:
+ * position along the axis, mean and scatter. A point without a value is NaN, which leaves a gap in the line. */
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across].shown;
@@ -108,7 +108,8 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
 }
 
 /* Appends the mean over all runs, and the mean plus and minus the standard deviation, to the plot command of panel
- * number `panel`, as horizontal lines. to: gnuplot's stream. Appends nothing if fewer than two runs have a value. */
+ * number `panel` of the picture p, as horizontal lines. to: gnuplot's stream. Appends nothing if fewer than two runs
+ * have a value. */
 static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int panel)
 {
     const double factor = p->unit_of_figure[panel].factor;
@@ -119,8 +120,8 @@ static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int pane
                 k == 0 ? 1 : 2);
 }
 
-/* Sends the gnuplot command that plots the points of panel number `panel` to the stream `to`. The points are joined by
- * lines if the values along the horizontal axis are numbers. */
+/* Sends the gnuplot command that plots the points of panel number `panel` of the picture p to the stream `to`. The
+ * points are joined by lines if the values along the horizontal axis are numbers. */
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 {
     fputs("plot ", to);
@@ -164,8 +165,8 @@ static void draw_key(FILE *to, const struct study_picture *p)
     putc('\n', to);
 }
 
-/* Sends range and tics of the axis for the figure (scalar result) of panel number `panel` to gnuplot's stream `to`.
- * name: `y`, or `cb` for the colour bar of a map. */
+/* Sends range and tics of the axis for the figure (scalar result) of panel number `panel` of the picture p to gnuplot's
+ * stream `to`. name: `y`, or `cb` for the colour bar of a map. */
 static void send_figure_axis(FILE *to, const struct study_picture *p, int panel, const char *name)
 {
     struct study_axis axis = study_axis_of_figure(p, panel);
@@ -239,9 +240,9 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Finds the two varied keys that form the axes of a map: those with a physical meaning if there are two, else all
- * varied keys. Stores the index of the key along the vertical axis in *up, and of that along the horizontal axis in
- * *across. Returns false if there are not exactly two, so that no map is drawn. */
+/* Finds the two varied keys that form the axes of a map in the picture p: those with a physical meaning if there are
+ * two, else all varied keys. Stores the index of the key along the vertical axis in *up, and of that along the
+ * horizontal axis in *across. Returns false if there are not exactly two, so that no map is drawn. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {
