@@ -94,7 +94,7 @@ static void list_stiffened(struct index_list *l, const struct bond_source *s, co
     }
 }
 
-/* Makes material point i peridynamic and appends i to `changed`. Does nothing if i is peridynamic already. */
+/* Makes material point i of p peridynamic and appends i to `changed`. Does nothing if i is peridynamic already. */
 static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
@@ -150,7 +150,7 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
 /* Updates positions and velocities of the converted particles `changed` and of all particles within the cutoff (largest
  * bond length) of these, before bonds between them are made. Each particle is updated once, so that threads write
  * different particles. sync: function that updates listed particles, or NULL if none needs it; map: map from lattice
- * sites to particles, or NULL to search for neighbours. */
+ * sites to particles, or NULL to search for neighbours in the cells of `source`. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

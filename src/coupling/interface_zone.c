@@ -96,8 +96,8 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
 
 /* Counts or lists the neighbours of all members of the interface zone r (material points near peridynamic particles,
  * and neighbours). With `count` true, stores the number of neighbours of member k in r->start[k + 1]. With `count`
- * false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by members_make. Returns
- * the largest number of neighbours of a member, at least 1. */
+ * false, stores their indices in r->neighbour, from r->start[k] on. s: cells of the neighbour search; mark, slot: as
+ * computed by members_make. Returns the largest number of neighbours of a member, at least 1. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
@@ -116,9 +116,9 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     return most;
 }
 
-/* Lists the neighbours of each member of the interface zone r in r->neighbour, after members_make. Computes r->scale,
- * the factor on the velocity differences between neighbours, from the largest number of neighbours. mark, slot: as
- * computed by members_make; s: cells of the neighbour search and pre-cracks. */
+/* Lists the neighbours of each member of the interface zone r, particles of p, in r->neighbour, after members_make.
+ * Computes r->scale, the factor on the velocity differences between neighbours, from the largest number of neighbours.
+ * mark, slot: as computed by members_make; s: cells of the neighbour search and pre-cracks. */
 static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                                       const uint8_t *mark, const int32_t *slot)
 {
@@ -197,7 +197,7 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
 
 /* Computes r->change, the change of momentum of member k of the interface zone by damping [kg m/s], from r->difference
  * of the member and of its neighbours. The changes of the two members of a pair are bitwise opposite, so that momentum
- * is conserved. share: strength of the damping [1]. */
+ * is conserved. share: strength of the damping [1]; p: particles. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;
@@ -210,8 +210,8 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
 }
 
 /* Returns the second half of the energy that damping has removed in this step [J]: -1/2 sum dp . v over the members of
- * the interface zone r, with their change of momentum dp and their present velocity v. Call it after the change has
- * been applied; the first half is this sum with the velocities before the step. */
+ * the interface zone r, with their change of momentum dp and their present velocity v in p. Call it after the change
+ * has been applied; the first half is this sum with the velocities before the step. */
 real interface_zone_second_half_of_damped_energy(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */

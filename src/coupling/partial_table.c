@@ -321,8 +321,8 @@ static void response_close(struct partial_table *t, int64_t i)
 }
 
 /* Computes the responses to strain (struct response) of the bonds in row `row`, the bonds of one particle. s: law of
- * the bonds; response[vectors][parts]: receives the responses, by the number of the bond's vector on the lattice; 0 for
- * broken bonds and for vectors without a bond. */
+ * the bonds; response[vectors][parts]: receives the responses, by the number of the bond's vector on the lattice of t;
+ * 0 for broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -413,8 +413,8 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
     }
 }
 
-/* Prefetches the responses to strain that sum_row reads for *row, the bonds of one particle, into the cache. It has no
- * other effect. */
+/* Prefetches from t the responses to strain that sum_row reads for *row, the bonds of one particle, into the cache. It
+ * has no other effect. */
 static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
 {
     const real *response = response_at(t, row->response);
@@ -471,8 +471,8 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
 }
 
 /* Lists the particles and images whose bonds may cross the cell of material point i in `to`, in ascending order, found
- * by a neighbour search: for particles without a map of lattice sites. s: cells of the search; near: working memory.
- * Returns the number of listed particles. */
+ * by a neighbour search: for particles without a map of lattice sites. t: table; s: cells of the search; near: working
+ * memory. Returns the number of listed particles. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

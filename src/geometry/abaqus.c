@@ -73,9 +73,9 @@ static status nodes_read(struct deck *d)
     return OK;
 }
 
-/* Reads the node labels of an element, which may continue on further lines. Stores the labels of its corners in node[]
- * and of its middle nodes in middle[], in the order of elements.h. The interior node of elements with 27 nodes is
- * skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
+/* Reads the node labels of an element of deck d, which may continue on further lines. Stores the labels of its corners
+ * in node[] and of its middle nodes in middle[], in the order of elements.h. The interior node of elements with 27
+ * nodes is skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
 static status element_nodes(struct deck *d, const struct abaqus_shape *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
@@ -189,8 +189,8 @@ static int scope_find(const struct deck *d, const char *name, bool instance)
     return -1;
 }
 
-/* Adds the nodes of an element of the current scope, by their labels, to the set number `set`. label: of the element;
- * of: the elements of the scope, by label. */
+/* Adds the nodes of an element of the current scope of deck d, by their labels, to the set number `set`. label: of the
+ * element; of: the elements of the scope, by label. */
 static void nodes_of_element_add(struct deck *d, int set, const struct label_map *of, int64_t label)
 {
     const int64_t k = label_map_find(of, label);
@@ -200,8 +200,8 @@ static void nodes_of_element_add(struct deck *d, int set, const struct label_map
         element_mesh_add_to_set(d->m, set, d->m->middle[e->middle + c]);
 }
 
-/* Adds the nodes of the elements that are in the set called `name` so far to the set number `set`, for *NSET with the
- * parameter ELSET. Returns REFUSED if there are too many sets or members. */
+/* Adds the nodes of the elements of deck d that are in the set called `name` so far to the set number `set`, for *NSET
+ * with the parameter ELSET. Returns REFUSED if there are too many sets or members. */
 static status set_join_nodes_of(struct deck *d, int set, const char *name)
 {
     const int64_t first = d->scope[d->now].element;
@@ -385,7 +385,8 @@ static status input_read(struct deck *d, status (*read)(struct deck *d), bool ke
     return s;
 }
 
-/* Reads the data lines of the current keyword, *NODE, *ELEMENT, *NSET or *ELSET. Returns REFUSED for invalid data. */
+/* Reads the data lines of the current keyword of deck d: *NODE, *ELEMENT, *NSET or *ELSET. Returns REFUSED for invalid
+ * data. */
 static status data_read(struct deck *d)
 {
     const char *name = d->key.name;
@@ -393,8 +394,8 @@ static status data_read(struct deck *d)
     return strcmp(name, "ELEMENT") == 0 ? elements_read(d) : set_read(d, strcmp(name, "NSET") == 0);
 }
 
-/* Reads the data lines of the current keyword, or skips them if it has no meaning for the mesh. Returns REFUSED for
- * invalid data, and for keywords that generate nodes or elements. */
+/* Reads the data lines of the current keyword of deck d, or skips them if it has no meaning for the mesh. Returns
+ * REFUSED for invalid data, and for keywords that generate nodes or elements. */
 static status keyword_follow(struct deck *d)
 {
     static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
@@ -415,7 +416,7 @@ static status keyword_follow(struct deck *d)
     return OK;
 }
 
-/* Reads the keywords of the current file to its end. Returns REFUSED for invalid ones. */
+/* Reads the keywords of the current file of deck d to its end. Returns REFUSED for invalid ones. */
 static status keywords_read(struct deck *d)
 {
     while (source_skip_blanks(d->s)) {

@@ -129,7 +129,7 @@ void element_mesh_free(struct element_mesh *m)
 
 /* ---- labels --------------------------------------------------------------------------------------------------- */
 
-/* Orders entries of a label map by label, then by index, for array_sort. */
+/* Compares the entries *a and *b of a label map by label, then by index, for array_sort. */
 static int label_entry_order(const void *a, const void *b)
 {
     const struct label_entry *p = a, *q = b;

@@ -113,7 +113,7 @@ static void line_add(struct surface_builder *b, const struct patch *p)
 
 /* ---- sides that two elements share ------------------------------------------------------------------------------- */
 
-/* Appends a copy of *side, a side of an element with middle nodes, to the surface. It is divided into faces later, by
+/* Appends a copy of *side, a side of an element with middle nodes, to the surface b. It is divided into faces later, by
  * surface_builder_divide_sides_into_faces. */
 void surface_builder_add_side_with_middle_nodes(struct surface_builder *b, const struct patch *side)
 {
@@ -148,7 +148,7 @@ static struct patch_key patch_key_of(const struct patch *p, int64_t of)
     return key;
 }
 
-/* Orders keys of patches by their sorted corners, then by index, for array_sort. */
+/* Compares the keys of patches *a and *b by their sorted corners, then by index, for array_sort. */
 static int key_order(const void *a, const void *b)
 {
     const struct patch_key *p = a, *q = b;
@@ -157,8 +157,9 @@ static int key_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Removes pairs of patches (sides of elements) with the same corners and opposite orientation. Two elements add such a
- * pair at the side that they share. If several patches with the same corners remain, only one of them is retained. */
+/* Removes from b pairs of patches (sides of elements) with the same corners and opposite orientation. Two elements add
+ * such a pair at the side that they share. If several patches with the same corners remain, only one of them is
+ * retained. */
 static void patches_cancel(struct surface_builder *b)
 {
     struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
@@ -198,7 +199,7 @@ struct curves {
     struct curve *curve;
 };
 
-/* Orders edges by the nodes at their ends, then by middle node. */
+/* Compares the edges *a and *b by the nodes at their ends, then by middle node. */
 static int curve_order(const void *a, const void *b)
 {
     const struct curve *p = a, *q = b;

@@ -108,10 +108,10 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     return OK;
 }
 
-/* Creates a set for one of n items of the file, such as a block, and stores the index of the set in *set. row: position
- * of the item in the file, from 0. The name of the set is that in the file's array `names`. If it is missing or another
- * set has it, the name is `word` followed by the item's number in the file's array `numbers`, such as block_1.
- * of_nodes: true for a set of nodes, false for one of elements. Returns REFUSED if there are too many sets. */
+/* Creates a set for one of n items of the file x, such as a block, and stores the index of the set in *set. row:
+ * position of the item in the file, from 0. The name of the set is that in the file's array `names`. If it is missing
+ * or another set has it, the name is `word` followed by the item's number in the file's array `numbers`, such as
+ * block_1. of_nodes: true for a set of nodes, false for one of elements. Returns REFUSED if there are too many sets. */
 static status set_begin(struct exodus *x, const char *names, const char *numbers, const char *word, int64_t row,
                         int64_t n, bool of_nodes, int *set)
 {
@@ -226,8 +226,8 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
     return OK;
 }
 
-/* Reads side set number `number` (from 1) of the file: creates a set of elements and adds an element for each side. An
- * empty side set has no arrays and makes no set. Returns REFUSED for unknown elements or sides. */
+/* Reads side set number `number` (from 1) of the file x: creates a set of elements and adds an element for each side.
+ * An empty side set has no arrays and makes no set. Returns REFUSED for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_side_ss", number);
@@ -286,8 +286,8 @@ static status element_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads nodes, blocks and sets of the file into the mesh. Side sets are read before node sets, so that a side set gets
- * the name if both have the same one; it contains more information. Returns REFUSED for an invalid file. */
+/* Reads nodes, blocks and sets of the file x into its mesh. Side sets are read before node sets, so that a side set
+ * gets the name if both have the same one; it contains more information. Returns REFUSED for an invalid file. */
 static status mesh_read(struct exodus *x)
 {
     const struct exodus_file *f = &x->file;

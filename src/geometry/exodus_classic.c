@@ -56,7 +56,8 @@ static void skip_padded(struct header *h, int64_t bytes)
     if (h->good) h->at += padded;
 }
 
-/* Copies the next `length` bytes to text[NAME_MAX_LENGTH], without trailing blanks. Longer texts are cut off. */
+/* Copies the next `length` bytes of the header h to text[NAME_MAX_LENGTH], without trailing blanks. Longer texts are
+ * cut off. */
 static void next_text(struct header *h, int64_t length, char *text)
 {
     const int64_t from = h->at;
@@ -67,7 +68,7 @@ static void next_text(struct header *h, int64_t length, char *text)
     exodus_text_make_printable(text);
 }
 
-/* Reads a name, preceded by its length, into text[NAME_MAX_LENGTH]. */
+/* Reads a name, preceded by its length, from the header h into text[NAME_MAX_LENGTH]. */
 static void next_name(struct header *h, char *text) { next_text(h, next_count(h, 1), text); }
 
 /* Reads the tag and the length of a list, and returns the length. An absent list has the tag 0 and the length 0.
@@ -80,8 +81,8 @@ static int64_t next_list(struct header *h, uint64_t tag)
     return h->good ? n : 0;
 }
 
-/* Reads a list of attributes. elements[NAME_MAX_LENGTH]: receives the value of the attribute elem_type, "" if there is
- * none. */
+/* Reads a list of attributes of the header h. elements[NAME_MAX_LENGTH]: receives the value of the attribute elem_type,
+ * "" if there is none. */
 static void next_attributes(struct header *h, char *elements)
 {
     const int64_t n = next_list(h, TAG_ATTRIBUTES);

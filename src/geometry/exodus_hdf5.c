@@ -57,7 +57,7 @@ int64_t exodus_hdf5_length_of_dimension(const struct exodus_file *f, const char 
     return set >= 0 ? extent[0] : 0;
 }
 
-/* Returns the type of the numbers of a dataset, EXODUS_CHAR for letters, or 0 if it contains neither. */
+/* Returns the type of the numbers of the dataset `set`, EXODUS_CHAR for letters, or 0 if it contains neither. */
 static enum exodus_type dataset_type(hid_t set)
 {
     const hid_t type = H5Dget_type(set);

@@ -78,8 +78,8 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
                                (long long)number);
 }
 
-/* Adds an element to the set of a physical group, which is created if it is new. dim, tag: dimension and number of the
- * group; element: index of the element in the mesh. Returns REFUSED if there are too many groups. */
+/* Adds an element of the file g to the set of a physical group, which is created if it is new. dim, tag: dimension and
+ * number of the group; element: index of the element in the mesh. Returns REFUSED if there are too many groups. */
 static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
 {
     if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
@@ -95,7 +95,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
     return OK;
 }
 
-/* Reads the number (label) of a node of an element from the file, and stores the node's index in *index. Returns
+/* Reads the number (label) of a node of an element from the file g, and stores the node's index in *index. Returns
  * REFUSED for an unknown node. */
 static status node_next(struct gmsh *g, int32_t *index)
 {
@@ -109,9 +109,9 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* Checks a node on an edge of an element of order 3 or more: returns REFUSED unless it is on the straight line between
- * the ends of the edge. node: corners of the element; edge: number of the edge in Gmsh's order; between: index of the
- * node on the edge. */
+/* Checks a node on an edge of an element of `type`, of order 3 or more, of the file g: returns REFUSED unless it is on
+ * the straight line between the ends of the edge. node: corners of the element; edge: number of the edge in Gmsh's
+ * order; between: index of the node on the edge. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {
@@ -125,9 +125,9 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
         g->s, "curved elements of order %d are not supported; save them with order 2 (gmsh -order 2)", type->order);
 }
 
-/* Reads the nodes of an element of type `type` and appends it to the mesh. Stores middle nodes of second-order
- * elements only; edges of higher order must be straight. label: number of the element in the file. Returns REFUSED
- * for unknown nodes. */
+/* Reads the nodes of an element of type `type` from the file g and appends it to the mesh. Stores middle nodes of
+ * second-order elements only; edges of higher order must be straight. label: number of the element in the file. Returns
+ * REFUSED for unknown nodes. */
 static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t label)
 {
     const int corners = element_corners[type->kind], edges = element_edges[type->kind].n;
@@ -157,8 +157,8 @@ static status nodes_known(struct gmsh *g)
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* Reads a text in double quotes into text[capacity]; longer texts are cut off. Returns REFUSED if the text does not
- * begin with a quote, or does not end with one on the same line. */
+/* Reads a text in double quotes from s into text[capacity]; longer texts are cut off. Returns REFUSED if the text does
+ * not begin with a quote, or does not end with one on the same line. */
 static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
@@ -191,8 +191,8 @@ static status names_read(struct gmsh *g)
     return OK;
 }
 
-/* Records that an entity of the file belongs to the physical group with the tag `group`. entity: number of the entity,
- * as returned by entity_key. */
+/* Records that an entity of the file g belongs to the physical group with the tag `group`. entity: number of the
+ * entity, as returned by entity_key. */
 static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
 {
     GROW("gmsh.entities", g->entity, g->links + 1);
@@ -200,8 +200,8 @@ static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
     g->entity[g->links] = entity, g->group[g->links++] = group;
 }
 
-/* Reads an entity of dimension dim: its tag, bounding box (for a point its position), physical groups and, except
- * for points, bounding entities. Stores only the groups. Returns REFUSED if it is malformed. */
+/* Reads an entity of dimension dim from the file g: its tag, bounding box (for a point its position), physical groups
+ * and, except for points, bounding entities. Stores only the groups. Returns REFUSED if it is malformed. */
 static status entity_read(struct gmsh *g, int64_t dim)
 {
     int64_t tag, groups, group, bounds;
@@ -240,9 +240,9 @@ static status entities_read(struct gmsh *g)
 
 /* ---- format 2.2 ----------------------------------------------------------------------------------------------- */
 
-/* Reads a count into *n and advances to the next line. In format 2.2 counts are text even in binary files. what: what
- * is counted, for messages; bytes: least size of one counted item. Returns REFUSED if the file is too short for so many
- * items. */
+/* Reads a count from the file g into *n and advances to the next line. In format 2.2 counts are text even in binary
+ * files. what: what is counted, for messages; bytes: least size of one counted item. Returns REFUSED if the file is too
+ * short for so many items. */
 static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
 {
     g->s->binary = false;
@@ -253,7 +253,7 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
     return source_check_count_fits_file(g->s, what, *n, bytes);
 }
 
-/* Reads the section of nodes of a file in format 2.2 into the mesh. Returns REFUSED if it is malformed or a label
+/* Reads the section of nodes of the file g in format 2.2 into the mesh. Returns REFUSED if it is malformed or a label
  * occurs twice. */
 static status old_nodes(struct gmsh *g)
 {
@@ -268,8 +268,8 @@ static status old_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Removes the last element of the mesh again if it equals the one before it: format 2.2 has an element of several
- * physical groups once for each. group: its group, which differs from that of the one before. */
+/* Removes the last element of the mesh of the file g again if it equals the one before it: format 2.2 has an element of
+ * several physical groups once for each. group: its group, which differs from that of the one before. */
 static void old_element_merge(struct gmsh *g, int64_t group)
 {
     const struct element *last = &g->m->element[g->m->elements - 1];
@@ -280,9 +280,9 @@ static void old_element_merge(struct gmsh *g, int64_t group)
     g->m->elements--;
 }
 
-/* Reads an element of a file in format 2.2: its tags, of which the first is its physical group (0 for none), and then
- * its nodes. type: type of the element; label: its number in the file; tags: number of tags. Returns REFUSED if it is
- * malformed. */
+/* Reads an element of the file g in format 2.2: its tags, of which the first is its physical group (0 for none), and
+ * then its nodes. type: type of the element; label: its number in the file; tags: number of tags. Returns REFUSED if it
+ * is malformed. */
 static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
@@ -293,7 +293,7 @@ static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t 
     return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
 }
 
-/* Reads the section of elements of a file in format 2.2 into the mesh. In binary files, elements of one type are in
+/* Reads the section of elements of the file g in format 2.2 into the mesh. In binary files, elements of one type are in
  * blocks with a header; in text files each element has its type. Returns REFUSED if it is malformed. */
 static status old_elements(struct gmsh *g)
 {
@@ -318,9 +318,9 @@ static status old_elements(struct gmsh *g)
 
 /* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
 
-/* Reads the first line of a section in format 4.1: the number of blocks, into *blocks, that of nodes or elements in all
- * of them, into *total, and the smallest and the largest label, which are skipped. what: name of the last three, for
- * messages. Returns REFUSED if the line is malformed. */
+/* Reads the first line of a section of the file g in format 4.1: the number of blocks, into *blocks, that of nodes or
+ * elements in all of them, into *total, and the smallest and the largest label, which are skipped. what: name of the
+ * last three, for messages. Returns REFUSED if the line is malformed. */
 static status new_head(struct gmsh *g, const char *what, int64_t *blocks, int64_t *total)
 {
     int64_t skipped;
@@ -331,8 +331,8 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks, int64_
     return source_check_count_fits_file(g->s, "blocks", *blocks, 8);
 }
 
-/* Returns REFUSED unless the blocks of a section in format 4.1 contain `found` rows as the first line of the section
- * announces. what: nodes or elements. */
+/* Returns REFUSED unless the blocks of a section of the file g in format 4.1 contain `found` = `announced` rows, the
+ * number in the first line of the section. what: nodes or elements. */
 static status new_total(const struct gmsh *g, const char *what, int64_t announced, int64_t found)
 {
     if (found == announced) return OK;
@@ -340,8 +340,8 @@ static status new_total(const struct gmsh *g, const char *what, int64_t announce
                                (long long)announced, what, (long long)found);
 }
 
-/* Reads a block of nodes in format 4.1: their labels, then their coordinates. Each node may have parameters on its
- * entity after its coordinates, which are ignored. Returns REFUSED if the block is malformed. */
+/* Reads a block of nodes of the file g in format 4.1: their labels, then their coordinates. Each node may have
+ * parameters on its entity after its coordinates, which are ignored. Returns REFUSED if the block is malformed. */
 static status new_node_block(struct gmsh *g)
 {
     int64_t dim, tag, parametric, n, label;
@@ -366,8 +366,8 @@ static status new_node_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads the section of nodes of a file in format 4.1 into the mesh, block by block. Returns REFUSED if it is malformed
- * or a label occurs twice. */
+/* Reads the section of nodes of the file g in format 4.1 into the mesh, block by block. Returns REFUSED if it is
+ * malformed or a label occurs twice. */
 static status new_nodes(struct gmsh *g)
 {
     const int64_t first = g->m->nodes;
@@ -378,8 +378,8 @@ static status new_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Reads a block of elements in format 4.1, which have one type and belong to one entity, and adds them to the physical
- * groups of the entity. Returns REFUSED if it is malformed. */
+/* Reads a block of elements of the file g in format 4.1, which have one type and belong to one entity, and adds them to
+ * the physical groups of the entity. Returns REFUSED if it is malformed. */
 static status new_element_block(struct gmsh *g)
 {
     int64_t dim, tag, number, n, label;
@@ -400,7 +400,7 @@ static status new_element_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads the section of elements of a file in format 4.1 into the mesh, block by block. Returns REFUSED if it is
+/* Reads the section of elements of the file g in format 4.1 into the mesh, block by block. Returns REFUSED if it is
  * malformed. */
 static status new_elements(struct gmsh *g)
 {
@@ -413,7 +413,7 @@ static status new_elements(struct gmsh *g)
 
 /* ---- sections ------------------------------------------------------------------------------------------------- */
 
-/* Reads the header of the file. Returns REFUSED unless the version is 2.2 or 4.1, numbers have 8 bytes, and the byte
+/* Reads the header of the file g. Returns REFUSED unless the version is 2.2 or 4.1, numbers have 8 bytes, and the byte
  * order is that of this machine. */
 static status format_read(struct gmsh *g)
 {
@@ -438,8 +438,8 @@ static status format_read(struct gmsh *g)
                : source_report_fault(g->s, "the file has the byte order of another machine; save it as text (ASCII)");
 }
 
-/* Skips the rest of the section `name`, such as $Nodes: advances to the line after its last one, such as $EndNodes, or
- * to the end of the file. */
+/* Skips the rest of the section `name` of the file s, such as $Nodes: advances to the line after its last one, such as
+ * $EndNodes, or to the end of the file. */
 static void section_skip(struct source *s, const char *name)
 {
     char end[48];
@@ -448,8 +448,8 @@ static void section_skip(struct source *s, const char *name)
     s->at = found ? found - s->text + length : s->length;
 }
 
-/* Advances over the last line of the section `name`, such as $EndNodes of $Nodes. Returns REFUSED if it does not come
- * next, because the section has more than it announces. */
+/* Advances over the last line of the section `name` of the file g, such as $EndNodes of $Nodes. Returns REFUSED if it
+ * does not come next, because the section has more than it announces. */
 static status section_end(struct gmsh *g, const char *name)
 {
     char end[48], word[sizeof end];
@@ -462,7 +462,8 @@ static status section_end(struct gmsh *g, const char *name)
         name, (long long)g->announced, g->items, end);
 }
 
-/* Reads the section `name`, such as $Nodes, or skips it if it is not needed. Returns REFUSED if it is malformed. */
+/* Reads the section `name` of the file g, such as $Nodes, or skips it if it is not needed. Returns REFUSED if it is
+ * malformed. */
 static status section_read(struct gmsh *g, const char *name)
 {
     static const struct section {
@@ -488,7 +489,7 @@ static status section_read(struct gmsh *g, const char *name)
     return OK;
 }
 
-/* Reads all sections of the file. Returns REFUSED if one is malformed, or if there are no nodes or elements. */
+/* Reads all sections of the file g. Returns REFUSED if one is malformed, or if there are no nodes or elements. */
 static status sections_read(struct gmsh *g)
 {
     char name[40];

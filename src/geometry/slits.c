@@ -41,7 +41,7 @@ static struct sheet sheet_of(const struct hull *h, int64_t face)
     return s;
 }
 
-/* Orders faces by the x coordinate of their centres, for array_sort. */
+/* Compares the faces *a and *b by the x coordinate of their centres, for array_sort. */
 static int by_centre(const void *a, const void *b)
 {
     const struct sheet *p = a, *q = b;
@@ -143,7 +143,7 @@ static real triangle_twice_area(const real *a, const real *b, const real *c)
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Orders plane points by the first, then the second coordinate, for array_sort. */
+/* Compares the plane points *a and *b by the first, then the second coordinate, for array_sort. */
 static int by_place(const void *a, const void *b)
 {
     const real *p = a, *q = b;
@@ -171,7 +171,7 @@ static int flat_convex_hull(struct flat *f, real (*corner)[2], real size, real *
     return n;
 }
 
-/* Returns the area of a triangular face in 3D [m^2]. */
+/* Returns the area of the triangular face s in 3D [m^2]. */
 static real sheet_area(const struct sheet *s)
 {
     real u[3], w[3], twice[3];

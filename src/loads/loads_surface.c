@@ -224,9 +224,8 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds the particle of `body` (or source of an image) at lattice site `site` to *t with weight `counts`, unless it is
- * in or *t is full. off[dim]: steps to `site` from the site above the corner of *t. Returns false if `site` is
- * empty. */
+/* Adds the particle of `body` (or source of an image) at site `site` to *t with weight `counts`, unless it is there or
+ * *t is full. off[dim]: steps to `site` from the site above the corner of *t. Returns false if `site` is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {

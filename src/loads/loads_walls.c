@@ -257,8 +257,7 @@ static bool points_choose_driven_nodes(const struct loads *l, int which, const s
 #define MOSTLY (0.5 * (1 - 1e-9)) /* share of its mass from points of a load with which a node is driven [1] */
 /* If no node reaches MOSTLY: share divided by the largest share, from which on a node is driven [1]. */
 #define NEARLY_LARGEST 0.9
-#define HEAVY 0.01 /* mass from points of a load, divided by the largest such mass, below which a node is ignored [1]  \
-                    */
+#define HEAVY 0.01 /* mass from points of a load, divided by the largest one, below which a node is ignored [1] */
 
 /* Returns the share (0 to 1) of its mass that a node must have from the points of a load to be driven by this load: one
  * half, or, where no node has that much, nearly the largest share, so that a support between nodes drives those nearest

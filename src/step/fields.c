@@ -66,7 +66,7 @@ static void gradient_of_bonds(const struct bonds *bonds, const struct particles 
     gradient_fit(&sum, part->dim, i, H);
 }
 
-/* Computes the displacement gradient of material point i on the grid, H[dim dim][i], by a fit to the neighbouring
+/* Computes the displacement gradient of material point i of p on the grid, H[dim dim][i], by a fit to the neighbouring
  * points in `near` that belong to its body and are not separated from it by pre-cracks or voids. Peridynamic neighbours
  * with broken bonds are left out, because a crack may separate them from the point. source: pre-cracks and voids. */
 static void gradient_of_points(const struct particles *p, const struct bond_source *source,
@@ -90,8 +90,8 @@ static bool in_mesh(const struct reference_frame *frame, int64_t i)
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
-/* Computes the displacement gradients of all particles, H[dim dim][n] [1], from mesh nodes, bonds or near points.
- * Allocates the arrays H[k], which the caller frees with memory_free. */
+/* Computes the displacement gradients of all particles of run e, H[dim dim][n] [1], from mesh nodes, bonds or near
+ * points. Allocates the arrays H[k], which the caller frees with memory_free. */
 static void gradients_make(const struct run *e, real **H)
 {
     const struct particles *p = &e->part;
@@ -172,9 +172,9 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
     return share;
 }
 
-/* Returns for the points that represent coarse cells in frames the ratio of stress to strength [1], according to the
- * strength surface of the material; 1 on the surface. The array has shown->n values; the caller frees it with
- * memory_free. */
+/* Returns for the points `shown`, which represent coarse cells of scene s in frames, the ratio of stress to strength
+ * [1], according to the strength surface of the material; 1 on the surface. The array has shown->n values; the caller
+ * frees it with memory_free. */
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);
@@ -207,9 +207,9 @@ static uint8_t *point_levels_make(const struct reference_frame *frame, const str
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the fields of a frame that particles do not store (strain, density, plastic work, level of cells) and stores
- * pointers to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as bits
- * ASK_... (output/output.h). Release them with frame_fields_free. */
+/* Computes the fields of a frame of run e that particles do not store (strain, density, plastic work, level of cells)
+ * and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as
+ * bits ASK_... (output/output.h). Release them with frame_fields_free. */
 void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra)
 {
     extra->asked = requested_field_bits, extra->material = e->scene->material, extra->space = e->scene->space;

@@ -28,14 +28,14 @@ const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape)
     return NULL;
 }
 
-/* Returns true if point i is on the grid of the current frame and its material yields. */
+/* Returns true if particle i of p is a point on the grid of the current frame and its material, of scene s, yields. */
 static bool flows_on_grid(const struct particles *p, const struct scene *s, int64_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED) && material_yields(&s->material[p->material[i]]);
 }
 
-/* Lists in *pairs the pairs of neighbouring material points of one body that are on the grid and of materials that
- * yield. cells: search cells of all particles. */
+/* Lists in *pairs the pairs of neighbouring material points of one body that are on the grid and of materials of scene
+ * s that yield. cells: search cells of all particles. */
 static void pairs_make(struct point_pairs *pairs, const struct cells *cells, const struct particles *p,
                        const struct scene *s)
 {
@@ -102,9 +102,9 @@ struct pair_counts {
     struct stretched_pair farthest;
 };
 
-/* Computes the ratio of the present to the reference distance of the two material points of `pair` [1] and the position
- * midway between them [m] in *stretched. *axis: receives the axis along which they are farthest apart. Returns false,
- * and stores nothing, if the ratio is below PARTED_LEAST. */
+/* Computes the ratio of the present to the reference distance of the two material points of p in `pair` [1] and the
+ * position midway between them [m] in *stretched. *axis: receives the axis along which they are farthest apart. Returns
+ * false, and stores nothing, if the ratio is below PARTED_LEAST. */
 static bool pair_is_stretched(const struct particles *p, const struct point_pair *pair,
                               struct stretched_pair *stretched, int *axis)
 {
@@ -121,9 +121,9 @@ static bool pair_is_stretched(const struct particles *p, const struct point_pair
     return true;
 }
 
-/* Returns true if the shape functions of the two material points of `pair` have at most one layer of nodes in common
- * across `axis`: if the distance of the points along the axis is greater than a cell plus the extent of the functions
- * beyond the cells of the points. s: scene, for cell and shape functions. */
+/* Returns true if the shape functions of the two material points of p in `pair` have at most one layer of nodes in
+ * common across `axis`: if the distance of the points along the axis is greater than a cell plus the extent of the
+ * functions beyond the cells of the points. s: scene, for cell and shape functions. */
 static bool pair_shares_few_nodes(const struct particles *p, const struct point_pair *pair, int axis,
                                   const struct scene *s)
 {
@@ -152,7 +152,7 @@ static bool cells_are_empty(const struct held_cells *h, const real *X, int axis)
     return true;
 }
 
-/* Returns true if point i is under tension: its mean stress is positive. */
+/* Returns true if particle i of p is under tension: its mean stress is positive. */
 static bool in_tension(const struct particles *p, int64_t i)
 {
     real sum = 0;
@@ -160,9 +160,9 @@ static bool in_tension(const struct particles *p, int64_t i)
     return sum > 0;
 }
 
-/* Counts two kinds of pairs of points: parted ones, which have empty cells between them and at most one common layer of
- * nodes, and pulled ones, whose distance under tension is at least `far` times the reference distance. g: grid of the
- * points; s: scene, for the shape functions. */
+/* Counts two kinds of pairs of points of p: parted ones, which have empty cells between them and at most one common
+ * layer of nodes, and pulled ones, whose distance under tension is at least `far` times the reference distance. g: grid
+ * of the points; s: scene, for the shape functions. */
 static struct pair_counts pairs_count(const struct point_pairs *pairs, const struct particles *p, const struct grid *g,
                                       const struct scene *s, real far)
 {

@@ -101,8 +101,8 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
     return s;
 }
 
-/* Returns true if frame number `frames` (from 0) of the whole body is due after `step` steps. clock: number and length
- * of steps. */
+/* Returns true if frame number `frames` (from 0) of the whole body is due in scene s after `step` steps. clock: number
+ * and length of steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
     return frames <= report_frame_count_of_run(s, clock) && step >= report_step_number_of_frame(s, clock, frames);
@@ -138,9 +138,9 @@ static unsigned asked_of(const struct scene *scene, int k)
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame of each series in `due`, and for the body also rigid bodies and profiles. due: set of series as bits,
- * bit 0 for the whole body, bit k for region k. Frames at t = 0 have no contact forces. Returns FAILED, with a message,
- * if a value is not finite or a file cannot be written. */
+/* Writes a frame of run e of each series in `due`, and for the body also rigid bodies and profiles. due: set of series
+ * as bits, bit 0 for the whole body, bit k for region k. Frames at t = 0 have no contact forces. Returns FAILED, with a
+ * message, if a value is not finite or a file cannot be written. */
 static status write_frames(struct run *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_can_crack(e->scene);
@@ -257,8 +257,8 @@ static void duration_text(char *text, size_t size, double seconds)
         snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
-/* Prints the progress line on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since the
- * previous line. last: true after the last step, when the line is always printed on a terminal. */
+/* Prints the progress line of run e on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since
+ * the previous line. last: true after the last step, when the line is always printed on a terminal. */
 static void progress(struct run *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);

@@ -46,7 +46,7 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           {"inactive_share", ""}};
 
 /* Returns the mean fraction of the bodies that was at rest in the steps since the previous call [1]; 0 if there was no
- * step. The next call begins a new mean. */
+ * step. The next call begins a new mean. clock: number of steps; report: the sum so far. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
 {
     const int64_t steps = clock->step - report->sampled.step;
@@ -55,8 +55,8 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
     return share;
 }
 
-/* Returns true if angular momentum must be conserved: nothing acts on the bodies, i.e. no boundary, rigid body or
- * damping. Returns false also with coarse cells, whose nodes diagnostics_update_angular_momentum does not read. */
+/* Returns true if angular momentum must be conserved: no boundary, rigid body or damping acts on the bodies of scene s.
+ * Returns false also with coarse cells in `frame`, whose nodes diagnostics_update_angular_momentum does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
     return s->dim > 1 && scene_is_dynamic(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
@@ -64,7 +64,7 @@ static bool is_free(const struct scene *s, const struct reference_frame *frame)
 }
 
 /* Stores names and units of the history columns of angular momentum in column[], unless it is NULL. Returns the number
- * of columns, which is 0 if a load acts on the bodies, so that angular momentum need not be conserved. */
+ * of columns: 0 if angular momentum need not be conserved in scene s with the mesh of `frame` (is_free). */
 static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
@@ -207,7 +207,7 @@ static void momentum_at(const struct sampling *s, const struct velocity_time *no
     for (int d = 0; d < dim; d++) momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * momentum[d]);
 }
 
-/* Samples stress, momentum, crack tips and probes at the present positions: all quantities of a sample except
+/* Samples stress, momentum, crack tips and probes of run e at the present positions: all quantities of a sample except
  * energies. */
 static void sample_state(struct run *e)
 {
@@ -250,8 +250,8 @@ static void sample_energies(struct run *e)
     probes_sample_energies(&e->probing->probes, &o);
 }
 
-/* Completes a sample with what requires velocities after the step, and writes its line of history.csv. now: time of
- * these velocities and factor on them; kinetic, work: energy and external work at the time of the sample [J]. */
+/* Completes a sample of run e with what requires velocities after the step, and writes its line of history.csv. now:
+ * time of these velocities and factor on them; kinetic, work: energy and external work of the sample [J]. */
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
@@ -283,7 +283,7 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the correction of the kinetic energy of a sample [J]: the mean of m v^2/2 before and after the velocity
+/* Returns the correction of the kinetic energy of a sample of run e [J]: mean of m v^2/2 before and after the velocity
  * update of the step, minus m v_before . v_after/2. Absorbing dashpots, which act during the update, are left out. */
 static real kick_now(const struct run *e)
 {
@@ -336,8 +336,8 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* Returns true if forces alone change velocities in the first step. With material points on the grid, APIC, prescribed
- * velocities other than 0 and contact between bodies on the grid change them as well. */
+/* Returns true if forces alone change the velocities of the particles p of scene s in the first step. On a grid, APIC,
+ * prescribed velocities other than 0 and contact between bodies change the velocities of points as well. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
@@ -388,8 +388,8 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power_of_coarse_nodal_forces(&reference->levels);
 }
 
-/* Returns the power v . f [W] of the forces on nodes whose motion loads prescribe (walls). power_now includes this
- * power, which is work of the loads. */
+/* Returns the power v . f [W] of the forces on nodes of the mesh of `reference` whose motion loads prescribe (walls).
+ * power_now includes this power, which is work of the loads. */
 static real power_of_walls(const struct reference_frame *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
@@ -413,7 +413,7 @@ static void reactions_add(struct loads *l, const struct grid *g)
 }
 
 /* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads [N], after
- * those on particles. grid: grids of the current frame; NULL: no particle is on them. */
+ * those on particles. grid: grids of the current frame; NULL: none; frame: its mesh; clock: time step. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -454,8 +454,8 @@ static real power_last(struct run *e, real *held)
     return power - walls;
 }
 
-/* Takes the sample after the last step and writes its line of history.csv. As in all samples, the kinetic energy is m
- * v- . v+/2, with the velocities v- and v+ before and after a velocity update, here by the forces at the end. */
+/* Takes the sample of run e after the last step and writes its line of history.csv. As in all samples, the kinetic
+ * energy is m v- . v+/2, with the velocities v- and v+ before and after a velocity update, here by the last forces. */
 void sample_take_after_last_step(struct run *e)
 {
     real held = 0;

@@ -25,7 +25,7 @@
 #define DAMPED_DOUBTFUL 0.1
 
 /* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
- * largest energy. w: energies of the run; to: list of warnings. */
+ * largest energy. s: scene; w: energies of the run; to: list of warnings. */
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
@@ -162,11 +162,11 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
     warnings_add_and_print(warning_list, text);
 }
 
-/* Warns of the error of the energy balance, and advises how to reduce it, in a run with yielding material points on the
- * grid. Warns only if |error| is between FLOW_DOUBTFUL and ENERGY_DOUBTFUL. APIC loses more energy with more time
- * steps; other errors decrease with the time step. (Measured: bars that hit a wall at 190 m/s gain 0.27 to 0.85 % at
- * 0.8 of the critical time step, -0.01 to 0.14 % at 0.5.) error: relative error [1]; dt: time step [s]; to: list of
- * warnings. */
+/* Warns of the error of the energy balance, and advises how to reduce it, in a run of scene s with yielding material
+ * points of p on the grid. Warns only if |error| is between FLOW_DOUBTFUL and ENERGY_DOUBTFUL. APIC loses more energy
+ * with more time steps; other errors decrease with the time step. (Measured: bars that hit a wall at 190 m/s gain 0.27
+ * to 0.85 % at 0.8 of the critical time step, -0.01 to 0.14 % at 0.5.) error: relative error [1]; dt: time step [s];
+ * to: list of warnings. */
 static void say_flow_error(const struct particles *p, const struct scene *s, real dt, real error, struct warnings *to)
 {
     char text[360];

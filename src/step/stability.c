@@ -81,9 +81,9 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* Returns true if the loads explain the motion of a run that has diverged, so that no instability has to be assumed: if
- * `given`, the energy at the start plus the work of the loads [J], is at least LOAD_SHARE_LEAST times the kinetic
- * energy, or if this is not finite. frame: mesh whose nodes move, too. */
+/* Returns true if the loads explain the motion of the particles p in a run that has diverged, so that no instability
+ * has to be assumed: if `given`, the energy at the start plus the work of the loads [J], is at least LOAD_SHARE_LEAST
+ * times the kinetic energy, or if this is not finite. frame: mesh whose nodes move, too. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = particles_kinetic_energy(p) + reference_frame_kinetic_energy(frame);
@@ -154,8 +154,8 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
 
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the advice to choose a smaller time step to text[capacity]. Returns the length of this text. clock: present
- * time step and critical one. */
+/* Writes the advice to choose a smaller time step for scene s to text[capacity]. Returns the length of this text.
+ * clock: present time step and critical one. */
 static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t capacity)
 {
     return snprintf(text, capacity, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
@@ -200,7 +200,8 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
 
 #define SQUEEZED 0.4 /* ratio of a bond's length to its reference length below which the bond laws are not valid */
 
-/* Returns the smallest ratio of present to reference length of an intact bond, at most 1 [1]. */
+/* Returns the smallest ratio of present to reference length of an intact bond of b between particles of p, at most 1
+ * [1]. */
 static real shortest_bond(const struct bonds *b, const struct particles *p)
 {
     real least2 = 1;
@@ -213,8 +214,9 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
     return sqrt(least2);
 }
 
-/* Writes to text[capacity] how far bonds are compressed, with a remedy, for the message of a diverged run. Returns
- * false, without text, if no bond is shorter than SQUEEZED times its reference length. clock: for the time step. */
+/* Writes to text[capacity] how far the bonds b of the particles p are compressed, with a remedy, for the message of a
+ * diverged run. Returns false, without text, if no bond is shorter than SQUEEZED times its reference length. clock: for
+ * the time step. */
 static bool squeeze_explanation(const struct bonds *b, const struct particles *p, const struct run_clock *clock,
                                 char *text, size_t capacity)
 {
@@ -286,9 +288,9 @@ status divergence_check_particles(const struct run *e, bool check_peridynamic, b
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
-/* Returns FAILED, with a message, if a cell of the mesh of `reference` is inverted. Tests only every INVERSION_STEPS
- * steps and at the end. An inverted cell resists deformation like an intact one, so that neither energy nor speed
- * reveals it. */
+/* Returns FAILED, with a message, if a cell of the mesh of `reference` is inverted. p: particles. Tests only every
+ * INVERSION_STEPS steps of `clock` and at the end. An inverted cell resists deformation like an intact one, so that
+ * neither energy nor speed reveals it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
@@ -307,9 +309,9 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
-/* Returns FAILED, with a message, if the formula of a load has a value that is not finite. Such a value makes the
- * impulse of the loads infinite or NaN; only then the formulas are evaluated, at the times of the last steps. At the
- * end of the run they are always evaluated once. */
+/* Returns FAILED, with a message, if the formula of a load in l has a value that is not finite at a particle of p. Such
+ * a value makes the impulse of the loads infinite or NaN; only then the formulas are evaluated, at the times of the
+ * last steps of `clock`. At the end of the run they are always evaluated once. */
 static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
     const real *impulse = l->impulse;
@@ -351,7 +353,7 @@ static int64_t fastest_particle(const struct particles *p)
 /* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance w of the
  * run exceeds ENERGY_FROM_NOWHERE, or breaking bonds released too much energy beyond what they had stored. The error is
  * not tested in the first ENERGY_STEPS steps, in which half a step of a load is a large share of the energy, unless the
- * time step is above the critical one. */
+ * time step of `clock` is above the critical one. */
 static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
@@ -397,7 +399,7 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, const 
     warnings_add_and_print(to, text);
 }
 
-/* Warns of the first elastic point on the grid with a strain above STRETCH_MOST, unless the scene s silences this
+/* Warns of the first elastic point of p on the grid with a strain above STRETCH_MOST, unless the scene s silences this
  * warning. t: present time [s]; to: list of warnings. Returns true if there is such a point. */
 static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
@@ -423,8 +425,8 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
  * its square. */
 #define FLOW_MOST 0.05
 
-/* Warns of the first point of a mesh with a plastic strain above FLOW_MOST. t: present time [s]; to: list of warnings.
- * Returns true if there is such a point. */
+/* Warns of the first point of p in a mesh with a plastic strain above FLOW_MOST. t: present time [s]; to: list of
+ * warnings. Returns true if there is such a point. */
 static bool say_flowed(const struct particles *p, real t, struct warnings *to)
 {
     char text[300];
@@ -445,7 +447,7 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
  * (Nagtegaal & de Jong 1981; C: kinematic modulus). */
 #define TURNED_MOST 0.5
 
-/* Warns of the first point on the grid whose back stress may oscillate: one with kinematic hardening and a plastic
+/* Warns of the first point of p on the grid whose back stress may oscillate: one with kinematic hardening and a plastic
  * strain above TURNED_MOST. t: present time [s]; to: list of warnings. Returns true if there is such a point. */
 static bool say_turned(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {

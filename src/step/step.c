@@ -27,9 +27,9 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
-/* Returns the quantities that all phases of the next step use: the time in its middle, the factors of bulk damping and
- * the duration of the velocity update. The latter is half as long in the first step and is also stored in *transfer.
- * damping: rate c of bulk damping [1/s]. */
+/* Returns the quantities that all phases of the next step of `clock` use: the time in its middle, the factors of bulk
+ * damping and the duration of the velocity update. The latter is half as long in the first step and is also stored in
+ * *transfer. damping: rate c of bulk damping [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
     const real dt = clock->dt, decay = damping * dt, share = damping_velocity_increment_factor(decay);
@@ -38,8 +38,8 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
     return (struct step){.middle = clock->t + 0.5 * dt, decay, share, dt_velocity};
 }
 
-/* Records the bonds broken in this step and converts material points near them to peridynamic particles. now->broken:
- * number of these bonds; now->converted: receives the number of points. */
+/* Records the bonds of run e broken in this step and converts material points near them to peridynamic particles.
+ * now->broken: number of these bonds; now->converted: receives the number of points. */
 static void conversion(struct run *e, struct step *now)
 {
     const bool marked = conversion_flag_points_near_bodies_or_faces(e);
@@ -97,10 +97,10 @@ static void damping_begin(struct run *e, const struct step *now)
     damping_store_velocities(e->damping, &e->part, &e->frame->mesh);
 }
 
-/* Returns true if the loop over bonds may also move the particles, because nothing reads positions between forces and
- * motion, as samples, growing cracks and viscosity would. The loop moves each particle when it no longer reads its
- * position (kernels/pd/sweep.h), with bit-identical results. This saves 38 % of a step with 1.7 million particles,
- * which exceed the cache. */
+/* Returns true if the loop over bonds may also move the particles of a run of scene s, because nothing reads positions
+ * between forces and motion, as samples (of `report`), growing cracks and viscosity would. The loop moves each particle
+ * when it no longer reads its position (kernels/pd/sweep.h), with bit-identical results. This saves 38 % of a step with
+ * 1.7 million particles, which exceed the cache. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
 {
     return !report->sampling.due && s->growths == 0 && !scene_has_viscosity(s);
@@ -113,9 +113,9 @@ static int64_t surface_interval(real horizon, real wave_speed, real dt)
     return 1 + (int64_t)(0.5 * horizon / (wave_speed * dt));
 }
 
-/* Computes the forces of bonds and breaks the bonds beyond their limit. now->broken: receives the number of broken
- * bonds, each counted once for each of its two particles. If sweep_moves returns true, the loop over bonds also moves
- * the particles without loads. */
+/* Computes the forces of the bonds of run e and breaks the bonds beyond their limit. now->broken: receives the number
+ * of broken bonds, each counted once for each of its two particles. If sweep_moves returns true, the loop over bonds
+ * also moves the particles without loads. */
 static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
@@ -127,7 +127,7 @@ static void push_bonds(struct run *e, struct step *now)
 }
 
 /* Computes the contact forces of c on particles. Records these forces for output, too, if a frame (a file with the
- * fields of all particles) is due at the end of this step. report, clock: for this decision. */
+ * fields of all particles) is due at the end of this step. s, report, clock: for this decision. */
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {
@@ -136,8 +136,8 @@ static void push_contact(struct contact *c, struct particles *p, const struct ru
     contact_record_first_and_last_contact_time(c, clock->t);
 }
 
-/* Moves the peridynamic particles that the loop over bonds has not moved: those with loads, or all if sweep_moves is
- * false. Sets motion->diverged to true if a particle is faster than waves. */
+/* Moves the peridynamic particles of run e that the loop over bonds has not moved: those with loads, or all if
+ * sweep_moves is false. Sets motion->diverged to true if a particle is faster than waves. */
 static void move_peridynamic(struct run *e, struct pd_motion *motion)
 {
     struct particles *p = &e->part;
@@ -148,8 +148,9 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
     e->stability->diverged = motion->diverged;
 }
 
-/* Moves the grids and their material points. Numbers in the code are the steps of the algorithm listed at the function
- * `step`. Returns FAILED, with a message, if a grid would need too many nodes. now: quantities of this step. */
+/* Moves the grids of run e and their material points. Numbers in the code are the steps of the algorithm listed at the
+ * function `step`. Returns FAILED, with a message, if a grid would need too many nodes. now: quantities of this
+ * step. */
 static status move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -165,8 +166,8 @@ static status move_grid(struct run *e, const struct step *now)
     return OK;
 }
 
-/* Computes the forces on nodes of bodies in the reference frame and moves these nodes. Does nothing without such
- * bodies. now: quantities of this step. */
+/* Computes the forces on nodes of the bodies of run e in the reference frame and moves these nodes. Does nothing
+ * without such bodies. now: quantities of this step. */
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;
@@ -176,8 +177,8 @@ static void move_frame(struct run *e, const struct step *now)
     reference_frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
-/* Adds the reactions at nodes with prescribed velocity to their supports. Then sets velocities and positions of
- * particles with prescribed motion to their values at the end of the step. now: quantities of this step. */
+/* Adds the reactions at nodes of run e with prescribed velocity to their supports. Then sets velocities and positions
+ * of particles with prescribed motion to their values at the end of the step. now: quantities of this step. */
 static void step_hold(struct run *e, const struct step *now)
 {
     for (int k = 0; k < e->grid->fields; k++)
@@ -222,7 +223,8 @@ bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_coun
     return now.converted > 0;
 }
 
-/* Makes one step of the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog start). Its steps:
+/* Makes one time step of run e by the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog start).
+ * Its steps:
  *
  *     1  mass and momentum of material points to the nodes
  *     2  forces of bonds

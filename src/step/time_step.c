@@ -84,9 +84,9 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
-/* Returns the factor on the critical time step of bonds for a coupling method [1]. It differs from 1 if the grid moves
- * peridynamic particles: it is larger where the grid does not resolve the shortest waves of the bonds, and smaller
- * where FLIP retains motion that the grid does not resolve. */
+/* Returns the factor on the critical time step of the bonds of scene s for a coupling method [1]. It differs from 1 if
+ * the grid moves peridynamic particles: it is larger where the grid does not resolve the shortest waves of the bonds,
+ * and smaller where FLIP retains motion that the grid does not resolve. */
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
@@ -94,8 +94,8 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
-/* Returns the force function of elastic bonds, with which the critical time step of the bonds of the scene s is
- * computed. It serves yielding bonds, too, which are not stiffer than elastic ones. */
+/* Returns the force function of elastic bonds in `kernels`, with which the critical time step of the bonds of the scene
+ * s is computed. It serves yielding bonds, too, which are not stiffer than elastic ones. */
 static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
@@ -188,9 +188,9 @@ static real contact_safety(const struct scene *s)
  * (damping.c): c dt <= 0.5. Returns INFINITY without damping. It is a limit of accuracy, not of stability. */
 static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
-/* Returns the stiffness of the repulsive cores of bonds that the time step allows, (dt_critical/dt)^2 - 1, from 0 to
- * CORE_STIFFNESS [1]. A core resists strong compression of a bond (kernels/pd/bond_core.h). clock: time step and
- * critical time step. */
+/* Returns the stiffness of the repulsive cores of bonds that the time step of `scene` allows, (dt_critical/dt)^2 - 1,
+ * from 0 to CORE_STIFFNESS [1]. A core resists strong compression of a bond (kernels/pd/bond_core.h). clock: time step
+ * and critical time step. */
 static real core_stiffness(const struct scene *scene, const struct run_clock *clock)
 {
     if (!scene_is_dynamic(scene)) return CORE_STIFFNESS;

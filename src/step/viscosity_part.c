@@ -89,8 +89,8 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
 
-/* Computes v->pressure, the viscous pressure of the material points on the grid, from the growth of their volumes in
- * the previous step. Adds the energy that the pressure dissipated in that step to v->taken. partial: shares of the
+/* Computes v->pressure, the viscous pressure of the material points of p on the grid, from the growth of their volumes
+ * in the previous step. Adds the energy that the pressure dissipated in that step to v->taken. partial: shares of the
  * stress of points that bonds carry instead of the points (PD-MPM bonds); dt: duration of that step [s]. */
 static void points_pressure(struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                             real dt)
@@ -160,10 +160,10 @@ static real invert_gradient(const real *F, int dim, real *inverse)
     return J;
 }
 
-/* Replaces the displacement gradient H[dim dim][i] of point i of a mesh by volume0 J q F^-T [N m], with the viscous
- * pressure q and the determinant J of F = 1 + H. Multiplied by the gradients of the shape functions, this tensor gives
- * the viscous forces on nodes. v: materials and cell edge; partial: shares of the stress of points that bonds carry; G:
- * velocity gradients, [dim dim][points] [1/s]. */
+/* Replaces the displacement gradient H[dim dim][i] of point i of p, in a mesh, by volume0 J q F^-T [N m], with the
+ * viscous pressure q and the determinant J of F = 1 + H. Multiplied by the gradients of the shape functions, this
+ * tensor gives the viscous forces on nodes. v: materials and cell edge; partial: shares of the stress of points that
+ * bonds carry; G: velocity gradients, [dim dim][points] [1/s]. */
 static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                            int64_t i, real *const *H, real *const *G)
 {
@@ -262,9 +262,9 @@ void viscosity_add_nodal_forces(struct run *e)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest speed [m/s] that load l causes within `duration` [s]: the prescribed speed, or for a traction or
- * pressure of size s the speed s/impedance at which the load moves a face. Returns 0 for other loads, and if the speed
- * is not finite. impedance: smallest density times wave speed of the materials [Pa s/m]. */
+/* Returns the largest speed [m/s] that load l causes at its particles p within `duration` [s]: the prescribed speed, or
+ * for a traction or pressure of size s the speed s/impedance at which the load moves a face. Returns 0 for other loads,
+ * and if the speed is not finite. impedance: smallest density times wave speed of the materials [Pa s/m]. */
 static real speed_of_load(const struct load *l, const struct particles *p, real duration, real impedance)
 {
     const struct boundary *b = l->boundary;
