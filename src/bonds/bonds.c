@@ -14,7 +14,7 @@ const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
 /* Returns true if particle i has a row (list of bonds) in the previous bonds `old` with bonds to all particles within
  * the cutoff, as rows of peridynamic particles have. Rows of material points have bonds to peridynamic neighbours only.
- * For a mirror image, the row of the particle that it mirrors is tested. */
+ * For a mirror image, the row of the particle that it mirrors is tested. s: inputs of the bonds. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
@@ -33,7 +33,8 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
 
 /* Marks particle or image i and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the sets of eight
  * consecutive particles that contain one of them, which get rows of bonds; in fresh[particles] these particles
- * themselves, whose neighbours must be searched again. map: lattice sites; found[capacity]: working memory. */
+ * themselves, whose neighbours must be searched again. s: inputs of the bonds; map: lattice sites; found[capacity]:
+ * working memory. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -46,8 +47,9 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
 /* Marks by 1 in wanted[(n + 7)/8] the sets of eight consecutive particles that get rows (lists of bonds): sets with a
  * peridynamic particle or with a material point that has a peridynamic neighbour. Rows of other particles of a marked
  * set have no bonds. Whole sets are used, since a row block keeps its eight particles for as long as it exists. Marks
- * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
- * previous bonds or NULL; map: lattice sites; capacity: largest number of neighbours of a particle. */
+ * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. s:
+ * inputs of the bonds; old: previous bonds or NULL; map: lattice sites; capacity: largest number of neighbours of a
+ * particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -270,7 +272,7 @@ static void rows_pass(const struct rows_pass *pass)
 }
 
 /* Copies the row blocks (eight rows stored together) that are equal to previous ones from the previous bonds, and sets
- * b->n to the number of directed bonds of all row blocks. */
+ * b->n to the number of directed bonds of all row blocks. pass: the rows that are made. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;

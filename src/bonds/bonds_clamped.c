@@ -21,8 +21,8 @@ static bool image_rotates(const struct bond_source *s, const struct particles *p
     return clamp;
 }
 
-/* Returns an array [n_all - n] with 1 for images in clamped planes and 0 for others; NULL if no image is in a clamped
- * plane. The caller frees it with memory_free. */
+/* Returns an array [n_all - n] with 1 for images of particles of p in clamped planes (by the inputs s of the bonds) and
+ * 0 for others; NULL if no image is in a clamped plane. The caller frees it with memory_free. */
 static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
 {
     bool any = false;
@@ -91,7 +91,8 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
 /* Lists in c->end the reactions of bonds between a particle and an image across a clamped plane, sorted by the particle
  * on which they act. In state-based models the particle already has its half of the bond force; the other half is one
  * reaction, on the particle that the image mirrors. In bond-based models the particle has both halves; two reactions
- * move one half from there to the particle that the image mirrors. The bonds must be in c (bonds_note). */
+ * move one half from there to the particle that the image mirrors. The bonds must be in c (bonds_note). s: inputs of
+ * the bonds. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

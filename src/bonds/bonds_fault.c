@@ -3,9 +3,9 @@
 
 #include "bonds_parts.h"
 
-/* Checks the order of rows and particles: rows must ascend by particle, row_of must be the inverse of `particle`, and
- * the padding rows behind the last one must repeat its particle. Returns a constant text that names the first fault, or
- * NULL if there is none. */
+/* Checks the order of rows and particles of b: rows must ascend by particle, row_of must be the inverse of `particle`,
+ * and the padding rows behind the last one must repeat its particle. Returns a constant text that names the first
+ * fault, or NULL if there is none. */
 static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -17,8 +17,8 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* Checks row block g (eight rows stored together), which stores no columns but uses a stencil. Returns a constant text
- * that names the first fault; NULL if there is none. */
+/* Checks row block g (eight rows stored together) of b, which stores no columns but uses a stencil. Returns a constant
+ * text that names the first fault; NULL if there is none. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "an implicit row block follows no stencil";

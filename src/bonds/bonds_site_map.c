@@ -273,8 +273,9 @@ void regular_bonds_free(struct regular_bonds *bonds)
 }
 
 /* Computes inverse length [1/m] and weight [1] of the bonds from particle i + l to j + l for l = 0 .. 7, in inverse[8]
- * and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. pairs: stiffness by pair
- * of materials, divided by that of material 0; dim: number of dimensions, known at compile time. */
+ * and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s: rules of weights;
+ * pairs: stiffness by pair of materials, divided by that of material 0; dim: number of dimensions, known at compile
+ * time. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                                 int64_t i, int64_t j, real *inverse, real *w, const int dim)
 {

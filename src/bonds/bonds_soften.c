@@ -9,7 +9,7 @@
 /* Allocates b->soft.near if a material has a strength surface (failure criterion in stress): a mark for each row block
  * (eight rows stored together) in which a particle may have nearly reached its strength surface. Sets b->soft.gate, the
  * stretch beyond which a row block is marked [1]. A new row block is marked if one of its rows had no previous row, or
- * one in a marked row block. previous: previous bonds or NULL. */
+ * one in a marked row block. previous: previous bonds or NULL; source: materials. */
 static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                        const struct particles *p)
 {

@@ -48,7 +48,7 @@ void state_based_update_weighted_volumes(struct bonds *b, const struct particles
 
 /* Computes the weighted volume Q (sum over the bonds of a row) of the row blocks of b (eight rows stored together) in
  * which it is still 0: those that are rebuilt. Row blocks that were copied from the previous bonds keep their Q. s:
- * data of bonds. */
+ * inputs of the bonds; p: particles. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)

@@ -207,8 +207,8 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
     bond_column_update_common_properties(b, column_number);
 }
 
-/* Writes the columns of a row block (eight rows stored together), which so far only its stencil defines, to the column
- * arrays of b. */
+/* Writes the columns of row block `row_block` (eight rows stored together), which so far only its stencil defines, to
+ * the column arrays of b. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

@@ -197,9 +197,10 @@ static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted
 
 /* ---- means ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the row (bonds of one particle) that holds the strain of particle or image j: the row of j, or for an image
- * the row of the particle that it mirrors, whose strain is still to be reflected. sign[dim]: receives -1 for the axes
- * to be reflected, else 1. Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is clamped. */
+/* Returns the row (bonds of one particle) of e that holds the strain of particle or image j: the row of j, or for an
+ * image the row of the particle that it mirrors, whose strain is still to be reflected. sign[dim]: receives -1 for the
+ * axes to be reflected, else 1. Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is
+ * clamped. */
 static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
 {
     const struct particles *p = e->p;
@@ -262,16 +263,16 @@ static real row_share(const struct evaluation *e, int64_t row)
     return material_stress_to_strength_ratio(m, e->source->family.space, stress);
 }
 
-/* Returns the material of the particle of row `row` if it has a strength surface (failure criterion in stress), else
- * NULL. */
+/* Returns the material of the particle of row `row` of e if it has a strength surface (failure criterion in stress),
+ * else NULL. */
 static const struct material *row_material(const struct evaluation *e, int64_t row)
 {
     const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
     return material_has_strength_surface(m) ? m : NULL;
 }
 
-/* Returns the relative strength of the particle of row `row` [1]: its bonds begin to soften at this multiple of the
- * stress on the strength surface. Returns 1 if particles have no such factors (p->strength is NULL). */
+/* Returns the relative strength of the particle of row `row` of e [1]: its bonds begin to soften at this multiple of
+ * the stress on the strength surface. Returns 1 if particles have no such factors (p->strength is NULL). */
 static real row_strength(const struct evaluation *e, int64_t row)
 {
     return e->p->strength ? e->p->strength[e->b->particle[row]] : 1;
@@ -304,7 +305,8 @@ static void evaluation_free(struct evaluation *e)
  * (failure criterion in stress), or a bond of it has begun to soften. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Returns true if row `row` (bonds of one particle) has an intact bond that can break and has not begun to soften. */
+/* Returns true if row `row` (bonds of one particle) of e has an intact bond that can break and has not begun to
+ * soften. */
 static bool row_can_start(const struct evaluation *e, int64_t row)
 {
     const int32_t i = e->b->particle[row];
@@ -399,9 +401,9 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
 
 /* ---- start ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the smallest onset of softening that bonds of particle or image j may have [1], the share LEAST_ONSET of its
- * strain at the tensile strength, if the stress of the particle has reached its strength surface (failure criterion in
- * stress); INFINITY if it has not. */
+/* Returns the smallest onset of softening that bonds of particle or image j of e may have [1], the share LEAST_ONSET of
+ * its strain at the tensile strength, if the stress of the particle has reached its strength surface (failure criterion
+ * in stress); INFINITY if it has not. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
     const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);
@@ -411,9 +413,9 @@ static real start_of(const struct evaluation *e, int32_t j)
     return LEAST_ONSET * row_strength(e, row) * m->tensile_strength / m->young;
 }
 
-/* Returns the softening state of a bond of particle i whose softening begins because the stress has reached a strength
- * surface. least: lower limit of the onset from start_of [1]. The onset is the larger of the present stretch of the
- * bond and s, where s is the smaller of `least` and of the stretch at which the bond would begin to soften by
+/* Returns the softening state of `bond` of particle i of e, whose softening begins because the stress has reached a
+ * strength surface. least: lower limit of the onset from start_of [1]. The onset is the larger of the present stretch
+ * of the bond and s, where s is the smaller of `least` and of the stretch at which the bond would begin to soften by
  * itself. */
 static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
 {
@@ -432,7 +434,7 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
 
 /* Starts the softening of the bonds of row block g (eight rows stored together) of b that are intact, have not begun to
  * soften, and lead from or to a particle on its strength surface (failure criterion in stress). Material points with
- * such bonds are marked for conversion. */
+ * such bonds are marked for conversion. e: ratios of stress to strength. */
 static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -463,8 +465,8 @@ real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct 
     return most;
 }
 
-/* Marks by 1 in touched[row blocks] the row block (eight rows stored together) of row `row`, whose particle is on its
- * strength surface, and those of all neighbours to which its bonds lead. Several threads may mark one row block. */
+/* Marks by 1 in touched[row blocks] the row block (eight rows stored together) of row `row` of e, whose particle is on
+ * its strength surface, and those of all neighbours to which its bonds lead. Several threads may mark one row block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

@@ -56,9 +56,9 @@ static real stiffness_weight(const struct family *f, real r)
     }
 }
 
-/* Returns the distance r [m] with the round-off of positions removed: the lattice distance spacing sqrt(k) nearest to
- * r, with a whole number k, if r is one up to round-off, else r. Bonds of equal length then have weights that are equal
- * to the last bit. */
+/* Returns the distance r [m] with the round-off of positions removed: the lattice distance f->spacing sqrt(k) nearest
+ * to r, with a whole number k, if r is one up to round-off, else r. Bonds of equal length then have weights that are
+ * equal to the last bit. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);

@@ -135,8 +135,8 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
 /* Returns a reflection under which the surroundings of the particles of kind number `kind` have the smallest hash
- * (colour) of all reflections. (The particles of a kind have equal surroundings.) A reflection is a set of axes, with
- * bit d for axis d. Returns the first such set >= `from`; -1 if there is none. */
+ * (colour) of all reflections. (The particles of a kind have equal surroundings.) b: particles near faces. A reflection
+ * is a set of axes, with bit d for axis d. Returns the first such set >= `from`; -1 if there is none. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -151,7 +151,7 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
 /* Assigns kinds of particles to classes. A kind has equal surroundings; two kinds belong to one class if they are
  * mirror images of each other, i.e. if the smallest hashes of their mirrored surroundings are equal. of[kinds]:
  * receives the number of the class of each kind, from 0. Sets a->classes, their number plus 1, and a->member, a
- * particle of each class. */
+ * particle of each class. b: particles near faces. */
 static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};
@@ -223,9 +223,9 @@ static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b
 }
 
 /* Joins the table entries of both directions of every bond whose factor may change, so that the bonds i-j and j-i get
- * one factor. The entries are [classes, offsets]; a class has particles with equal surroundings up to mirrors.
- * first[n]: first particle of each of n kinds (particles with equal, not mirrored surroundings), which represents the
- * others; parent: union-find forest of the table entries. */
+ * one factor. The entries are [classes, offsets]; a class has particles with equal surroundings up to mirrors. b:
+ * particles near faces; first[n]: first particle of each of n kinds (particles with equal, not mirrored surroundings),
+ * which represents the others; parent: union-find forest of the table entries. */
 static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
                        int64_t *parent)
 {
@@ -241,9 +241,9 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
         }
 }
 
-/* Joins the table entries of bonds of one class that are mirror images of each other, so that they get one factor. A
- * class consists of particles with equal surroundings up to mirrors. b: particles near faces, with the lattice offsets;
- * parent: union-find forest of the entries. */
+/* Joins the table entries in a of bonds of one class that are mirror images of each other, so that they get one factor.
+ * A class consists of particles with equal surroundings up to mirrors. b: particles near faces, with the lattice
+ * offsets; parent: union-find forest of the entries. */
 static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;

@@ -250,7 +250,7 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
 /* Prepares c, the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form
  * that weighs deviations of their third and fourth moments, and the target of these moments, less the moments of bonds
  * whose factors are fixed. goal: means of the face properties over the particles of the class; alpha: coefficient by
- * which the dipole raises the target of the fourth moments [1]; class: its number, from 1. */
+ * which the dipole raises the target of the fourth moments [1]; class: its number in a, from 1. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -276,9 +276,9 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Returns the sum of x . Q x over those bonds of a class (particles with equal surroundings) whose factors on their
- * weights are fitted. x: moments of a bond, the tensors w nnn and w r nnnn (direction n, weight w, length r), from m;
- * Q: quadratic form that weighs deviations of the moments of the class; class: its number, from 1. */
+/* Returns the sum of x . Q x over those bonds of a class (particles with equal surroundings) of q whose factors on
+ * their weights are fitted. x: moments of a bond, the tensors w nnn and w r nnnn (direction n, weight w, length r),
+ * from m; Q: quadratic form that weighs deviations of the moments of the class; class: its number, from 1. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
@@ -400,11 +400,11 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     }
 }
 
-/* Fixes the factors on the weights of bonds at ends of cracks and in thin parts, which have too few layers of particles
- * (f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle rotations.
- * Bonds at ends of cracks also get the factor 1 if bonds may break: they break next, and the critical stretch is
- * calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated last, so
- * that a bond between both does not depend on the order of its particles. */
+/* Fixes the factors in q on the weights of bonds of b at ends of cracks and in thin parts, which have too few layers of
+ * particles (f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle
+ * rotations. Bonds at ends of cracks also get the factor 1 if bonds may break: they break next, and the critical
+ * stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated
+ * last, so that a bond between both does not depend on the order of its particles. */
 static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {
@@ -417,8 +417,8 @@ static void plain_parts(struct surface_fit_problem *q, const struct near_faces *
 }
 
 /* Allocates and sets the bounds q->low[sets] and q->high[sets] of the factors of all sets of bonds that share one
- * factor: LEAST and MOST, or equal bounds at ends of cracks and in thin parts, where the factor is fixed. f: states
- * which particles are in thin parts; rotates: true for a model with particle rotations. */
+ * factor: LEAST and MOST, or equal bounds at ends of cracks and in thin parts, where the factor is fixed. b: particles
+ * near faces; f: states which particles are in thin parts; rotates: true for a model with particle rotations. */
 static void bounds_make(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

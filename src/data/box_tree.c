@@ -13,7 +13,7 @@ struct boxed {
     int32_t item;
 };
 
-/* Compares two boxes (struct boxed) for array_sort: by the coordinate of their middle, then by number. */
+/* Compares the boxes *a and *b (struct boxed) for array_sort: by the coordinate of their middle, then by number. */
 static int boxed_order(const void *a, const void *b)
 {
     const struct boxed *p = a, *q = b;

@@ -348,8 +348,8 @@ static bool hull_outside(const struct hull *s, const real *X)
     return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding_number(s, X) < 0.5;
 }
 
-/* Returns true if the signed distance of X[dim] from the surface, negative inside, is at most max_distance [m].
- * Faces that are farther than |max_distance| are not searched, since then only the side of X matters. */
+/* Returns true if the signed distance of X[dim] from the surface s, negative inside, is at most max_distance [m]. Faces
+ * that are farther than |max_distance| are not searched, since then only the side of X matters. */
 bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance)
 {
     real size = 0, point[DIM_MAX];

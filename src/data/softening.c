@@ -169,8 +169,8 @@ static real strain_without_stress(const struct directions *a, real low, real giv
 }
 
 /* Functions of one strain, whose zeros strain_without_stress finds: the lateral stress, the axial stress, and the sum
- * of both, divided by E' s_0. The other strain is given. Strains are in units of s_0, the stretch at which softening
- * begins. */
+ * of both, divided by E' s_0. The other strain is given. a: bonds of all directions. Strains are in units of s_0, the
+ * stretch at which softening begins. */
 static real lateral_stress(const struct directions *a, real lateral, real axial)
 {
     return family_stress(a, axial, lateral).lateral;

@@ -299,7 +299,7 @@ static real ellipsoid_support(const struct solid *s, const real *along, int dim)
     return dot(s->centre, along, dim) + sqrt(sum);
 }
 
-/* Stores in axes[2] the two axes normal to the axis of an extrusion, in ascending order. */
+/* Stores in axes[2] the two axes normal to the axis of the extrusion s, in ascending order. */
 static void plane_axes(const struct solid *s, int axes[2])
 {
     axes[0] = s->axis == 0 ? 1 : 0;

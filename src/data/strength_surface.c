@@ -41,7 +41,8 @@ real strength_surface_strength_along(const struct strength_surface *s, const rea
 }
 
 /* Sets stress[2], the principal stress normal to the plane, from stress[0] and stress[1] [Pa]: 0 in plane stress, nu
- * (stress[0] + stress[1]) in plane strain, with Poisson's ratio nu of material m. Unchanged in other spaces. */
+ * (stress[0] + stress[1]) in plane strain, with Poisson's ratio nu of material m. Unchanged if `space` is another
+ * one. */
 static void complete_state(const struct material *m, enum space space, real *stress)
 {
     if (space == SPACE_PLANE_STRESS) stress[2] = 0;

@@ -26,8 +26,8 @@ static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int b
     return 0;
 }
 
-/* Compares two particles (struct member) for array_sort: first by the group of points with which they rotate, then by
- * position, then by number. Returns -1, 0 or 1. */
+/* Compares the particles *a and *b (struct member) for array_sort: first by the group of points with which they rotate,
+ * then by position, then by number. Returns -1, 0 or 1. */
 static int by_member(const void *a, const void *b)
 {
     const struct member *p = a, *q = b;
@@ -37,8 +37,8 @@ static int by_member(const void *a, const void *b)
     return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
 }
 
-/* Compares two groups of points that rotate together (struct turning_group) for array_sort and bsearch: by body, then
- * by position. Returns -1, 0 or 1. */
+/* Compares the groups *a and *b of points that rotate together (struct turning_group) for array_sort and bsearch: by
+ * body, then by position. Returns -1, 0 or 1. */
 static int by_group(const void *a, const void *b)
 {
     const struct turning_group *p = a, *q = b;

@@ -187,7 +187,7 @@ real voids_lower_bound_of_surface_distance(const struct voids *v, const struct p
     return real_max(0, -void_level(v, p->body[particle], X));
 }
 
-/* Returns true if the convex solid s stays convex when its mirror images are added. Only planes of symmetry within
+/* Returns true if the convex solid s stays convex when its mirror images are added. Only planes of symmetry of v within
  * `reach` [m] of the point X[dim] matter. Returns false for such a plane unless s is a box that the plane touches or
  * cuts. */
 static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)

@@ -154,7 +154,8 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
 }
 
 /* Marks the material points within the cutoff (largest bond length) of the tip of crack g for conversion to peridynamic
- * particles, because cracks grow through bonds only. Returns the number of marked points. */
+ * particles, because cracks grow through bonds only. s: cells of the neighbour search. Returns the number of marked
+ * points. */
 static int claim(const struct growing_crack *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
@@ -223,10 +224,10 @@ static void step_back(struct growing_crack *g, struct bonds *b)
 
 /* Reduces the weights of the bonds in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent, and
  * removes bonds without weight from the list. `grown` is the growth of the crack since its tip crossed the bond, w0 the
- * weight of the bond at that time; f: family (neighbourhood), half its horizon is the default of `damping`. The energy
- * lost is booked at the present positions: half of the loss of the previous step and half of that of this step. Bonds
- * change one after the other, each from its weight of the previous step, so that the losses sum to the whole energy.
- * Returns the number of directed bonds whose weight becomes 0. */
+ * weight of the bond at that time; p: particles; f: family (neighbourhood), half its horizon is the default of
+ * `damping`. The energy lost is booked at the present positions: half of the loss of the previous step and half of that
+ * of this step. Bonds change one after the other, each from its weight of the previous step, so that the losses sum to
+ * the whole energy. Returns the number of directed bonds whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -252,7 +253,7 @@ static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *
 
 /* Advances growing crack g by one time step dt [s] at time t [s]: moves the tip by its speed times dt, appends the
  * bonds that the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. Material
- * points around the tip are marked for conversion. source: data of bonds, with the cells of the neighbour search;
+ * points of p around the tip are marked for conversion. source: data of bonds, with the cells of the neighbour search;
  * control: present stress-intensity factors, NULL if not known. Returns the number of directed bonds whose weight has
  * become 0. */
 int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,

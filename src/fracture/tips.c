@@ -73,15 +73,15 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
     return p->n_of[KIND_PD];
 }
 
-/* Assigns particle i to crack number `tip`, from 0, and appends it to the queue of particles whose neighbours must be
- * visited. */
+/* Assigns particle i to crack number `tip`, from 0, and appends it to the queue f->queue of particles whose neighbours
+ * must be visited. */
 static void flood_label(struct flood *f, int32_t i, int tip)
 {
     f->t->label[i] = (uint8_t)(tip + 1);
     f->queue[f->queued++] = i;
 }
 
-/* Returns the number of the crack into which crack number `tip` has been merged in this sample (present set of tip
+/* Returns the number of the crack into which crack number `tip` has been merged in this sample f (present set of tip
  * positions), or `tip` itself if it has not been merged. */
 static int tips_root_of(const struct flood *f, int tip)
 {
@@ -89,7 +89,7 @@ static int tips_root_of(const struct flood *f, int tip)
     return tip;
 }
 
-/* Merges the cracks number a and b, which touch. Two cracks that both start at ends of pre-cracks stay separate.
+/* Merges the cracks number a and b of f, which touch. Two cracks that both start at ends of pre-cracks stay separate.
  * Otherwise a crack that starts at no pre-crack is merged into one that does, or, if neither starts at a pre-crack, the
  * later crack into the earlier one. */
 static void flood_join(struct flood *f, int a, int b)
@@ -174,7 +174,7 @@ static int tip_nearest(const struct crack_tips *t, const struct particles *p, in
     return nearest;
 }
 
-/* Starts a new crack at the most damaged of the newly damaged particles that belong to no crack, and assigns the
+/* Starts a new crack at the most damaged of the newly damaged particles of f that belong to no crack, and assigns the
  * damaged particles connected with it. If the list of tips is full (TIPS_MAX), assigns them to the crack with the
  * nearest tip instead. Returns true if it has assigned particles; false if all newly damaged particles belong to a
  * crack already. */
@@ -202,7 +202,7 @@ static bool flood_nucleate(struct flood *f)
     return true;
 }
 
-/* Removes the cracks that have been merged into others in this sample from the list of tips and from the record of
+/* Removes the cracks that have been merged into others in this sample f from the list of tips and from the record of
  * their growth. Renumbers the remaining cracks and the labels of particles. */
 static void flood_close_ranks(struct flood *f)
 {

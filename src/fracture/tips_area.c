@@ -131,7 +131,8 @@ struct bar_place {
     int32_t particle;
 };
 
-/* Compares two particles of a bar (struct bar_place) for qsort, in ascending order of their reference positions. */
+/* Compares the particles *a and *b of a bar (struct bar_place) for qsort, in ascending order of their reference
+ * positions. */
 static int bar_place_order(const void *a, const void *b)
 {
     const struct bar_place *p = a, *q = b;

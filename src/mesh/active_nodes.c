@@ -31,9 +31,10 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks of nodes (eight along x) that contain the second nodes which slits (gaps between cells) have
- * made at the positions of nodes of block `near`, since motion spreads to them. moves: true if nodes of `near` move; if
- * `near` itself contains second nodes, the blocks of the nodes at their positions are then activated, too. */
+/* Activates the blocks of nodes (eight along x) of `mesh` that contain the second nodes which slits (gaps between
+ * cells) have made at the positions of nodes of block `near`, since motion spreads to them. moves: true if nodes of
+ * `near` move; if `near` itself contains second nodes, the blocks of the nodes at their positions are then activated,
+ * too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -45,8 +46,8 @@ static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
     }
 }
 
-/* Activates a block of nodes (eight along x) that moves, and those neighbouring blocks that have nodes with mass.
- * Inactive blocks are at rest and left out of computations. */
+/* Activates a block of nodes (eight along x) of `mesh` that moves, and those neighbouring blocks that have nodes with
+ * mass. Inactive blocks are at rest and left out of computations. */
 static void mesh_activate(struct mesh *mesh, int64_t block)
 {
     struct active_set *r = &mesh->active;
@@ -72,7 +73,7 @@ static bool nodes_moved(const struct mesh *mesh, int64_t block)
     return false;
 }
 
-/* Returns true if the nodes of a block (eight along x) have neither displacement nor velocity nor force. */
+/* Returns true if the nodes of a block (eight along x) of `mesh` have neither displacement nor velocity nor force. */
 static bool nodes_inactive(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)

@@ -25,9 +25,9 @@ enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the edge h of a cell with lumped mass whose waves along an axis have the same dispersion as those in a
- * lattice of bonds [m]: h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds of length r, with their component xi along
- * the axis. Without bonds, returns the edge of cells of level 0 (the finest). */
+/* Returns the edge h of a cell with lumped mass whose waves along an axis have the same dispersion as those in the
+ * lattice of bonds of scene s [m]: h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds of length r, with their component
+ * xi along the axis. Without bonds, returns the edge of cells of level 0 (the finest). */
 static real dispersion_edge(const struct scene *s)
 {
     const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;

@@ -92,7 +92,7 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
 }
 
-/* Returns OK if no two bodies share a node of the mesh; they would move as one body there. Returns REFUSED, with a
+/* Returns OK if no two bodies of p share a node of the mesh; they would move as one body there. Returns REFUSED, with a
  * message, if two bodies do. */
 static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 {

@@ -12,8 +12,8 @@ struct nodes {
     int32_t *at;
 };
 
-/* Finds the nodes at the corners of the cells that contain the n particles list[k] of p, and lists each node once in
- * *t, ascending. The caller releases t->at with memory_free. */
+/* Finds the nodes at the corners of the cells of `mesh` that contain the n particles list[k] of p, and lists each node
+ * once in *t, ascending. The caller releases t->at with memory_free. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
 {

@@ -278,8 +278,8 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-/* Lists the points with state-based PD-MPM bonds in all partial cells (cells with a stiffness matrix of their own),
- * group by group of LANES such cells. */
+/* Lists in `mesh` the points with state-based PD-MPM bonds in all partial cells (cells with a stiffness matrix of their
+ * own), group by group of LANES such cells. */
 static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -409,9 +409,9 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
     return from;
 }
 
-/* Returns an array of `each` numbers for every partial cell (a cell with a stiffness matrix of its own), interleaved in
- * groups of LANES cells. The numbers of the last group are 0, others are uninitialised. label: name of the array.
- * Release it with memory_free. */
+/* Returns an array of `each` numbers for every partial cell of `mesh` (a cell with a stiffness matrix of its own),
+ * interleaved in groups of LANES cells. The numbers of the last group are 0, others are uninitialised. label: name of
+ * the array. Release it with memory_free. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
     const int64_t groups = mesh_partial_cell_group_count(mesh), size = each * LANES;

@@ -23,7 +23,7 @@ struct located {
     int32_t i;
 };
 
-/* Compares two struct located by position X, then by particle number, for sorting. */
+/* Compares *a and *b (struct located) by position X, then by particle number, for sorting. */
 static int probes_bar_make_by_position(const void *a, const void *b)
 {
     const struct located *p = a, *q = b;

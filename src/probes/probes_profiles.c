@@ -91,8 +91,8 @@ bool probes_compose_profile_file_name(const struct probes *s, int which, int fra
     return false;
 }
 
-/* Composes the profile of probe q at frame number `frame` and passes file name and text to put(context, name, text,
- * length), which writes them. Returns FAILED, with a message, if memory is exhausted; else the status of put. */
+/* Composes the profile of probe q of run o at frame number `frame` and passes file name and text to put(context, name,
+ * text, length), which writes them. Returns FAILED, with a message, if memory is exhausted; else the status of put. */
 static status profile_put(const struct probe *q, const struct observed_run *o, probe_file_fn *put, void *context,
                           int frame)
 {

@@ -60,7 +60,7 @@ static int tip_meant(const struct probe_request *r, const struct observed_run *o
     return nearest;
 }
 
-/* Returns the index of the growing crack of the run that starts at most SAME_TIP spacings from the tip of the probe, or
+/* Returns the index of the growing crack of run o that starts at most SAME_TIP spacings from the tip of the probe w, or
  * -1 if there is none. */
 static int growth_meant(const struct sif_tracked *w, const struct observed_run *o)
 {
@@ -71,8 +71,8 @@ static int growth_meant(const struct sif_tracked *w, const struct observed_run *
     return -1;
 }
 
-/* Returns REFUSED, with a message, if probe r controls the growth of a crack but measures the tip of another one. The
- * scene must then give the key `at`, which selects the tip. */
+/* Returns REFUSED, with a message, if probe r (state: w) controls the growth of a crack of run o but measures the tip
+ * of another one. The scene must then give the key `at`, which selects the tip. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -86,9 +86,9 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds position and direction of the crack tip of a SIF probe, from the request r or from a pre-crack, and the
- * growing crack that starts there. Returns REFUSED, with a message, if position or direction is unknown, or if the
- * probe controls the growth of a crack at another tip. */
+/* Finds position and direction of the crack tip of the SIF probe w, from the request r or from a pre-crack of run o,
+ * and the growing crack that starts there. Returns REFUSED, with a message, if position or direction is unknown, or if
+ * the probe controls the growth of a crack at another tip. */
 static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     w->follows = tip_meant(r, o);
@@ -111,8 +111,8 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
 }
 
 /* Lists in w->crack the cracks across which particles must not contribute to each other's gradients: the pre-cracks of
- * the scene and, unless one of them ends at the tip, a straight crack behind the tip. Sets w->tip.face, the crack face
- * to which particles exactly on the crack belong. */
+ * run o and, unless one of them ends at the tip, a straight crack behind the tip. Sets w->tip.face, the crack face to
+ * which particles exactly on the crack belong. */
 static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct sif_tip *t = &w->tip;
@@ -137,9 +137,9 @@ static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
     w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
-/* Returns true if a circle of radius `radius` [m] around tip t is not completely inside the body. The part near the
- * crack faces, which may be open, is not tested. position: receives a point of the circle without a particle nearby,
- * if there is one [m]. */
+/* Returns true if a circle of radius `radius` [m] around tip t is not completely inside the body of run o. The part
+ * near the crack faces, which may be open, is not tested. position: receives a point of the circle without a particle
+ * nearby, if there is one [m]. */
 static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed_run *o, real position[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
@@ -152,7 +152,7 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
-/* Returns a crack tip of the run, other than that of the probe, whose distance from it is less than `radius` [m], or
+/* Returns a crack tip of run o, other than that of the probe w, whose distance from it is less than `radius` [m], or
  * NULL if there is none. */
 static const struct crack_tip *other_tip_within(const struct sif_tracked *w, real radius, const struct observed_run *o)
 {
@@ -164,8 +164,9 @@ static const struct crack_tip *other_tip_within(const struct sif_tracked *w, rea
     return NULL;
 }
 
-/* Returns the outer radius of the contour of a SIF probe whose request r gives none: OUTER spacings or, if r gives no
- * other radius either, the first of 0.9, 0.8 .. 0.5 times it that stays in the body and contains no other tip [m]. */
+/* Returns the outer radius of the contour of the SIF probe w in run o, whose request r gives none: OUTER spacings or,
+ * if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times it that stays in the body and contains no other
+ * tip [m]. */
 static real default_outer_radius(const struct sif_tracked *w, const struct probe_request *r,
                                  const struct observed_run *o)
 {
@@ -177,9 +178,9 @@ static real default_outer_radius(const struct sif_tracked *w, const struct probe
     return most;
 }
 
-/* Sets the integration contours of a SIF probe: contour[0], from which the results are computed, then those with which
- * it is compared. The latter have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of contour[0]. Sets
- * w->reach to the largest outer radius. */
+/* Sets the integration contours of the SIF probe w in run o: contour[0], from which the results are computed, then
+ * those with which it is compared. The latter have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of
+ * contour[0]. Sets w->reach to the largest outer radius. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     const real outer = given(r->outer) ? r->outer : default_outer_radius(w, r, o),
@@ -193,8 +194,8 @@ static void make_contours(struct sif_tracked *w, const struct probe_request *r, 
     for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
 }
 
-/* Returns REFUSED with a message: the largest contour leaves the body at position[2] [m]. The message proposes an
- * outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the probe. */
+/* Returns REFUSED with a message: the largest contour of w leaves the body of run o at position[2] [m]. The message
+ * proposes an outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the probe. */
 static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed_run *o,
                              const real position[2])
 {
@@ -208,7 +209,7 @@ static status refuse_leaving(const struct sif_tracked *w, const char *name, cons
                       name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1], fits);
 }
 
-/* Returns REFUSED, with a message, if a contour is narrower than NARROWEST spacings, leaves the body, or contains
+/* Returns REFUSED, with a message, if a contour of w is narrower than NARROWEST spacings, leaves the body, or contains
  * another crack tip. r: request of the probe. */
 static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
@@ -232,8 +233,8 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
                       r->name, other[0], other[1], w->reach, 0.99 * distance);
 }
 
-/* Stores body number and elastic constants of the material around the tip. Returns REFUSED, with a message, if no
- * particle is ahead of the tip, or if another material or body is within the contours. */
+/* Stores body number and elastic constants of the material around the tip of w in run o. Returns REFUSED, with a
+ * message, if no particle is ahead of the tip, or if another material or body is within the contours. */
 static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -294,9 +295,9 @@ void sif_probe_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip of SIF probe q. Returns true if the tip belongs to a crack that
- * grows because bonds break. Returns false for tips at rest, and for cracks that grow at a prescribed or controlled
- * speed, since the position of their tip is known exactly. */
+/* Updates position, speed and direction of the tip of SIF probe q of run o. Returns true if the tip belongs to a crack
+ * that grows because bonds break. Returns false for tips at rest, and for cracks that grow at a prescribed or
+ * controlled speed, since the position of their tip is known exactly. */
 static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;
@@ -356,9 +357,9 @@ void sif_probe_store_motion_before_step(struct probe *q, const struct observed_r
     }
 }
 
-/* Computes velocity and acceleration of all particles at the time of the sample from the velocities half a step before
- * and after it. t_velocity: time of the current velocities [s]. After the last sample no step follows, and the
- * velocities of one step earlier are used instead. */
+/* Computes velocity and acceleration of all particles, w->mean and w->acceleration, at the time of the sample from the
+ * velocities half a step before and after it. t_velocity: time of the current velocities [s]. After the last sample no
+ * step follows, and the velocities of one step earlier are used instead. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
@@ -368,9 +369,9 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
         }
 }
 
-/* Computes the accelerations that loads cause, force over mass of each particle, in w->body [m/s^2]. In static problems
- * this includes the inertia relief, the inertia forces by which a free body is in equilibrium. Returns true if such
- * forces act within the largest contour. */
+/* Computes the accelerations that the loads of run o cause, force over mass of each particle, in w->body [m/s^2]. In
+ * static problems this includes the inertia relief, the inertia forces by which a free body is in equilibrium. Returns
+ * true if such forces act within the largest contour. */
 static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -430,8 +431,8 @@ bool sif_probe_factors_are_meaningful(const struct probe *q)
     return !isnan(factors[0]) && !(factors[SIF_FIGURES - 1] > SPREAD_MOST);
 }
 
-/* Composes the warning that probe q has no stress-intensity factors at its last sample, and why. t: time of the sample
- * [s]. */
+/* Composes in text[size] the warning that probe q has no stress-intensity factors at its last sample, and why. t: time
+ * of the sample [s]. */
 static void describe_meaningless_factors(const struct probe *q, real t, char *text, size_t size)
 {
     char why[160] = "its ring leaves the body";

@@ -238,8 +238,8 @@ static status load_step_begin(struct run *e, real t)
     return increment && s->solutions > solutions ? crack_increment_find(e) : OK;
 }
 
-/* Makes the next load step under the control (load, energy or opening) of the scene. Returns FAILED, with a message, if
- * an equilibrium is not found. */
+/* Makes the next load step of run e under the control (load, energy or opening) of the scene. Returns FAILED, with a
+ * message, if an equilibrium is not found. */
 static status load_step(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -257,9 +257,9 @@ static status load_step(struct run *e)
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the control of load steps is energy or opening, which scale the loads by the
- * pseudo-time, but loads and supports are constant. quarter, half, whole: load sizes at a quarter, at half and at the
- * end of the duration, [m] or [N]. */
+/* Returns REFUSED, with a message, if the control of the load steps of scene s is energy or opening, which scale the
+ * loads by the pseudo-time, but loads and supports are constant. quarter, half, whole: load sizes at a quarter, at half
+ * and at the end of the duration, [m] or [N]. */
 static status check_loads_grow(const struct scene *s, real quarter, real half, real whole)
 {
     if (s->steps.control == CONTROL_LOAD || half != whole || quarter != whole) return OK;
@@ -299,8 +299,8 @@ static void warn_closed_faces(struct warnings *to, real K_I, const struct contac
 
 #define FLOW_LARGE 0.05 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
 
-/* Warns of plastic strains above FLOW_LARGE, too large for additive small strains. Without hardening they are a sign of
- * loads beyond the limit load. */
+/* Warns of plastic strains of particles of p above FLOW_LARGE, too large for additive small strains. Without hardening
+ * they are a sign of loads beyond the limit load. */
 static void warn_large_flow(struct warnings *to, const struct particles *p)
 {
     real most = 0;
@@ -356,9 +356,9 @@ static void warn_at_end(struct run *e)
     rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
-/* Checks the loads on fragments that nothing constrains. Returns FAILED, with a message, if they are not in balance.
- * Under energy control, once bonds have broken, such a fragment means that the crack has severed the body: then sets
- * *apart to true, prints a warning, and returns OK. */
+/* Checks the loads on fragments of run e that nothing constrains. Returns FAILED, with a message, if they are not in
+ * balance. Under energy control, once bonds have broken, such a fragment means that the crack has severed the body:
+ * then sets *apart to true, prints a warning, and returns OK. */
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;

@@ -57,10 +57,11 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                               ON_SURFACE * l->plane.spacing);
 }
 
-/* Sets the energy cost of each bond in `list`, the bonds that the next segment of the path of `tip` cuts: the member
- * `held` of its record [J]. The costs are scaled such that their sum is the area of the segment times the crack energy
- * per area; in 3D, energies of bonds at the sides of the body contain surface weights, and some bonds at a pre-crack
- * are already broken. In state-based models, where bonds have no energy of their own, all costs are equal. */
+/* Sets the energy cost of each bond between particles of p in `list`, the bonds that the next segment of the path of
+ * `tip` cuts: the member `held` of its record [J]. The costs are scaled such that their sum is the area of the segment
+ * times the crack energy per area; in 3D, energies of bonds at the sides of the body contain surface weights, and some
+ * bonds at a pre-crack are already broken. In state-based models, where bonds have no energy of their own, all costs
+ * are equal. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {
@@ -158,9 +159,9 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
 }
 
 /* Estimates tip->behind, cost and energy release of the increment that would have led to the present position of a tip,
- * for a tip at the end of a pre-crack, which has not grown. It is extrapolated backwards from the first increment,
- * whose bonds must be broken already, and from a trial of a second one straight ahead. Returns FAILED, with a message,
- * if an equilibrium is not found. */
+ * for a tip of run e at the end of a pre-crack, which has not grown. It is extrapolated backwards from the first
+ * increment, whose bonds must be broken already, and from a trial of a second one straight ahead. Returns FAILED, with
+ * a message, if an equilibrium is not found. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
     struct sif_crack_tip beyond = *tip;
@@ -223,11 +224,11 @@ static void increment_choose(struct statics *s, struct break_list *list)
     s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
 }
 
-/* If several tips are selected for the next crack increment, recomputes its energy release s->ahead.release by a trial
- * in which all their bonds break together, which releases more energy than one tip after the other. Divides the result
- * among the tips in proportion to their separate values, and updates s->due, the load size of the increment. If a tip
- * makes its first increment, s->due is not updated, since the fictitious previous increments were not computed in this
- * way. Returns FAILED, with a message, if an equilibrium is not found. */
+/* If several tips of run e are selected for the next crack increment, recomputes its energy release s->ahead.release by
+ * a trial in which all their bonds break together, which releases more energy than one tip after the other. Divides the
+ * result among the tips in proportion to their separate values, and updates s->due, the load size of the increment. If
+ * a tip makes its first increment, s->due is not updated, since the fictitious previous increments were not computed in
+ * this way. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_try_together(struct run *e)
 {
     struct statics *s = e->statics;

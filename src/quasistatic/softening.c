@@ -36,10 +36,10 @@ static void bond_weigh(struct bonds *b, int64_t row, int64_t q, real k)
     bond_column_update_after_bond_change(b, row, q);
 }
 
-/* Appends bond `bond` of row `row`, which softens, to the list l. Stores its present stretch divided by `factor` [1],
- * its largest stretch at the last equilibrium, the stretches between which it softens, and its energy scale. In
- * state-based models this follows from the energy that its damage sets free; where that is not positive the bond does
- * not soften further, and its stretch is stored as 0. */
+/* Appends bond `bond` of row `row` of b, between particles of p, which softens, to the list l. Stores its present
+ * stretch divided by `factor` [1], its largest stretch at the last equilibrium, the stretches between which it softens,
+ * and its energy scale. In state-based models this follows from the energy that its damage sets free; where that is not
+ * positive the bond does not soften further, and its stretch is stored as 0. */
 static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
                                const struct bond *bond, real factor)
 {

@@ -246,7 +246,8 @@ static status solve_step(struct run *e, bool *done)
     return OK;
 }
 
-/* Stores the forces before the first iteration in s->before, from which dynamic relaxation computes differences. */
+/* Stores the forces on the particles p before the first iteration in s->before, from which dynamic relaxation computes
+ * differences. */
 static void solve_start(struct static_solver *s, const struct particles *p)
 {
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));

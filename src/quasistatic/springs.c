@@ -66,7 +66,7 @@ static struct movers movers_list(const struct springs *s, int64_t i)
     return m;
 }
 
-/* Returns the unknowns that determine the displacement of particle or mirror image i, with their weights. sign[d]:
+/* Returns the unknowns of s that determine the displacement of particle or mirror image i, with their weights. sign[d]:
  * receives -1 if component d of an image moves opposite to that of the particle that it mirrors, else 1. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
@@ -154,7 +154,7 @@ static void cell_add(struct springs *s, int64_t I)
 
 /* ---- the matrix -------------------------------------------------------------------------------------------------- */
 
-/* Adds all bonds, cells and contacts to the matrix. Rows of peridynamic particles are filled in parallel, as each
+/* Adds all bonds, cells and contacts to the matrix of s. Rows of peridynamic particles are filled in parallel, as each
  * belongs to one row of bonds; rows of mesh nodes in sequence. */
 static void springs_visit(struct springs *s)
 {
@@ -276,7 +276,7 @@ static struct block_matrix *matrix_make(const struct run *e)
 
 /* ---- the preconditioner ------------------------------------------------------------------------------------------ */
 
-/* Frees the preconditioner of load steps, if there is one. */
+/* Frees the preconditioner of the load steps s, if there is one. */
 void statics_preconditioner_free(struct statics *s)
 {
     if (s->precondition) multigrid_free(s->precondition);

@@ -52,7 +52,7 @@ real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *
     return most + 0; /* of the zeros of two threads either may be taken: never the negative one */
 }
 
-/* Compares two numbers for array_sort in descending order. */
+/* Compares the numbers *a and *b for array_sort in descending order. */
 static int descending(const void *a, const void *b)
 {
     const real x = *(const real *)a, y = *(const real *)b;
@@ -166,8 +166,8 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds with the largest ratios of stretch to critical stretch, and appends them to the list of the next
- * crack increment: those whose ratio is within the fraction `ratio_tolerance` of the largest one, at most about
+/* Breaks the bonds of run e with the largest ratios of stretch to critical stretch, and appends them to the list of the
+ * next crack increment: those whose ratio is within the fraction `ratio_tolerance` of the largest one, at most about
  * max_pairs pairs. Adds their energy at the critical stretch to *added_energy [J] and their crack area to
  * *added_crack_area [m^2]. Returns the number of directed bonds broken. State-based bonds have no energy of their own:
  * the energy that is lost as they break is divided among them, after division by the mean square of their ratios, as in

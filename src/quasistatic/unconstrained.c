@@ -359,8 +359,8 @@ static void motions_orthonormal(struct unconstrained_fragment *f, int dim)
     f->motions = kept;
 }
 
-/* Initialises f as fragment number `which` of the body, with `count` free motions. free[count][m]: the free motions, as
- * linear combinations of the m rigid motions. */
+/* Initialises f as fragment number `which` of the search s, with `count` free motions. free[count][m]: the free
+ * motions, as linear combinations of the m rigid motions. */
 static void fragment_motions(const struct search *s, struct unconstrained_fragment *f, int64_t which,
                              real free[MODES_MOST][MODES_MOST], int count)
 {

@@ -38,7 +38,7 @@ static status starts_at_reference(const struct boundary *b, const struct particl
 }
 
 /* Returns REFUSED, with a message, if the displacement that boundary condition b prescribes at t = 0 is not 0, because
- * this would be a jump within the first step. l: the load of b; spacing: lattice spacing [m]. */
+ * this would be a jump within the first step. p: particles; l: the load of b; spacing: lattice spacing [m]. */
 static status starts_at_rest(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
 {
     for (int64_t k = 0; k < l->n; k++) {

@@ -213,8 +213,9 @@ real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *par
     return 1 - trace / n;
 }
 
-/* Returns the additional strain energy of point i in plane strain after plastic flow [J]: for sigma_zz = nu (sigma_xx +
- * sigma_yy) + delta the energy density has the additional term delta^2/(2 E). Returns 0 if nothing has flowed. */
+/* Returns the additional strain energy of point i of s in plane strain after plastic flow [J]: for sigma_zz = nu
+ * (sigma_xx + sigma_yy) + delta the energy density has the additional term delta^2/(2 E). Returns 0 if nothing has
+ * flowed. */
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
@@ -222,9 +223,9 @@ static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
-/* Returns twice the strain energy density of point i [J/m^3]: the product of the stress that it transmits to the grid
- * and the elastic strain C^-1 stress. The material is isotropic, so that normal stresses cause only normal strains.
- * dim: number of dimensions, known at compile time. */
+/* Returns twice the strain energy density of point i of s [J/m^3]: the product of the stress that it transmits to the
+ * grid and the elastic strain C^-1 stress. The material is isotropic, so that normal stresses cause only normal
+ * strains. dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, const int dim)
 {
     const int n = dim * (dim + 1) / 2;

@@ -301,7 +301,7 @@ static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 
 /* ---- frame of the grid (mpm.frame) ------------------------------------------------------------------------------- */
 
-/* Returns true if a material of the body with the index `body` yields (has a yield stress). */
+/* Returns true if a material of the body with the index `body` of scene s yields (has a yield stress). */
 static bool body_yields(const struct scene *s, int body)
 {
     for (int m = 0; m < s->materials; m++)

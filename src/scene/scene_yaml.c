@@ -25,7 +25,7 @@ static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
     return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
 }
 
-/* Returns line and column, both from 0, of the byte at `offset` in the text. For faults of the encoding libyaml
+/* Returns line and column, both from 0, of the byte at `offset` in the text of p. For faults of the encoding libyaml
  * gives only the offset. */
 static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
 {
@@ -111,7 +111,7 @@ static status read_items(struct parse *p, struct yaml_node *list, int depth)
     }
 }
 
-/* Reads a key and its value, and appends the entry to `map`; line and column of the entry are those of the key.
+/* Reads a key and its value from p, and appends the entry to `map`; line and column of the entry are those of the key.
  * key_event: event of the key, already read, which is deleted; depth: levels of nesting above the mapping. Returns
  * REFUSED, with a message, for invalid YAML. */
 static status read_entry(struct parse *p, struct yaml_node *map, yaml_event_t *key_event, int depth)
@@ -146,8 +146,8 @@ static status read_entries(struct parse *p, struct yaml_node *map, int depth)
     }
 }
 
-/* Reads the node that begins with `event` into *out, and deletes the event. depth: levels of nesting above the node.
- * Returns REFUSED, with a message, for invalid YAML and for YAML that a scene may not contain. */
+/* Reads the node of p that begins with `event` into *out, and deletes the event. depth: levels of nesting above the
+ * node. Returns REFUSED, with a message, for invalid YAML and for YAML that a scene may not contain. */
 static status read_value(struct parse *p, yaml_event_t *event, int depth, struct yaml_node **out)
 {
     const char *refusal = event_refusal(event, depth);
@@ -170,8 +170,8 @@ static status read_value(struct parse *p, yaml_event_t *event, int depth, struct
     return OK;
 }
 
-/* Skips one event that begins or ends the stream or a document, and stores its type in *type. Returns REFUSED, with a
- * message, if a second document begins. */
+/* Skips one event of p that begins or ends the stream or a document, and stores its type in *type. Returns REFUSED,
+ * with a message, if a second document begins. */
 static status skip_event(struct parse *p, yaml_event_type_t *type)
 {
     yaml_event_t event;

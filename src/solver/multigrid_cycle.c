@@ -21,9 +21,9 @@ static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t 
     sum[0] -= force + l->rest[i] * x[i];
 }
 
-/* Multiplies matrix block q (2 x 2) by the displacement of the node of its column relative to `own`, the displacement
- * of the node of its row. x: displacements of all nodes. Returns the four products of an entry and a component: the
- * first two sum to the first component of the force, the last two to the second. */
+/* Multiplies matrix block q (2 x 2) of level l by the displacement of the node of its column relative to `own`, the
+ * displacement of the node of its row. x: displacements of all nodes. Returns the four products of an entry and a
+ * component: the first two sum to the first component of the force, the last two to the second. */
 static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(lane_pair_load(x + (int64_t)l->column[q] * 2) - own, two);

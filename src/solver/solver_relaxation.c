@@ -5,8 +5,8 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Moves the supports by 1/s->ramp of their final displacements in step number `step` of the relaxation. Does nothing
- * from step s->ramp on, when the supports have arrived. */
+/* Moves the driven particles of p by 1/s->ramp of their final displacements in step number `step` of the relaxation.
+ * Does nothing from step s->ramp on, when the supports have arrived. */
 static void supports_move(const struct static_solver *s, struct particles *p, int64_t step)
 {
     if (step >= s->ramp) return;
@@ -52,9 +52,10 @@ static real damping(const real *sum)
     return ratio > 0 ? real_min(2 * sqrt(ratio), DAMPING_MOST) : 0;
 }
 
-/* Makes one step of dynamic relaxation, with a pseudo-time step of 1: v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 +
- * c) and x += v for free components. In the first step, which starts at rest, v = f/(2 Lambda). Lambda: fictitious
- * masses s->diagonal; c: damping coefficient [1]; step: number of the step. Stores the forces in s->before. */
+/* Makes one step of dynamic relaxation of the particles p, with a pseudo-time step of 1: v^{n+1/2} = ((2 - c) v^{n-1/2}
+ * + 2 f/Lambda)/(2 + c) and x += v for free components. In the first step, which starts at rest, v = f/(2 Lambda).
+ * Lambda: fictitious masses s->diagonal; c: damping coefficient [1]; step: number of the step. Stores the forces in
+ * s->before. */
 static void particles_move(struct static_solver *s, struct particles *p, int64_t step, real c)
 {
     const real kick = step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
