@@ -301,9 +301,9 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
 /* Frees all arrays of *l and of its loads; the boundaries, which belong to the scene, remain. */
 void loads_free(struct loads *l);
 
-/* Replaces the list of particles on which contact forces may act by list[n] (indices, ascending), which is copied. The
- * forces of these particles are cleared before each step, and they are moved after all forces are complete, not already
- * while bond forces are computed. */
+/* Replaces the list in l of the particles on which contact may act by list[n] (indices, ascending), which is copied.
+ * The forces of these particles are cleared before each step, and they are moved after all forces are complete, not
+ * already while bond forces are computed. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
@@ -332,7 +332,7 @@ status absorbing_boundaries_check(const struct loads *l, const struct particles 
  * grid or mesh), kept by reference. Release with absorbing_dashpots_free. */
 void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
 
-/* Frees the dashpots of all absorbing faces, which absorbing_dashpots_make has made. */
+/* Frees the dashpots in l of all absorbing faces, which absorbing_dashpots_make has made. */
 void absorbing_dashpots_free(struct loads *l);
 
 /* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
@@ -397,7 +397,7 @@ struct prescribed_motion prescribed_motion_make(const struct boundary *b, int di
  * velocity, so that a change of motion that no step follows adds no work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
-/* Returns component `component` of the prescribed velocity [m/s] at the reference position X (dim components [m]); for
+/* Returns component `component` of the velocity of `motion` [m/s] at the reference position X (dim components [m]); for
  * a prescribed displacement its difference over the step divided by dt. at_present_position: true if X is the position
  * of the material at the start of the step, false if it is its reference position. */
 real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
@@ -458,7 +458,7 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
                                      const struct particles *p, const struct kernels *kernels, real half_width, real t,
                                      real dt);
 
-/* Finds the nodes of the mesh whose motion boundaries or mirrors prescribe, and the absorbing dashpots of its nodes.
+/* Finds the nodes of the mesh whose motion loads or mirrors in l prescribe, and the absorbing dashpots of its nodes.
  * Call once at set-up, and again whenever the mesh has lost points to conversion. */
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 

@@ -20,10 +20,10 @@ void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct parti
  * l->place_step, if it is not 0, so that image and particle are exactly symmetric. */
 void loads_update_mirror_images(const struct loads *l, struct particles *p);
 
-/* Checks the distance between parallel mirrors of a body with bonds of at most `bond_length` [m]. A particle between
- * mirrors that are closer would have bonds to images of images on both sides, of which only one exists. The forces
- * would have no potential, and no time step would be stable. Material points have no such limit. Returns REFUSED, with
- * a message, if the distance is at most the bond length minus a spacing. */
+/* Checks the distance between parallel mirrors in l of a body with bonds of at most `bond_length` [m]. A particle
+ * between mirrors that are closer would have bonds to images of images on both sides, of which only one exists. The
+ * forces would have no potential, and no time step would be stable. Material points have no such limit. Returns
+ * REFUSED, with a message, if the distance is at most the bond length minus a spacing. */
 status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length);
 
 /* Returns true if the plane of mirror b is on a row of nodes of grid g or midway between two rows, so that nodes have

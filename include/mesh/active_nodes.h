@@ -12,8 +12,8 @@
  * boundary conditions `loads` act, or that have exposed points (material points to which bonds or loads attach). */
 void active_nodes_update_block_list(struct mesh *mesh, const struct loads *loads);
 
-/* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that
- * computations include, after new points have become exposed. */
+/* Adds the blocks of nodes of `mesh` around exposed points (material points to which bonds or loads attach) to those
+ * that computations include, after new points have become exposed. */
 void active_nodes_add_blocks_at_exposed_points(struct mesh *mesh);
 
 /* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update_block_list. To be

@@ -108,8 +108,8 @@ static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1
 
 /* Makes the levels 1 to `coarse_level_count` of coarse cells over the mesh `finest_mesh`, which is level 0; at first
  * they have no cells. finest_mesh: finest mesh with material points, kept by reference; source: material constants,
- * slits and voids; density: mass density of each material [kg/m^3]. `coarse_level_count` = 0 makes no levels. Returns
- * FAILED, with a message, if a level would have too many nodes. Release with levels_free. */
+ * slits and voids; p: particles; density: mass density of each material [kg/m^3]. `coarse_level_count` = 0 makes no
+ * levels. Returns FAILED, with a message, if a level would have too many nodes. Release with levels_free. */
 status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
                                     const struct particles *p, const struct mesh_source *source, const real *density);
 
@@ -122,16 +122,16 @@ void levels_free(struct mesh_levels *l);
  * convert next. */
 void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
 
-/* Sets the inertia of coarse cells, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that waves
- * in the cells have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that would
- * have this dispersion [m]; wave_speed: speed of longitudinal waves [m/s]; dt: time step [s]. */
+/* Sets the inertia of the coarse cells of l, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such
+ * that waves in the cells have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass
+ * that would have this dispersion [m]; wave_speed: speed of longitudinal waves [m/s]; dt: time step [s]. */
 void levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
-/* Computes the highest (coarsest) admissible level of each cell. A coarse cell must be completely filled with one
- * material and contain no cell of level 0 (the finest) marked in `finest_required`; levels of adjacent cells differ by
- * at most one. finest_required: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required;
- * highest_level: largest level allowed for each cell, NULL for no such limit; admissible: receives the level of the
- * cell to which each cell of level 0 shall belong. */
+/* Computes the highest (coarsest) admissible level of each cell of l with particles p. A coarse cell must be completely
+ * filled with one material and contain no cell of level 0 (the finest) marked in `finest_required`; levels of adjacent
+ * cells differ by at most one. finest_required: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level
+ * 0 is required; highest_level: largest level allowed for each cell, NULL for no such limit; admissible: receives the
+ * level of the cell to which each cell of level 0 shall belong. */
 void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
                                                const uint8_t *finest_required, const uint8_t *highest_level,
                                                uint8_t *admissible);
@@ -159,14 +159,14 @@ void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *c
  * the level of the cell to which it shall belong. Where cells are split, displacement and velocity are interpolated;
  * where cells are merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is
  * distributed among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces
- * become 0. source: material constants. */
+ * become 0. p: particles; source: material constants. */
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                               const uint8_t *new_cell_level);
 
 /* Changes the velocities of all nodes by the nodal forces of half a time step. Between steps, the velocities of level L
  * (0: finest) are half a time step of this level, 2^L dt/2, behind the displacements: dt > 0 brings both to the same
- * time, dt < 0 reverts this. elastic: array of the elastic constants of all materials; finite_strain: true if strains
- * are finite, false if small; |dt|: time step of level 0 [s]. */
+ * time, dt < 0 reverts this. p: particles; elastic: array of the elastic constants of all materials; finite_strain:
+ * true if strains are finite, false if small; |dt|: time step of level 0 [s]. */
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
                                        bool finite_strain, real dt);
 
@@ -187,8 +187,8 @@ void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l);
 int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `highest_level` on their nodes and on nodes of finer levels at the
- * interfaces. The forces of level 0 (the finest) must be complete before. elastic: array of the elastic constants of
- * all materials; finite_strain: true if strains are finite, false if small. */
+ * interfaces. The forces of level 0 (the finest) must be complete before. p: particles; elastic: array of the elastic
+ * constants of all materials; finite_strain: true if strains are finite, false if small. */
 void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
                                            const struct elastic *elastic, bool finite_strain, int highest_level);
 
@@ -202,8 +202,8 @@ real levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, r
 /* Returns the kinetic energy of the nodes of all levels of coarse cells [J], without those of level 0 (the finest). */
 real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l);
 
-/* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. elastic: array of the
- * elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
+/* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. p: particles; elastic: array
+ * of the elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
 real levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
                                           const struct elastic *elastic, bool finite_strain);
 
@@ -222,9 +222,9 @@ real levels_power_of_coarse_nodal_forces(const struct mesh_levels *l);
  * number. */
 int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell_index);
 
-/* Returns true if the deformation has turned a coarse cell inside out: the determinant of the deformation gradient is 0
- * or negative at a point a quarter of the edge from its faces. X then receives the reference position of the first such
- * point of the cell, dim components [m]. */
+/* Returns true if the deformation has turned a coarse cell of l inside out: the determinant of the deformation gradient
+ * is 0 or negative at a point a quarter of the edge from its faces. X then receives the reference position of the first
+ * such point of the cell, dim components [m]. */
 bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X);
 
 /* Connects the coarse levels to the finest mesh (l->fine) after it has been rebuilt with other particles p. Coarse
@@ -232,9 +232,9 @@ bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X);
 void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
 
 /* Saves the coarsening level of each cell, the motion of the nodes of coarse cells and the data for the next change of
- * levels to the archive if a->saving, else restores them. The finest mesh must be restored before. source: material
- * constants. Returns FAILED, with a message, if the archive cannot be read or written or if the restored levels are
- * inconsistent. */
+ * levels to the archive if a->saving, else restores them. The finest mesh must be restored before. p: particles;
+ * source: material constants. Returns FAILED, with a message, if the archive cannot be read or written or if the
+ * restored levels are inconsistent. */
 status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                            struct archive *a);
 

@@ -49,15 +49,16 @@ int64_t mesh_count_connected_parts(const struct particles *p, const struct grid 
 
 /* Updates the mesh after particles have become peridynamic or have changed their partial stress: removes the
  * peridynamic ones from their cells and recomputes these cells. changed_points[changed_count]: indices of these
- * particles, NULL if they are unknown. Each particle that leaves takes its share of mass and momentum from the nodes of
- * its cell, so that nodal velocities are kept. Returns the kinetic energy that is lost by this [J]. */
+ * particles, NULL if they are unknown; source: data of the cells. Each particle that leaves takes its share of mass and
+ * momentum from the nodes of its cell, so that nodal velocities are kept. Returns the kinetic energy that is lost by
+ * this [J]. */
 real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                                                const int32_t *changed_points, int64_t changed_count);
 
-/* Recomputes the stiffness of the cells of the points in changed_points[changed_count] (indices) after only their
- * partial stresses have changed; all points remain in the mesh. Possible only for partial cells. These store a
- * stiffness matrix because points are missing, or leave a part of their stress to bonds. Returns false, without any
- * change, if one of the cells was not partial before or would not be afterwards; call
+/* Recomputes from `source` the stiffness of the cells of the points of p in changed_points[changed_count] (indices)
+ * after only their partial stresses have changed; all points remain in the mesh. Possible only for partial cells. These
+ * store a stiffness matrix because points are missing, or leave a part of their stress to bonds. Returns false, without
+ * any change, if one of the cells was not partial before or would not be afterwards; call
  * mesh_remove_points_and_return_lost_energy then. */
 bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
                                             const struct mesh_source *source, const int32_t *changed_points,
@@ -72,26 +73,26 @@ bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct part
 real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *inserted_points,
                                                int64_t inserted_count);
 
-/* Returns true if the cell with the index `cell` contains a part of the body: it has material points or is part of
- * a coarse cell. */
+/* Returns true if the cell of `mesh` with the index `cell` contains a part of the body: it has material points or is
+ * part of a coarse cell. */
 bool mesh_cell_contains_material(const struct mesh *mesh, int64_t cell);
 
-/* Lists the exposed points of the mesh: material points with bonds, boundary conditions `loads` or mirror images. Their
- * positions and velocities are updated in every step, since bonds and loads read them. */
+/* Lists the exposed points of the mesh: material points of p with bonds, boundary conditions `loads` or mirror images.
+ * Their positions and velocities are updated in every step, since bonds and loads read them. */
 void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
                                        const struct loads *loads);
 
 /* Returns a lower bound of the critical time step of the mesh [s]: the smallest 2/omega over all cells, with the
  * largest angular frequency omega of a cell that moves on its own. after_any_conversion: true to include the cells that
- * would remain if any subset of the points of a cell converted, false for the present cells. density: mass density of
- * each material [kg/m^3]. */
+ * would remain if any subset of the points of a cell converted, false for the present cells. source: data of the cells;
+ * density: mass density of each material [kg/m^3]. */
 real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
                              bool after_any_conversion);
 
-/* Computes the stiffness matrix of the cell with the index `cell` for displacements of its corners in the undeformed
- * state [N/m], from the points that the cell still has, without partial stresses. elastic: array of the elastic
- * constants of all materials; stiffness: receives (dim 2^dim)^2 values, column by column, with index corner x dim +
- * component. Returns false, with stiffness 0, if the cell has no points. */
+/* Computes the stiffness matrix of the cell of `mesh` with the index `cell` for displacements of its corners in the
+ * undeformed state [N/m], from the points of p that the cell still has, without partial stresses. elastic: array of the
+ * elastic constants of all materials; stiffness: receives (dim 2^dim)^2 values, column by column, with index corner x
+ * dim + component. Returns false, with stiffness 0, if the cell has no points. */
 bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
                                  int64_t cell, real *stiffness);
 

@@ -68,15 +68,15 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
 /* Returns true if the material points of at least one body move with a mesh (the reference frame). */
 bool reference_frame_is_in_use(const struct reference_frame *r);
 
-/* Returns true if the particles can be in the reference frame: they form one connected mesh on a lattice that fits the
- * cells of the background grid. */
+/* Returns true if the particles p of scene s can be in the reference frame r: they form one connected mesh on a lattice
+ * that fits the cells of the background grid of `mpm`. */
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm);
 
-/* Makes the mesh of the bodies in the reference frame, and finds exposed points (material points with bonds, loads or
- * mirror images) and loaded nodes. source: partial stresses and slits of this mesh, its other members are ignored;
- * caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards. Returns REFUSED or
- * FAILED, with a message, as mesh_make does. */
+/* Makes the mesh of the bodies of run e in the reference frame, and finds exposed points (material points with bonds,
+ * loads or mirror images) and loaded nodes. source: partial stresses and slits of this mesh, its other members are
+ * ignored; caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards. Returns
+ * REFUSED or FAILED, with a message, as mesh_make does. */
 status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
 /* Returns the critical time step of the cells of the mesh in the reference frame [s], INFINITY if there is none. If
@@ -84,8 +84,8 @@ status reference_frame_make_mesh(struct run *e, const struct mesh_source *source
  * by conversion count, too. */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
-/* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
- * the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
+/* Finds again the points of p in the mesh that have bonds, loads or mirror images (exposed points), and the nodes on
+ * which the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
 void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads);
 
@@ -98,10 +98,10 @@ void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, str
  * finest cells, acts every 2^L steps. */
 void reference_frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Integrates the motion of the nodes under the forces of reference_frame_compute_forces, then updates the points of the
- * mesh that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and reactions those
- * of this step are added; clock: step number and time step; t_middle: time in the middle of the step [s]; dt_velocity:
- * interval over which velocities are advanced [s]. */
+/* Integrates the motion of the nodes under the forces of reference_frame_compute_forces, then updates the points of p
+ * in the mesh that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and
+ * reactions those of this step are added; clock: step number and time step; t_middle: time in the middle of the step
+ * [s]; dt_velocity: interval over which velocities are advanced [s]. */
 void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                                 const struct run_clock *clock, real t_middle, real dt_velocity);
 
@@ -134,7 +134,8 @@ void reference_frame_insert_points(struct reference_frame *r, struct particles *
 /* Returns the kinetic energy of all nodes of the reference frame, of all coarsening levels [J]. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference);
 
-/* Returns the strain energy of all cells of the reference frame, of all coarsening levels [J]. */
+/* Returns the strain energy of all cells of the reference frame r with the particles p, of all coarsening levels
+ * [J]. */
 real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load with the shortest rise time, which requires the smallest cells. RISE_NONE: there is no load;
@@ -179,8 +180,8 @@ struct levels_choice {
 void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
                                                    int64_t particle_count);
 
-/* Returns the number of levels of coarse cells for scene s, and the reason. The number is given by the scene or chosen
- * from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
+/* Returns the number of levels of coarse cells for scene s with particles p, and the reason. The number is given by the
+ * scene or chosen from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
 struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
                                                     const struct scene *s, real dt_critical);
 
@@ -189,9 +190,9 @@ struct levels_choice mesh_levels_choose_level_count(const struct reference_frame
 void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text,
                                       size_t capacity);
 
-/* Returns true if the scene gives more levels of coarse cells than its loads or the thickness of the body allow, and
- * writes why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
- * mesh_levels_choose_level_count. */
+/* Returns true if the scene s gives more levels of coarse cells in `frame` than its loads or the thickness of the body
+ * allow, and writes why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason,
+ * from mesh_levels_choose_level_count. */
 bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                        const struct scene *s, char *reason, size_t capacity);
 
@@ -204,9 +205,10 @@ status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
  * levels have reached the same time. */
 bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step);
 
-/* Computes the coarsening levels of cells (0: finest) for the next steps from stress, cracks and present motion. loads:
- * boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller frees,
- * with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level changes. */
+/* Computes the coarsening levels of cells (0: finest) for the next steps from stress, cracks and present motion. p:
+ * particles; loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array that
+ * the caller frees, with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no
+ * level changes. */
 uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
                                            const struct loads *loads, int64_t step, real mass);
 
@@ -215,12 +217,12 @@ uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const stru
  * particles (levels_need_more_particles). The energy that the change removes is added to e->damped. */
 void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level);
 
-/* Postpones the conversion of material points that are too close to coarse cells: clears the flags by which they would
- * convert, and requests finer cells there. To be called before points convert. */
+/* Postpones the conversion of material points of p that are too close to coarse cells of l: clears the flags by which
+ * they would convert, and requests finer cells there. To be called before points convert. */
 void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p);
 
 /* Updates, after coarsening levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
- * of points of the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
+ * of points of p in the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
 void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                    struct loads *loads);
 
@@ -228,10 +230,10 @@ void mesh_levels_update_node_lists(struct reference_frame *r, const struct parti
  * be left out. */
 const char *scene_why_all_particles_needed(const struct scene *s);
 
-/* Decides, before particles are made, which cells need none because they will be inside coarse cells away from
- * pre-cracks, loads and probes. h: receives these cells in h->absent; it stays NULL if all particles must be made or
- * too few can be left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many
- * cells. */
+/* Decides, before the particles of scene s are made, which cells need none because they will be inside coarse cells
+ * away from pre-cracks, loads and probes. h: receives these cells in h->absent; it stays NULL if all particles must be
+ * made or too few can be left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too
+ * many cells. */
 status cells_without_particles_choose_for_scene(struct cells_without_particles *h, const struct scene *s,
                                                 const struct bond_source *source);
 
@@ -241,8 +243,9 @@ status cells_without_particles_choose_for_scene(struct cells_without_particles *
  * r->hollow now has. */
 bool initial_levels_have_all_needed_particles(struct reference_frame *r, const uint8_t *cell_level);
 
-/* Returns true if a cell that shall have level 0 (the finest) has no particles, so that the run must be set up again
- * with more particles. new_cell_level: for each cell of level 0 the level of the cell to which it shall belong. */
+/* Returns true if a cell of `mesh` that shall have level 0 (the finest) has no particles, so that the run must be set
+ * up again with more particles. new_cell_level: for each cell of level 0 the level of the cell to which it shall
+ * belong. */
 bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell_level);
 
 /* Chooses the cells without particles for the given coarsening levels and stores them in r->hollow. Particles change

@@ -116,14 +116,15 @@ bool scene_file_has_text(const char *path, const char *scene_text);
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
 bool scene_text_is_from_cleave(const char *text);
 
-/* Writes `length` bytes of `text` to the file `file_name` in the folder of the run, first under a temporary name, which
- * is then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
+/* Writes `length` bytes of `text` to the file `file_name` in the folder of the run, o->folder, first under a temporary
+ * name, which is then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be
+ * written. */
 status output_write_text(const struct output *o, const char *file_name, const char *text, size_t length);
 
-/* Writes the index files of all series of frames again, without frames that are missing or incomplete. A frame that was
- * lost at an earlier restart and exists again is listed again. To be called after a restart. Stores the number of lost
- * frames in *lost_frame_count and, unless it is 0, a message about the first lost frame in message[capacity]. Returns
- * FAILED if an index file cannot be written. */
+/* Writes the index files of all series of frames of o again, without frames that are missing or incomplete. A frame
+ * that was lost at an earlier restart and exists again is listed again. To be called after a restart. Stores the number
+ * of lost frames in *lost_frame_count and, unless it is 0, a message about the first lost frame in message[capacity].
+ * Returns FAILED if an index file cannot be written. */
 status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity);
 
 /* First lines of the files of rigid bodies, which are written beside the frames and by which Cleave recognises them
@@ -173,11 +174,11 @@ struct frame_extra {
     struct frame_state state, more_state; /* quantities computed for frames: of the particles, of `more` */
 };
 
-/* Writes the next frame of the whole body at time t [s] after `step` time steps: the file frames/NNNNNN.hdf, then the
- * index files frames.hdf.series and frames.xdmf. Data that do not change while the particles stay the same are written
- * to a separate file before the first frame, and all frames link to it. Particles are sorted by id. All fields but the
- * reference positions have single precision. scene_text: text of the scene, stored in the separate file. Returns when
- * the files are complete, FAILED if one cannot be written. */
+/* Writes to o the next frame of the whole body at time t [s] after `step` time steps: the file frames/NNNNNN.hdf, then
+ * the index files frames.hdf.series and frames.xdmf. Data that do not change while the particles stay the same are
+ * written to a separate file before the first frame, and all frames link to it. Particles are sorted by id. All fields
+ * but the reference positions have single precision. scene_text: text of the scene, stored in the separate file.
+ * Returns when the files are complete, FAILED if one cannot be written. */
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
 /* Starts to write the next frame of a series at time t [s] after `step` time steps, in a separate thread. series: 0 for
@@ -189,13 +190,13 @@ status output_write_frame(struct output *o, const struct particles *p, real t, i
 status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
                           real t, int64_t step, const char *scene_text);
 
-/* Writes all frames of each series as one file with all times for ParaView, frames.vtkhdf, at the end of a run.
+/* Writes all frames of each series of o as one file with all times for ParaView, frames.vtkhdf, at the end of a run.
  * scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more frames
  * than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
 status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_text);
 
-/* Removes the files with all frames, frames.vtkhdf, that an earlier process wrote to the folder of the run, since they
- * lack the frames of a run that continues. */
+/* Removes the files with all frames, frames.vtkhdf, that an earlier process wrote to the folder of the run o, since
+ * they lack the frames of a run that continues. */
 void output_remove_vtkhdf_of_all_frames(const struct output *o);
 
 /* Discards the order of rows, particles by ascending id, that is stored for all series of frames, so that the next
@@ -203,8 +204,8 @@ void output_remove_vtkhdf_of_all_frames(const struct output *o);
  * output_wait_for_frame. */
 void output_discard_particle_order(struct output *o);
 
-/* Waits until the thread that writes a frame has finished. Returns FAILED if the frame could not be written; OK if it
- * was written or there was no frame in progress. */
+/* Waits until the thread that writes a frame of o has finished. Returns FAILED if the frame could not be written; OK if
+ * it was written or there was no frame in progress. */
 status output_wait_for_frame(struct output *o);
 
 /* Opens history.csv and writes its header `name [unit],...` from column[column_count], of which the first two are time
@@ -212,7 +213,7 @@ status output_wait_for_frame(struct output *o);
  * restored. Returns FAILED if the file cannot be opened or written. */
 status output_history_open(struct output *o, const struct column *column, int column_count, bool resume);
 
-/* Appends one line with value[columns] in SI units to history.csv, with 9 significant digits each, and flushes it.
+/* Appends one line with value[columns] in SI units to history.csv of o, with 9 significant digits each, and flushes it.
  * Returns FAILED if the line cannot be written. */
 status output_write_history(struct output *o, const real *value);
 
@@ -270,14 +271,16 @@ status run_list_frames(const char *folder, int *frame_count, struct listed_frame
  * written or read. */
 typedef status archive_all_fn(void *context, struct archive *a);
 
-/* Writes the file checkpoint.h5 after renaming the previous one to checkpoint.previous.h5. The file contains the format
- * version, scene_text, the state that save_or_load_all(context, archive) saves, and a footer with a hash by which
- * damage is detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be written. */
+/* Writes the file checkpoint.h5 in the folder of o after renaming the previous one to checkpoint.previous.h5. The file
+ * contains the format version, scene_text, the state that save_or_load_all(context, archive) saves, and a footer with a
+ * hash by which damage is detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be
+ * written. */
 status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
 
-/* Restores the state of a run by save_or_load_all(context, archive) from checkpoint.h5. If that file is damaged, uses
- * checkpoint.previous.h5 and prints a line on standard error. scene_text: text of the scene of the run. Returns FAILED
- * if both files are damaged or missing, or if the checkpoint belongs to another scene or format version. */
+/* Restores the state of the run in the folder of o by save_or_load_all(context, archive) from checkpoint.h5. If that
+ * file is damaged, uses checkpoint.previous.h5 and prints a line on standard error. scene_text: text of the scene of
+ * the run. Returns FAILED if both files are damaged or missing, or if the checkpoint belongs to another scene or format
+ * version. */
 status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
 
 /* Returns true if `folder`, the folder of a run, holds a checkpoint: checkpoint.h5 or checkpoint.previous.h5. */

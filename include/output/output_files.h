@@ -13,7 +13,7 @@ struct path {
     char text[PATH_ROOM];
 };
 
-/* Returns the path FOLDER/NAME. Returns an empty path if it would exceed the capacity of struct path; every system
+/* Returns the path `folder`/`name`. Returns an empty path if it would exceed the capacity of struct path; every system
  * call refuses an empty path. */
 struct path path_join(const char *folder, const char *name);
 
@@ -21,8 +21,8 @@ struct path path_join(const char *folder, const char *name);
  * capacity - 1 bytes. Returns name. */
 char *path_last_name(char *name, size_t capacity, const char *path);
 
-/* Returns the path frames/NNNNNN.hdf, in the folder of a run, of the frame with the number NNNNNN = number; an empty
- * path if it would be too long. */
+/* Returns the path frames/NNNNNN.hdf, in the folder of a run, of the frame with the number NNNNNN = frame_number; an
+ * empty path if it would be too long. */
 struct path run_frame_path(const char *folder, int frame_number);
 
 /* Creates the folder `path` and its parent folders unless they exist. Returns REFUSED if the path is too long or a

@@ -7,10 +7,10 @@
 /* Formats of pictures and films; PICTURE_FORMATS: number of formats. */
 enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTURE_GIF, PICTURE_FORMATS };
 
-/* Completes the picture in PATH.cleave.tmp, the temporary file of `path`: checks that the file is complete, writes a
- * mark into it by which Cleave recognises its own pictures, synchronises it with the disk and renames it to `path`.
- * Returns FAILED if the file is missing or incomplete, for example on a full disk. The temporary file is removed then,
- * and an existing file at `path` remains. */
+/* Completes the picture of `format` in PATH.cleave.tmp, the temporary file of `path`: checks that the file is complete,
+ * writes a mark into it by which Cleave recognises its own pictures, synchronises it with the disk and renames it to
+ * `path`. Returns FAILED if the file is missing or incomplete, for example on a full disk. The temporary file is
+ * removed then, and an existing file at `path` remains. */
 status picture_replace_by_temporary(const char *path, enum picture_format format);
 
 /* Returns true if the file `path` has the mark by which Cleave recognises its own pictures. */

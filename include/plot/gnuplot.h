@@ -51,19 +51,20 @@ void picture_size_set(struct picture_size size);
 /* Returns the size that picture_size_set has set; width and height are 0 if it was not called. */
 struct picture_size picture_size_get(void);
 
-/* Starts gnuplot to draw the picture `path` of width x height pixels, and stores the process in *g. A size that was set
- * by picture_size_set replaces width and height. Sends the style common to all pictures: thin grey axes at the bottom
- * and left, sans-serif font, key outside on the right. Returns REFUSED if the path has control characters or is a file
- * that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
+/* Starts gnuplot to draw the picture `path` of `format`, width x height pixels, and stores the process in *g. A size
+ * that was set by picture_size_set replaces width and height. Sends the style common to all pictures: thin grey axes at
+ * the bottom and left, sans-serif font, key outside on the right. Returns REFUSED if the path has control characters or
+ * is a file that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Starts gnuplot to draw the picture `path`, which is laid out for width x height pixels, and stores the process in *g.
- * If a size was set by picture_size_set, the whole picture, letters and lines included, is scaled from width x height
- * to that size. Sends the style common to all pictures. Returns REFUSED if the path has control characters or is a file
- * that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
+/* Starts gnuplot to draw the picture `path` of `format`, which is laid out for width x height pixels, and stores the
+ * process in *g. If a size was set by picture_size_set, the whole picture, letters and lines included, is scaled from
+ * width x height to that size. Sends the style common to all pictures. Returns REFUSED if the path has control
+ * characters or is a file that must not be replaced, FAILED if gnuplot cannot be started. Close g with
+ * gnuplot_close. */
 status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Returns the number of pixels with which an image inside a picture is computed along an edge that takes
+/* Returns the number of pixels with which an image inside a picture of `format` is computed along an edge that takes
  * `layout_pixels` pixels in the layout of the picture. It is larger for pictures of a finer resolution, and for vector
  * formats, since these are enlarged by viewers. */
 int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixels);

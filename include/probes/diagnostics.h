@@ -51,10 +51,10 @@ void diagnostics_make(struct diagnostics *w);
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
                                  int grid_count, const real *impulse);
 
-/* Computes the angular momentum of the free bodies about their common centre of mass, stores it in w->now.spin, and
- * updates w->now.spin_error, the largest error so far. mesh: mesh of the reference frame, NULL if none of its nodes
- * carries mass. body_count: number of bodies of the scene. Call this function only if no load, support or mirror acts
- * on the bodies, since angular momentum is conserved only then. */
+/* Computes the angular momentum of the free bodies of particles p about their common centre of mass, stores it in
+ * w->now.spin, and updates w->now.spin_error, the largest error so far. mesh: mesh of the reference frame, NULL if none
+ * of its nodes carries mass. body_count: number of bodies of the scene. Call this function only if no load, support or
+ * mirror acts on the bodies, since angular momentum is conserved only then. */
 void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
                                          int body_count);
 
@@ -63,9 +63,9 @@ void diagnostics_update_angular_momentum(struct diagnostics *w, const struct par
  * diagnostics_update_momentum; its first call defines the energy and momentum at the start. */
 void diagnostics_update_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
 
-/* Returns the relative energy change (E - E_0 - work)/E_0 [1] at the last sample. E is the sum of all energies except
- * the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN if E_0
- * is not positive. */
+/* Returns the relative energy change (E - E_0 - work)/E_0 [1] of w at the last sample. E is the sum of all energies
+ * except the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN
+ * if E_0 is not positive. */
 real diagnostics_relative_energy_change(const struct diagnostics *w);
 
 /* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED is set and that
@@ -76,8 +76,8 @@ real diagnostics_relative_energy_change(const struct diagnostics *w);
 int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
                                                  int64_t particle_count, real horizon, real *cluster_centre);
 
-/* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of
- * the first break of the run. broken_bond_count: number of directed bonds that broke in the step. horizon: length of
+/* Adds the bonds that broke in the step at time t [s] to the number of broken bonds in w, and stores time and position
+ * of the first break of the run. broken_bond_count: number of directed bonds that broke in the step. horizon: length of
  * the longest bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for
  * the first time in the run. */
 bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particles *p, real horizon,
@@ -95,14 +95,14 @@ status diagnostics_check_divergence(const struct particles *p, bool check_peridy
  * missing or has another size. */
 status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
 
-/* Returns true if the energies of the run so far are mere round-off, so that relative energy errors mean nothing: they
- * are below 1e-24 of the kinetic energy of the whole body at the wave speed. mass: mass of the body [kg]; wave_speed:
- * speed of the fastest wave [m/s]. */
+/* Returns true if the energies w of the run so far are mere round-off, so that relative energy errors mean nothing:
+ * they are below 1e-24 of the kinetic energy of the whole body at the wave speed. mass: mass of the body [kg];
+ * wave_speed: speed of the fastest wave [m/s]. */
 bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
 
 /* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored: minus the
- * fracture energy of the last sample if that is negative, else 0. Only bonds of state-based models can have such an
- * excess. */
+ * fracture energy of the last sample in w if that is negative, else 0. Only bonds of state-based models can have such
+ * an excess. */
 real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
 
 #endif

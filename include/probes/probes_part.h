@@ -24,20 +24,20 @@ real particles_largest_stress_component(const struct particles *p);
  * probing->pulses. */
 void scene_list_wave_pulses(const struct scene *s, struct probing *probing);
 
-/* Extends the cracks with prescribed or controlled growth by the growth of one time step, and cuts the bonds that they
- * cross. The speed and direction of a crack controlled by a SIF probe follow from its stress-intensity factors. Returns
- * the number of directed bonds cut. */
+/* Extends the cracks of run e with prescribed or controlled growth by the growth of one time step, and cuts the bonds
+ * that they cross. The speed and direction of a crack controlled by a SIF probe follow from its stress-intensity
+ * factors. Returns the number of directed bonds cut. */
 int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e);
 
 /* Stores in q->residual_step0 the largest force component on grid nodes and on peridynamic particles in the regions of
- * PATCH probes [N]. Under uniform strain these forces should be 0 (patch test). Must be called in the first step, after
- * the forces have been computed and before particles are moved. */
+ * PATCH probes of scene s [N]. Under uniform strain these forces should be 0 (patch test). Must be called in the first
+ * step, after the forces have been computed and before particles are moved. */
 void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
                                              const struct grid_method *grid);
 
 /* Raises q->residual_step0 [N] to the largest force component on those nodes of `mesh`, a mesh in the reference frame,
- * that are in the regions of PATCH probes, if that component is larger. Must be called in the first step, after the
- * forces have been computed and before nodes are moved. */
+ * that are in the regions of PATCH probes of scene s, if that component is larger. Must be called in the first step,
+ * after the forces have been computed and before nodes are moved. */
 void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
 /* Writes the profiles of LINE and EXACT probes as CSV files to the folder of `out`, with the number of the last frame

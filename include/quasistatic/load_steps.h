@@ -37,23 +37,24 @@ status engine_find_equilibrium_for_cost_estimate(struct run *e, real t);
  * Returns FAILED, with a message, if one of them is not found. */
 status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
 
-/* Returns the load size at pseudo-time t [s], a measure that is proportional to the loads: the root of the sum of
- * squares of all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied
- * forces [N]. */
+/* Returns the load size of run e at pseudo-time t [s], a measure that is proportional to the loads: the root of the sum
+ * of squares of all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all
+ * applied forces [N]. */
 real statics_norm_of_prescribed_loads(const struct run *e, real t);
 
-/* Returns why the growth direction of cracks cannot be determined from their stress-intensity factors, a static text,
- * or NULL if it can; key `steps.path` of the scene may exclude it. plane: receives the plane in which the crack tips
- * move, valid only if NULL is returned; may be NULL if the caller does not need it. */
+/* Returns why the growth direction of the cracks of run e cannot be determined from their stress-intensity factors, a
+ * static text, or NULL if it can; key `steps.path` of the scene may exclude it. plane: receives the plane in which the
+ * crack tips move, valid only if NULL is returned; may be NULL if the caller does not need it. */
 const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *plane);
 
-/* Checks a three-dimensional scene that demands crack growth by stress-intensity factors (`steps.path: hoop`). Returns
- * REFUSED, with the reason, if the growth direction cannot be determined from them. Returns OK for other scenes. */
+/* Checks the scene of run e, if it is three-dimensional and demands crack growth by stress-intensity factors
+ * (`steps.path: hoop`). Returns REFUSED, with the reason, if the growth direction cannot be determined from them.
+ * Returns OK for other scenes. */
 status sif_growth_check_scene_allows_it(const struct run *e);
 
-/* Saves the state between two load steps to the archive `a` if a->saving is set, else restores it from `a`. If a->scope
- * is ARCHIVE_TRIAL, only the state that a trial equilibrium changes is saved or restored. Returns FAILED if an entry is
- * missing or has another size. */
+/* Saves the state of run e between two load steps to the archive `a` if a->saving is set, else restores it from `a`. If
+ * a->scope is ARCHIVE_TRIAL, only the state that a trial equilibrium changes is saved or restored. Returns FAILED if an
+ * entry is missing or has another size. */
 status statics_save_or_load(struct run *e, struct archive *a);
 
 /* Frees the arrays in s: system of equations, preconditioner, saved plastic state and bonds of the next crack

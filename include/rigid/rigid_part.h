@@ -73,13 +73,13 @@ void rigids_write_history_values(struct run *e, real *record);
  * history.csv) at time t [s]. The stored velocity of a driven body is the prescribed one at t. */
 void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
 
-/* Replaces the velocities of free bodies that rigids_store_motion_for_sample stored before the step by the mean of
- * these and the current velocities. Must be called after the step; the result is the velocities at the time of the
- * sample. */
+/* Replaces the velocities of free bodies of `rigid` that rigids_store_motion_for_sample stored before the step by the
+ * mean of these and the current velocities. Must be called after the step; the result is the velocities at the time of
+ * the sample. */
 void rigids_average_velocities_for_sample(struct rigid_set *rigid);
 
-/* Replaces the velocities stored by rigids_store_motion_for_sample by those at time t [s], extrapolated from the
- * current ones, for the sample (line of history.csv) after the last time step. dt: time step [s]. */
+/* Replaces the velocities of `rigid` stored by rigids_store_motion_for_sample by those at time t [s], extrapolated from
+ * the current ones, for the sample (line of history.csv) after the last time step. dt: time step [s]. */
 void rigids_extrapolate_velocities_for_sample(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body number `body` at time t [m/s], dim components: for a free body from its

@@ -15,9 +15,9 @@ real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *par
  * (reference_frame_kinetic_energy). */
 real particles_kinetic_energy(const struct particles *p);
 
-/* Returns the elastic strain energy of the material points on the background grid [J]: 1/2 sum sigma : C^-1 : sigma V,
- * without the part of the stress that bonds carry. In plane strain the energy of the change of sigma_zz by plastic
- * flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
+/* Returns the elastic strain energy of the material points of p on the background grid [J]: 1/2 sum sigma : C^-1 :
+ * sigma V, without the part of the stress that bonds carry. In plane strain the energy of the change of sigma_zz by
+ * plastic flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the elastic strain energy [J] of those material points that are among the particles point_list[point_count]
@@ -27,9 +27,9 @@ real points_strain_energy(const struct particles *p, const struct material *m, c
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
                                   const struct partial_stress *partial, const int32_t *point_list, int64_t point_count);
 
-/* Returns the plastic work of the material points [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y, the
- * hardening modulus H and the accumulated plastic strain a. For materials with a flow law it is the plastic work stored
- * with the points. m: array of the materials; partial: partial stresses of the points, NULL for none. */
+/* Returns the plastic work of the material points of p [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y,
+ * the hardening modulus H and the accumulated plastic strain a. For materials with a flow law it is the plastic work
+ * stored with the points. m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the difference between two kinetic energies of a leap-frog velocity update [J]: the mean of 1/2 m v^2 at the
@@ -45,7 +45,7 @@ real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_v
 void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grid_count,
                                real *momentum, real *momentum_scale);
 
-/* Computes the weighted volume and the dilatation of each family of the bonds b at the current positions, before
+/* Computes the weighted volume and the dilatation of each family of the bonds b at the current positions of p, before
  * forces, stresses or energies of state-based peridynamics are computed. Does nothing for bond-based models. s: bond
  * law. */
 static inline void family_states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)

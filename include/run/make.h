@@ -15,9 +15,9 @@ void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const
  * has no absorbing boundary or is static. source: bond law. */
 struct impedance *absorbing_boundary_impedances(const struct scene *s, const struct bond_source *source);
 
-/* Lists in tables->voids the shapes of bodies that may contain voids (narrow slots or gaps), and in tables->void_mirror
- * the planes of the mirror boundaries. Bodies made from particle lists or images are left out. loads: boundary
- * conditions. Returns true if at least one shape was listed. */
+/* Lists in tables->voids the shapes of bodies of scene s that may contain voids (narrow slots or gaps), and in
+ * tables->void_mirror the planes of the mirror boundaries. Bodies made from particle lists or images are left out.
+ * loads: boundary conditions. Returns true if at least one shape was listed. */
 bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
 /* Returns the largest distance across which particles interact [m], through bonds, which are shorter than `cutoff` [m],
@@ -32,7 +32,7 @@ bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_bo
 /* Computes factors on the weights of bonds near free surfaces into w, by moments of the bond weights (key `pd.surface:
  * moments`), and sets source->surface = w, so that w must outlive `source`. Returns REFUSED, with a message, if
  * particles that can have bonds, mirror images included, are not on one lattice. loads: boundary conditions, so that
- * the message can name the boundary whose mirror plane does not fit the lattice. */
+ * the message can name the boundary of scene s whose mirror plane does not fit the lattice. */
 status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct bond_source *source,
                                                const struct particles *p, const struct loads *loads,
                                                const struct scene *s);
@@ -43,11 +43,11 @@ status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct
 status joined_bodies_check_close_enough(const struct scene *s, const struct particles *p, const struct cells *cells,
                                         real cutoff);
 
-/* Checks prescribed velocities and displacements of the boundaries. Returns REFUSED, with a message, if a value
- * depends on the reference position of particles on the grid of the current frame, which does not store it; if, with
- * the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves; or, with `run_begins` (the
- * beginning of a run, not a restart), if particles with a prescribed displacement are not at their reference positions.
- */
+/* Checks the prescribed velocities and displacements of the boundaries of scene s, `loads`. Returns REFUSED, with a
+ * message, if a value depends on the reference position of particles on the grid of the current frame, which does not
+ * store it; if, with the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves; or, with
+ * `run_begins` (the beginning of a run, not a restart), if particles with a prescribed displacement are not at their
+ * reference positions. */
 status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s,
                                bool run_begins);
 

@@ -25,8 +25,8 @@ status fill_bodies_with_particles(struct particles *p, const struct scene *s,
 status fill_compute_lattice_site_position(const struct scene *s, int body, real *X);
 
 /* Finds the cells of the grid hollow->box in which all lattice sites (possible particle positions) are inside the body
- * with the index `body_index`. Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is allocated
- * here and released by the caller. hollow->box must be set before. */
+ * of scene s with the index `body_index`. Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is
+ * allocated here and released by the caller. hollow->box must be set before. */
 void fill_mark_cells_inside_body(struct cells_without_particles *hollow, const struct scene *s, int body_index);
 
 /* Compares the distances between neighbours in the particle list of each body with the particle spacing of the scene.

@@ -124,8 +124,8 @@ struct growth_rule {
     real toughness;              /* K_Ic: the crack grows while K_eq is at least K_Ic [Pa m^(1/2)] */
 };
 
-/* Returns true if the speed of the crack tip is not given but controlled, such that the equivalent stress-intensity
- * factor stays at the toughness. */
+/* Returns true if the speed of the crack tip in `rule` is not given but controlled, such that the equivalent
+ * stress-intensity factor stays at the toughness. */
 static inline bool growth_speed_is_controlled(const struct growth_rule *rule) { return isnan(rule->speed); }
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */

@@ -17,8 +17,8 @@
 #include "requests.h"
 
 /* Method of a scene: peridynamics, material point method, material points that convert to peridynamic particles where
- * the body breaks, or AUTO, which only scene files contain: pilot runs replace it by one of the others (scene_read.h).
- */
+ * the body breaks, or AUTO, which only scene files contain: pilot runs replace it by one of the others
+ * (scene_read.h). */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum { FILL_AUTO, FILL_ALL, FILL_NEEDED }; /* mpm.fill: which particles are created */
 enum { LEVELS_AUTO = 5 };                  /* mpm.levels: auto */
@@ -319,7 +319,7 @@ static inline bool scene_silences_warning(const struct scene *s, enum accept war
     return s->accept >> warning & 1;
 }
 
-/* Returns true if new surfaces can form: by pre-cracks, growing cracks, or bonds that break. */
+/* Returns true if new surfaces can form in scene s: by pre-cracks, growing cracks, or bonds that break. */
 static inline bool scene_can_crack(const struct scene *s)
 {
     return s->cracks > 0 || s->growths > 0 || scene_bonds_break(s);
@@ -334,8 +334,8 @@ static inline bool scene_bodies_can_meet(const struct scene *s)
     return several;
 }
 
-/* Returns the factor from the measure of a region to its volume: the cross-section in 1D [m^2], the thickness in 2D
- * [m], 1 in 3D. */
+/* Returns the factor from the measure of a region of scene s to its volume: the cross-section in 1D [m^2], the
+ * thickness in 2D [m], 1 in 3D. */
 static inline real scene_section_or_thickness(const struct scene *s)
 {
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
@@ -345,8 +345,8 @@ static inline real scene_section_or_thickness(const struct scene *s)
  * position X (s->dim components [m]); -1 if no part contains it. */
 int scene_part_at_position(const struct scene *s, const struct scene_body *b, const real *X);
 
-/* Returns the index of the material at the position X (dim components [m]) in body b: that of the last part of the body
- * that contains X, or `default_material` if no part does. */
+/* Returns the index of the material at the position X (dim components [m]) in body b of scene s: that of the last part
+ * of the body that contains X, or `default_material` if no part does. */
 int scene_material_at_position(const struct scene *s, const struct scene_body *b, const real *X, int default_material);
 
 /* Returns true if particles of body b can consist of the material with the index `material`: it is the material of the
@@ -375,17 +375,18 @@ void scene_find_location_of_message(const void *scene, const char *text, char *p
  * Returns NULL if they can. The text is static. */
 const char *scene_why_reference_frame_unsupported(const struct scene *s, int body);
 
-/* Returns true if, with method mpm and explicit time steps, a body yields whose shape functions are evaluated at the
- * reference positions of its material points (frame `reference`). */
+/* Returns true if, with method mpm and explicit time steps, a body of scene s yields whose shape functions are
+ * evaluated at the reference positions of its material points (frame `reference`). */
 bool scene_has_yielding_body_on_mesh(const struct scene *s);
 
-/* Returns the reason why `mpm.frame: auto` does not choose the frame `reference` for the body with the index `body`,
- * that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is static. */
+/* Returns the reason why `mpm.frame: auto` does not choose the frame `reference` for the body of s with the index
+ * `body`, that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is
+ * static. */
 const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, int body);
 
 /* Returns the reason why messages must not recommend the key `mpm.frame: reference` (shape functions evaluated at
- * reference positions) as a remedy: the reason why `mpm.frame: auto` does not choose it, for the first body for which
- * there is such a reason. Returns NULL if there is none for any body. The text is static. */
+ * reference positions) as a remedy: the reason why `mpm.frame: auto` does not choose it, for the first body of scene s
+ * for which there is such a reason. Returns NULL if there is none for any body. The text is static. */
 const char *scene_why_reference_frame_is_no_remedy(const struct scene *s);
 
 /* Prints the table of keys of scenes to `out`. key: NULL for all keys, a prefix for the keys below it, or one key.

@@ -22,15 +22,15 @@ real scene_critical_stretch_between_materials(const struct scene *s, const struc
 
 #define FREE_OF_TRAPPING 2 /* squared stretch ratio (below) above which the lattice hardly impedes cracks; measured */
 
-/* Returns the horizon [m] with which bonds of material m have the given squared_stretch_ratio = (critical
+/* Returns the horizon [m] with which bonds of material m of scene s have the given squared_stretch_ratio = (critical
  * stretch/stretch at which softening begins)^2. With smaller horizons the ratio is larger. The material must have an
  * energy release rate and a tensile strength. */
 real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
                                                real squared_stretch_ratio);
 
-/* Returns the horizon [m] below which bonds of material m begin to soften, in tension and in shear, because the stress
- * reaches the strength surface. Above it they begin to soften by their own stretch before. The material must have an
- * energy release rate. */
+/* Returns the horizon [m] below which bonds of material m of scene s begin to soften, in tension and in shear, because
+ * the stress reaches the strength surface. Above it they begin to soften by their own stretch before. The material must
+ * have an energy release rate. */
 real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m);
 
 #endif

@@ -22,8 +22,8 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
                                         real horizon, real t, struct warnings *warning_list);
 
 /* Adds a warning to `warning_list`, once in a run, if a pressure of the loads l that does not follow the deformation
- * acts on a surface that has turned by more than 10 degrees: the pressure keeps the direction normal to the undeformed
- * surface and so does work on the rotation. m: state of the checks; t: present time [s]. */
+ * acts on a surface of p that has turned by more than 10 degrees: the pressure keeps the direction normal to the
+ * undeformed surface and so does work on the rotation. m: state of the checks; t: present time [s]. */
 void large_motion_warn_of_turned_pressure(struct large_motion *m, const struct particles *p, const struct loads *l,
                                           real t, struct warnings *warning_list);
 

@@ -68,12 +68,12 @@ struct run_report {
     const volatile sig_atomic_t *stop; /* set by a signal handler to stop after a checkpoint; may be NULL */
 };
 
-/* Returns the number of frames of the whole body that the run writes in addition to the frame at t = 0. clock: time
- * step and number of steps of the run. */
+/* Returns the number of frames of the whole body that the run of scene s writes in addition to the frame at t = 0.
+ * clock: time step and number of steps of the run. */
 int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock *clock);
 
-/* Returns the number of the time step after which frame number `frame` of the whole body is written; frame 0 is written
- * at t = 0. clock: time step and number of steps of the run. */
+/* Returns the number of the time step after which frame number `frame` of the whole body in scene s is written; frame 0
+ * is written at t = 0. clock: time step and number of steps of the run. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
 /* Returns the wall-clock times of the run so far [s], in this process and those before a restart. timers: sections of
@@ -81,9 +81,9 @@ int64_t report_step_number_of_frame(const struct scene *s, const struct run_cloc
 struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers);
 
 /* Returns the set of frame series (each the frames of the whole body or of a region) that must be written after `step`
- * time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0
- * if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg, relaxation`) writes frames
- * at its start and its end only. */
+ * time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of scene s. clock: time
+ * step. Returns 0 if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg,
+ * relaxation`) writes frames at its start and its end only. */
 unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                                          int64_t step);
 
@@ -123,8 +123,9 @@ struct crack_tips;
 void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct scene *s,
                                        struct warnings *warning_list);
 
-/* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law. The
- * warning is added to *warning_list and printed; *r stores that it has been given, so that later calls do nothing. */
+/* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law in
+ * scene s. The warning is added to *warning_list and printed; *r stores that it has been given, so that later calls do
+ * nothing. */
 void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s,
                            struct warnings *warning_list);
 

@@ -31,8 +31,8 @@ struct viscosity {
  * after the bond forces and before the loads are added. Does nothing if no material is viscous. */
 void viscosity_add_bond_forces_and_pressure(struct run *e);
 
-/* Changes the normal stresses of points on the grid by the viscous pressure q: subtracts it if `subtract` is true,
- * before stresses are mapped to nodes; restores the stresses without q if `subtract` is false. Does nothing if no
+/* Changes the normal stresses of points of p on the grid by the viscous pressure q of v: subtracts it if `subtract` is
+ * true, before stresses are mapped to nodes; restores the stresses without q if `subtract` is false. Does nothing if no
  * material is viscous. */
 void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract);
 

@@ -52,8 +52,8 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct
 
 /* ---- check_strength.c -------------------------------------------------------------------------------------------- */
 
-/* Prints, for a material m whose bonds soften, its strengths, its softening law and the limits that they set to the
- * horizon. Prints nothing for other materials. */
+/* Prints, for a material m of scene s whose bonds soften, its strengths, its softening law and the limits that they set
+ * to the horizon. Prints nothing for other materials. */
 void print_softening_and_horizon_limits(const struct scene *s, const struct material *m);
 
 /* Prints, as a part of a sentence, the strength that brittle bonds of material m have at the horizon of the scene s.
@@ -66,17 +66,17 @@ void print_brittle_strength(const struct scene *s, const struct material *m);
 
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
 
-/* Prints the length of the smallest pre-crack and its ratio to the horizon. Prints nothing unless the body is plane and
- * its bonds soften. */
+/* Prints the length of the smallest pre-crack of run e and its ratio to the horizon. Prints nothing unless the body is
+ * plane and its bonds soften. */
 void print_smallest_precrack_length(const struct run *e);
 
-/* Writes a remark to `out` for each 2D crack whose two tips are less than FEATURE horizons apart, so that they affect
- * each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as half of a crack of twice
- * its length. */
+/* Writes a remark to `out` for each 2D crack of scene s whose two tips, in `fracture`, are less than FEATURE horizons
+ * apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as
+ * half of a crack of twice its length. */
 void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
-/* Adds a hint to *warning_list for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether it
- * cuts them. */
+/* Adds a hint to *warning_list for each 2D pre-crack of run e that ends exactly on bonds, so that rounding decides
+ * whether it cuts them. */
 void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *warning_list);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
@@ -84,7 +84,7 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
 /* Prints to standard output the solver of the load steps of run e and the rule by which cracks grow. */
 void print_load_step_solver(const struct run *e);
 
-/* Writes a line to `out` for each setting that reduces the accuracy of load steps: loads, supports, lengths of
+/* Writes a line to `out` for each setting of run e that reduces the accuracy of load steps: loads, supports, lengths of
  * cracks. */
 void print_load_step_accuracy_advice(const struct run *e, FILE *out);
 
@@ -108,21 +108,21 @@ void print_bodies_of_separate_pieces(const struct run *e);
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
 /* Returns the smallest edge, diameter or wall thickness [m] of the solid `solid`. An edge that ends at a plane of
- * symmetry of the scene counts with its mirror image. Returns INFINITY if the solid has none of these. */
+ * symmetry of run e counts with its mirror image. Returns INFINITY if the solid has none of these. */
 real solid_smallest_edge(const struct run *e, const struct solid *solid);
 
-/* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. For a single solid
- * this is its smallest edge divided by the spacing, INFINITY unless this is less than `max_layers`. For other shapes it
- * is a count, INFINITY unless at least half of the particles have fewer layers than half of `max_layers`. Returns
- * INFINITY for a body that is joined to one of a lower index. body_index: index of the body. */
+/* Returns the number of particle layers across the thin parts of a body of run e and the bodies joined to it. For a
+ * single solid this is its smallest edge divided by the spacing, INFINITY unless this is less than `max_layers`. For
+ * other shapes it is a count, INFINITY unless at least half of the particles have fewer layers than half of
+ * `max_layers`. Returns INFINITY for a body that is joined to one of a lower index. body_index: index of the body. */
 double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
 
-/* Writes a line to `out` for each body of nearly incompressible material whose particles near faces are too stiff, or
- * whose mesh cells are too soft, in bending. */
+/* Writes a line to `out` for each body of run e of nearly incompressible material whose particles near faces are too
+ * stiff, or whose mesh cells are too soft, in bending. */
 void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
 
-/* Writes a line to `out` for each support that holds a layer of particles behind a face, a horizon deep by default, and
- * so stiffens a body of bonds in equilibrium by more than a few percent. */
+/* Writes a line to `out` for each support of run e that holds a layer of particles behind a face, a horizon deep by
+ * default, and so stiffens a body of bonds in equilibrium by more than a few percent. */
 void print_advice_on_held_layers(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
@@ -135,12 +135,12 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
-/* Writes a line to `out` for each narrow part of a body whose width is no whole number of spacings, so that the
- * particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
+/* Writes a line to `out` for each narrow part of a body of run e whose width is no whole number of spacings, so that
+ * the particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
 void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out);
 
-/* Writes a line to `out` for each body of material points in the current frame that starts apart from a plane of
- * symmetry, with the distance at which the grid stops it there [m] (check_walls.c). */
+/* Writes a line to `out` for each body of material points of run e in the current frame that starts apart from a plane
+ * of symmetry, with the distance at which the grid stops it there [m] (check_walls.c). */
 void print_wall_advice(const struct run *e, FILE *out);
 
 /* Text of a length with its unit, for messages; a struct, so that functions can return it by value. */
@@ -161,9 +161,9 @@ void print_loads(const struct run *e);
  * it, and act until the end of the run, with the motion of the body by them and a remedy. */
 void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
 
-/* Prints which share of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary,
- * the mean angle between normal and axis there, and a region that would exclude this part of the face. Prints instead
- * where the face lies if it is in several planes and the boundary has no region. */
+/* Prints which share of the loaded or supported face of boundary b of run e is not perpendicular to the axis of the
+ * boundary, the mean angle between normal and axis there, and a region that would exclude this part of the face. Prints
+ * instead where the face lies if it is in several planes and the boundary has no region. */
 void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b);
 
 /* Prints, for the bodies of run e that are not boxes, the volume of the particles compared with the volume of the shape
@@ -193,17 +193,18 @@ void print_accuracy_advice(const struct run *e, FILE *out);
  * each end of a crack that is exactly on bonds. The run must not have taken a step. */
 void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list);
 
-/* Writes to `out` by how much the stiffness of a part that is `layer_count` particle layers thick differs at most from
- * that of the material, for example "about 2 % in bending and tension". In 3D, torsion is included. The values are from
- * a table. surface: correction of bonds near faces. */
+/* Writes to `out` by how much the stiffness of a part of scene s that is `layer_count` particle layers thick differs at
+ * most from that of the material, for example "about 2 % in bending and tension". In 3D, torsion is included. The
+ * values are from a table. surface: correction of bonds near faces. */
 void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out);
 
 /* Writes a line to `out` for each body of run e that has thin parts and whose particles are read from a list and form
  * no lattice. */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
-/* Returns true if the scene equals its mirror image in the plane normal to axis `normal_axis` through the middle of its
- * particles. *plane_position receives the position of this plane along the axis [m] (check_symmetry.c). */
+/* Returns true if the scene of run e equals its mirror image in the plane normal to axis `normal_axis` through the
+ * middle of its particles. *plane_position receives the position of this plane along the axis [m]
+ * (check_symmetry.c). */
 bool scene_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
 
 #endif

@@ -45,10 +45,10 @@ real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, 
  * `measured`). If no width was measured, prints a line for the part with the largest error. */
 void print_parts_of_uneven_width(struct uneven_list *list, FILE *out);
 
-/* Adds the necks of the piece list->piece (a body, or its part of one material) to the list. A neck is a narrow part
- * that widens on both sides, such as the ligament between a hole and an edge. cover: lattice cells of the piece.
- * listed_axes[cells] excludes parts that are in the list already: bit d is set for cells of a listed part whose width
- * is measured along axis d. */
+/* Adds the necks of the piece list->piece of `run` (a body, or its part of one material) to the list. A neck is a
+ * narrow part that widens on both sides, such as the ligament between a hole and an edge. cover: lattice cells of the
+ * piece. listed_axes[cells] excludes parts that are in the list already: bit d is set for cells of a listed part whose
+ * width is measured along axis d. */
 void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *run, const struct cover *cover,
                                     uint8_t *listed_axes);
 

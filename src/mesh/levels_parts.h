@@ -87,7 +87,7 @@ static inline bool levels_coarse_cell_contains_finer_level(const struct mesh_lev
     return any;
 }
 
-/* Returns the material (index in the materials of the run) of cell `cell` of level 0, the finest; the cell must be
+/* Returns the material (index in the materials of the run) of cell `cell` of `finest_mesh`, level 0; the cell must be
  * completely filled. If its particles p are not made, the body has only one material, which is returned. */
 static inline uint8_t mesh_whole_cell_material(const struct mesh *finest_mesh, const struct particles *p, int64_t cell)
 {
@@ -111,9 +111,9 @@ void levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level)
  * the edge or the corners of the face. */
 void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level);
 
-/* Determines the cells of all coarse levels from l->level, the coarsening level of each cell of level 0 (the finest):
- * their kind, material and number, and the masses of their nodes (the mass of a cell is divided equally among its
- * corners). The transfer of mass between levels follows in levels_add_masses_of_dependent_nodes. */
+/* Determines the cells of all coarse levels with particles p from l->level, the coarsening level of each cell of level
+ * 0 (the finest): their kind, material and number, and the masses of their nodes (the mass of a cell is divided equally
+ * among its corners). The transfer of mass between levels follows in levels_add_masses_of_dependent_nodes. */
 void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p);
 
 /* Finds the nodes at interfaces of coarsening levels: ghosts, at the position of a node of the next finer level, and
@@ -134,7 +134,7 @@ void levels_make_cell_rows_and_node_spans(struct mesh_levels *l);
  * cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent cell. */
 void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
 
-/* Computes grid.momentum of the nodes of coarse cells, their momentum divided by their mass [m/s], from their
+/* Computes grid.momentum of the nodes of the coarse cells of l, their momentum divided by their mass [m/s], from their
  * velocities: inverts mesh_velocity iteratively up to round-off, then sets the velocities to the result of
  * mesh_velocity. The nodal forces serve as working memory and are 0 afterwards. */
 void levels_compute_momenta_from_velocities(struct mesh_levels *l);

@@ -30,16 +30,16 @@ struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh);
  * mesh_partial_compute_stiffness. */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 
-/* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several
- * materials or doubled nodes). source: material constants and partial stresses; cell_needs_update: a byte for each
- * cell, not 0 where the stiffness must be computed anew, NULL for all cells; previous_cells: result of
+/* Computes the stiffness of all partial cells of the mesh with particles p (cells with missing points, partial
+ * stresses, several materials or doubled nodes). source: material constants and partial stresses; cell_needs_update: a
+ * byte for each cell, not 0 where the stiffness must be computed anew, NULL for all cells; previous_cells: result of
  * mesh_partial_remove_and_return_cells, from which the stiffness of all other cells is copied, and which is freed. */
 void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                     const uint8_t *cell_needs_update, struct mesh_partial *previous_cells);
 
-/* Recomputes the stiffness of the partial cells (cells with missing points, partial stresses, several materials or
- * doubled nodes) marked in `cell_is_marked`, a byte for each cell. The list of partial cells is unchanged. source:
- * material constants and partial stresses. */
+/* Recomputes the stiffness of the partial cells of `mesh` (cells with missing points, partial stresses, several
+ * materials or doubled nodes) marked in `cell_is_marked`, a byte for each cell. The list of partial cells is unchanged.
+ * source: material constants and partial stresses. */
 void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                          const uint8_t *cell_is_marked);
 
