@@ -47,10 +47,10 @@ void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particl
  * stiffness. */
 void mesh_partial_free(struct mesh *mesh);
 
-/* Finds the nodes at which slits (pre-cracks) or voids (narrow gaps of a body) of `source` separate the points around
- * them, and adds second nodes there. The box of nodes, which covers the range between the corners `lower_corner` and
- * `upper_corner` [m], is extended by rows for these. Returns FAILED, with a message, if there are too many nodes.
- * Release with mesh_slits_free. */
+/* Finds the nodes of `mesh` with particles p at which slits (pre-cracks) or voids (narrow gaps of a body) of `source`
+ * separate the points around them, and adds second nodes there. The box of nodes, which covers the range between the
+ * corners `lower_corner` and `upper_corner` [m], is extended by rows for these. Returns FAILED, with a message, if
+ * there are too many nodes. Release with mesh_slits_free. */
 status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                const real *lower_corner, const real *upper_corner);
 
@@ -59,10 +59,10 @@ status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, con
  * after the blocks are made. */
 void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
 
-/* Stores the node indices of the corners of partial cells (cells with missing points, several materials or doubled
- * nodes) that touch a slit, a pre-crack as free surface. Partial cells are computed in groups of eight; the indices are
- * stored for all cells of a group if one of them touches a slit. Needed because slits double nodes, so that the corners
- * of such cells are not at fixed index distances from the cell. To be called after the groups are made. */
+/* Stores in mesh->slits the node indices of the corners of partial cells (cells with missing points, several materials
+ * or doubled nodes) that touch a slit, a pre-crack as free surface. Partial cells are computed in groups of eight; the
+ * indices are stored for all cells of a group if one of them touches a slit. Needed because slits double nodes, so that
+ * the corners of such cells are not at fixed index distances from the cell. To be called after the groups are made. */
 void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
 
 /* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh, which mesh_slits_double_nodes has made. */
@@ -74,13 +74,14 @@ void mesh_slits_free(struct mesh_slits *s);
 void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                            real *const *nodal_value);
 
-/* Computes nodal values of a vector field as mesh_fit_nodal_values does, but for the listed nodes only; the iteration
- * starts from their present values, and all other nodes are unchanged. node_list[node_count]: node indices. */
+/* Computes nodal values of a vector field as mesh_fit_nodal_values does, from point_value to nodal_value, but for the
+ * listed nodes only; the iteration starts from their present values, and all other nodes are unchanged.
+ * node_list[node_count]: node indices. */
 void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                                      real *const *nodal_value, const int32_t *node_list, int64_t node_count);
 
-/* Returns the cell of `particle` and its number in this cell as (cell << dim) + number, from its reference position, or
- * -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
+/* Returns the cell of `mesh` that contains `particle` of p and its number in this cell as (cell << dim) + number, from
+ * its reference position, or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
 int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
 
 /* Recomputes mass [kg] and inverse mass of the mesh node with the index `node` from the points p in the cells around
@@ -88,8 +89,8 @@ int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const st
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
- * mesh->level, the coarsening level of each cell, has changed in some cells. source: material constants and partial
- * stresses; level_has_changed: [mesh->grid.n + LANES] not 0 for cells whose level has changed. */
+ * mesh->level, the coarsening level of each cell, has changed in some cells. p: particles; source: material constants
+ * and partial stresses; level_has_changed: [mesh->grid.n + LANES] not 0 for cells whose level has changed. */
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
                                            const struct mesh_source *source, const uint8_t *level_has_changed);
 
@@ -98,12 +99,12 @@ void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct parti
  * materials of the cells and masses of the nodes. */
 void mesh_make_cell_rows_and_node_spans(struct mesh *mesh);
 
-/* Finds in each row of nodes along the first axis the span of nodes with mass (first node, and the one after the
- * last), to which loops over nodes are limited. */
+/* Finds in each row of nodes of `mesh` along the first axis the span of nodes with mass (first node, and the one after
+ * the last), to which loops over nodes are limited. */
 void mesh_find_node_spans_with_mass(struct mesh *mesh);
 
-/* Makes the blocks of nodes (eight along x) next to cells active, i.e. included in computations, and all other blocks
- * inactive. */
+/* Makes the blocks of nodes of `mesh` (eight along x) next to cells active, i.e. included in computations, and all
+ * other blocks inactive. */
 void mesh_activate_node_blocks_at_cells(struct mesh *mesh);
 
 /* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation gradient
@@ -116,8 +117,8 @@ bool mesh_cell_is_inverted(const struct mesh *mesh, int64_t cell);
 status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
                          const real *upper_corner, const struct particles *p, const struct mesh_source *source);
 
-/* Returns true if cell `cell` of level 0 (the finest) is part of a coarse cell, by its coarsening level or because its
- * particles are not made. */
+/* Returns true if cell `cell` of `mesh`, level 0 (the finest), is part of a coarse cell, by its coarsening level or
+ * because its particles are not made. */
 static inline bool mesh_cell_is_part_of_coarse_cell(const struct mesh *mesh, int64_t cell)
 {
     return (mesh->level && mesh->level[cell] > 0) || (mesh->absent && mesh->absent[cell]);

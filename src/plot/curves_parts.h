@@ -58,7 +58,8 @@ struct curves_layout {
 struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_entry_count, size_t longest_key_entry,
                                         bool has_second_axis);
 
-/* Returns the height [pixel] between the upper edge of the first panel and the lower edge of the last one. */
+/* Returns the height [pixel] between the upper edge of the first panel of `layout` and the lower edge of the last
+ * panel. */
 double curves_layout_height_of_all_panels(const struct curves_layout *layout);
 
 /* Writes the gnuplot commands for the margins of a panel of a picture with the given layout. upper_edge, lower_edge:

@@ -70,8 +70,8 @@ double tic_numbers_width(double low, double high, double tics, const char *forma
  * values at the ends of the axis; axis_width: length of the axis [pixel]. Returns the distance. */
 double tic_distance_on_horizontal_axis(double low, double high, double axis_width);
 
-/* Returns the width [pixel] that a colour bar with its numbers and its label takes on the right of panels.
- * panels_height: height of all rows of panels [pixel]. */
+/* Returns the width [pixel] that a colour bar with its numbers and its label takes on the right of panels with the
+ * content `shown`. panels_height: height of all rows of panels [pixel]. */
 int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_height);
 
 /* Collects the entries of the key (legend) of a picture in *key: kinds of particles, fragments or named values, as the
@@ -89,8 +89,8 @@ void map_colour_bar_draw(FILE *gnuplot, const struct layout *layout, const struc
                          int64_t particle_count);
 
 /* Writes the gnuplot commands that set the margins such that the next plot fills a box of the given width and height
- * [pixel]. left_edge, upper_edge: distances of the upper left corner of the box from the left and upper edge of the
- * picture [pixel]. */
+ * [pixel] in the picture with `layout`. left_edge, upper_edge: distances of the upper left corner of the box from the
+ * left and upper edge of the picture [pixel]. */
 void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge, double width,
                        double height);
 
@@ -110,17 +110,18 @@ double panel_numbers_width(const struct view *view, double width);
  * panel; height: height of the panel [pixel]. */
 double panel_margin_of_numbers(const struct view *view, double height);
 
-/* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. particles: particles
- * of the panel; axis_unit: unit of the axes; column: column of the panel, from 0 (the vertical axis has labels in
- * column 0 only); is_lowest: true if no panel is below it, so that its lower axis has labels. */
+/* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. layout: layout of the
+ * picture; view: rectangle of the panel; particles: particles of the panel; axis_unit: unit of the axes; column: column
+ * of the panel, from 0 (the vertical axis has labels in column 0 only); is_lowest: true if no panel is below it, so
+ * that its lower axis has labels. */
 void panel_write_axes(FILE *gnuplot, const struct layout *layout, const struct view *view,
                       const struct plotted_particles *particles, const struct unit *axis_unit, int column,
                       bool is_lowest);
 
 /* Writes the gnuplot commands that draw, below a panel with a view of a three-dimensional body from outside, its
- * coordinate axes as arrows and a bar of known length. view: rectangle of the panel; particles: particles of the panel;
- * axis_unit: unit of length; left_edge, upper_edge: distances of the upper left corner of the panel from the left and
- * upper edge of the picture [pixel]. */
+ * coordinate axes as arrows and a bar of known length. layout: layout of the picture; view: rectangle of the panel;
+ * particles: particles of the panel; axis_unit: unit of length; left_edge, upper_edge: distances of the upper left
+ * corner of the panel from the left and upper edge of the picture [pixel]. */
 void panel_write_axis_arrows(FILE *gnuplot, const struct layout *layout, const struct view *view,
                              const struct plotted_particles *particles, const struct unit *axis_unit, double left_edge,
                              double upper_edge);

@@ -30,30 +30,32 @@ void marks_begin_data_block(struct marks *m);
  * the projection of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
 void marks_add_point(struct marks *m, const real *position, const double *arrow);
 
-/* Ends the current data block and adds the element that draws it to the plot command. plot_style: text of this element
- * after the name of the block, such as "using 1:2 with points"; key_entry: text of its entry in the key (legend), ""
- * for no entry. */
+/* Ends the current data block of m and adds the element that draws it to the plot command. plot_style: text of this
+ * element after the name of the block, such as "using 1:2 with points"; key_entry: text of its entry in the key
+ * (legend), "" for no entry. */
 void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry);
 
 /* Adds symbols for loads, supports, mirrors and absorbing faces of the scene to the marks *m of its picture. */
 void marks_draw_symbols_of_loads(struct marks *m);
 
-/* Draws arrows for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
+/* Draws arrows in the picture m for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
 void marks_draw_arrows_of_velocities(struct marks *m);
 
-/* Draws the pre-cracks of the scene as lines, and an arrow where each crack with prescribed growth starts. */
+/* Draws the pre-cracks of the scene in the picture m as lines, and an arrow where each crack with prescribed growth
+ * starts. */
 void marks_draw_lines_of_precracks(struct marks *m);
 
 /* Adds symbols at the positions of the probes of the scene to the marks *m of its picture. */
 void marks_draw_symbols_of_probes(struct marks *m);
 
-/* Draws the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each size of cells. */
+/* Draws in the picture m the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each size of
+ * cells. */
 void marks_draw_outlines_of_coarse_cells(struct marks *m);
 
 /* Adds boxes around the named regions of the scene to the marks *m of its picture. */
 void marks_draw_boxes_of_named_regions(struct marks *m);
 
-/* Adds an entry to the key (legend) of the picture: a square in the colour `colour` and the text `text`. */
+/* Adds an entry to the key (legend) of the picture m: a square in the colour `colour` and the text `text`. */
 void marks_add_colour_to_key(struct marks *m, struct colour colour, const char *text);
 
 #endif

@@ -94,10 +94,10 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
  * Must be called before the time step. */
 void probe_motion_store_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes the velocities of a probe's particles at the time of the sample by interpolation between the velocities that
- * probe_motion_store_before_step copied and the present ones; after the last step they are extrapolated, and the
- * present positions are used. Must be called after the time step. present_velocity_time: time of the present
- * velocities, and a factor on the result that removes half a step of damping. Does nothing if
+/* Computes the velocities of the particles of probe q in run o at the time of the sample by interpolation between the
+ * velocities that probe_motion_store_before_step copied and the present ones; after the last step they are
+ * extrapolated, and the present positions are used. Must be called after the time step. present_velocity_time: time of
+ * the present velocities, and a factor on the result that removes half a step of damping. Does nothing if
  * probe_motion_store_before_step was not called, as for equilibria: probe_particle_velocity_component then returns the
  * present velocities. */
 void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
@@ -133,8 +133,8 @@ static inline real probe_particle_velocity_component(const struct probe *q, cons
 /* Names of the axes: x, y, z. */
 extern const char *const axis_name[DIM_MAX];
 
-/* Returns the index of the particle nearest to the reference position `position`, dim components [m]. Returns -1 if
- * `position` is outside the bodies, i.e. if no particle is within 3/4 of the diagonal of a lattice cell. */
+/* Returns the index of the particle of run o nearest to the reference position `position`, dim components [m]. Returns
+ * -1 if `position` is outside the bodies, i.e. if no particle is within 3/4 of the diagonal of a lattice cell. */
 int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
 /* Computes the reference position of station number `station` of a LINE probe, position[dim] [m]. Stations 0 ..
@@ -172,16 +172,16 @@ struct pulse_shares {
     real reflected, transmitted, energy_change;
 };
 
-/* Stores the largest initial speed of the body as the incident amplitude of a PULSE probe. Returns REFUSED if nothing
- * moves at the start. */
+/* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q. Returns REFUSED
+ * if nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
 
 /* Returns the reflected and transmitted amplitudes of a PULSE probe, relative to its incident amplitude, and the
  * energy change of the present state relative to that of the run on material points alone. */
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
-/* Tests whether broken bonds separate the bar of a SPALL probe into two parts along x. If so, stores the position of
- * the plane of separation and the time in q->memory; else changes nothing. */
+/* Tests whether broken bonds separate the bar of the SPALL probe q in run o into two parts along x. If so, stores the
+ * position of the plane of separation and the time in q->memory; else changes nothing. */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
 /* Computes the mean velocities along x of the two parts of the bar of a SPALL probe, which broken bonds have separated:
@@ -209,9 +209,9 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 /* Names and units of the quantities that a SIF probe reports: K_I, K_II, J, contour_spread. */
 extern const struct column sif_figure[SIF_FIGURES];
 
-/* Finds the crack tip of a SIF probe, its integration contours, and the material around the tip. Returns REFUSED if
- * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
- * another crack tip or material. */
+/* Finds the crack tip of the SIF probe q in run o, its integration contours, and the material around the tip. Returns
+ * REFUSED if the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or
+ * contain another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
 /* Frees w, the crack tip and the contours of a SIF probe, which sif_probe_find_tip_and_contours has made; w may be
@@ -222,8 +222,8 @@ void sif_probe_free(struct sif_tracked *w);
  * time step. */
 void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes K_I, K_II, J and their spread between the integration contours of a SIF probe at the time of the sample, and
- * stores them in q->memory.factors. velocity_time: time of the present velocities [s]. */
+/* Computes K_I, K_II, J and their spread between the integration contours of the SIF probe q in run o at the time of
+ * the sample, and stores them in q->memory.factors. velocity_time: time of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
 
 /* Returns true if the stress-intensity factors of SIF probe q at its last sample are reliable: they were computed, and
@@ -244,18 +244,18 @@ static inline real sif_probe_result(const struct probe *q, int figure)
  * of angular momentum and kinetic energy. */
 extern const struct column rigid_figure[RIGID_FIGURES];
 
-/* Stores the angular momentum and the kinetic energy of the particles of a RIGID probe at the start. Returns REFUSED
- * if the scene is not plane. */
+/* Stores the angular momentum and the kinetic energy of the particles of the RIGID probe q in run o at the start.
+ * Returns REFUSED if the scene is not plane. */
 status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
-/* Computes the rotation angle value[0] of the body of a RIGID probe [rad], its largest absolute principal stress
- * value[1] and its largest in-plane shear stress value[2] [Pa] at the present positions, and updates q->memory.rigid.
- */
+/* Computes the rotation angle value[0] of the body of the RIGID probe q in run o [rad], its largest absolute principal
+ * stress value[1] and its largest in-plane shear stress value[2] [Pa] at the present positions, and updates
+ * q->memory.rigid. */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
 
-/* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of a RIGID
- * probe relative to the values at the start [1]; both should be conserved. NAN if the value at the start is 0. Call
- * this function when the velocities at the time of the sample are known. */
+/* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body (particles of
+ * p) of the RIGID probe q relative to the values at the start [1]; both should be conserved. NAN if the value at the
+ * start is 0. Call this function when the velocities at the time of the sample are known. */
 void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
@@ -269,21 +269,21 @@ struct bar {
     real *flux, *strain;           /* [n] by rank: stress by bond flux [Pa]; strain du/dx [1] */
 };
 
-/* Finds the particles, ends, material and load of the bar of an EXACT probe and allocates q->bar. Returns REFUSED if
- * the bar or its loads differ from what the closed-form solution describes. */
+/* Finds the particles, ends, material and load of the bar of the EXACT probe q in run o and allocates q->bar. Returns
+ * REFUSED if the bar or its loads differ from what the closed-form solution describes. */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
 /* Frees the bar of an EXACT probe, which bar_probe_find_bar_and_load has made, with its arrays; `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
-/* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
- * arrays of *bar. */
+/* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar in run o and stores them in
+ * the arrays of *bar. */
 void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
 
-/* Computes the stress by bond flux of each particle, flux[n] by rank from left to right [Pa]: the sum of the forces of
- * all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond counts fully for
- * particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror images of
- * particles are included. Material points have their Cauchy stress instead. */
+/* Computes the stress by bond flux of each particle of `bar` in run o, flux[n] by rank from left to right [Pa]: the sum
+ * of the forces of all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond
+ * counts fully for particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror
+ * images of particles are included. Material points have their Cauchy stress instead. */
 void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *flux);
 
 /* Largest number of quantities that an EXACT probe reports of a bar; they are also columns of history.csv. */
@@ -296,8 +296,9 @@ int bar_probe_value_count(enum exact_form closed_form);
  * value_number < bar_probe_value_count(closed_form). */
 struct column bar_probe_value_column(enum exact_form closed_form, int value_number);
 
-/* Updates the measured fields of a bar (bar_probe_measure_fields), compares them with the closed-form solution, and
- * stores the reported quantities in value[bar_probe_value_count], in the order of bar_probe_value_column. */
+/* Updates the measured fields of `bar` in run o (bar_probe_measure_fields), compares them with the closed-form
+ * solution, and stores the reported quantities in value[bar_probe_value_count], in the order of
+ * bar_probe_value_column. */
 void bar_probe_compute_values(struct bar *bar, const struct observed_run *o, real *value);
 
 /* Number of columns of the profile of a bar, the table of values along the bar that is written with each frame. */
@@ -306,8 +307,8 @@ enum { BAR_READINGS = 12 };
 /* Names and units of the columns of the profile of a bar. */
 extern const struct column bar_reading[BAR_READINGS];
 
-/* Computes the line of the profile of a bar for one particle and stores it in value[BAR_READINGS], in the order of
- * bar_reading[]. rank_from_left: position of the particle in the order from left to right, from 0. */
+/* Computes the line of the profile of `bar` in run o for one particle and stores it in value[BAR_READINGS], in the
+ * order of bar_reading[]. rank_from_left: position of the particle in the order from left to right, from 0. */
 void bar_probe_compute_profile_line(const struct bar *bar, const struct observed_run *o, int64_t rank_from_left,
                                     real *value);
 

@@ -12,11 +12,11 @@ struct rigid_set;
  * and some particles are in contact at present. */
 bool crack_faces_are_in_contact(const struct contact *c);
 
-/* Returns true if any particles or rigid bodies were in contact before the present solution or are in contact now. */
+/* Returns true if any particles or rigid bodies were in contact before the present solution s or are in contact now. */
 bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *contact);
 
-/* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
- * if the search has been made. */
+/* Searches for pairs in contact of run e before its first solution. Does nothing in scenes without contact and rigid
+ * bodies, or if the search has been made. */
 void statics_contact_search_before_first_solution(struct run *e);
 
 /* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
@@ -24,8 +24,8 @@ void statics_contact_search_before_first_solution(struct run *e);
  * substep; at least 1, and limited (SUBSTEPS_MOST). */
 int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time);
 
-/* Prepares the solution at the pseudo-time `pseudo_time` [s]: computes the energy stored before the solution, moves
- * rigid bodies to their positions at that time, and searches for contacts there. */
+/* Prepares the solution of run e at the pseudo-time `pseudo_time` [s]: computes the energy stored before the solution,
+ * moves rigid bodies to their positions at that time, and searches for contacts there. */
 void statics_contact_begin_solution(struct run *e, real pseudo_time);
 
 /* Moves particles and nodes to the displacements of the solution and updates the set of active contacts (callback
@@ -36,11 +36,11 @@ bool statics_contact_update_and_is_set_unchanged(void *run);
  * if `set_is_fixed` is true, else all pairs that overlap. run: a struct run. */
 void statics_contact_select_acting_contacts(void *run, bool set_is_fixed);
 
-/* Completes the solution for an equilibrium: adds the work done on rigid bodies in this solution to their total work
- * and, if anything is or was in contact, computes the energy that the solution has lost. load_work: work of loads and
- * supports in this solution [J]; solver_loss: energy lost in earlier solutions [J]. Returns the uncertainty of the work
- * of the rigid bodies [J]: the difference between the work with the mean of the initial and final contact force and the
- * work with one of these forces. */
+/* Completes the solution for an equilibrium of run e: adds the work done on rigid bodies in this solution to their
+ * total work and, if anything is or was in contact, computes the energy that the solution has lost. load_work: work of
+ * loads and supports in this solution [J]; solver_loss: energy lost in earlier solutions [J]. Returns the uncertainty
+ * of the work of the rigid bodies [J]: the difference between the work with the mean of the initial and final contact
+ * force and the work with one of these forces. */
 real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, real solver_loss);
 
 /* Raises the largest contact force so far [N], which `rigid` stores for each of its `rigid_body_count` rigid bodies, to

@@ -11,18 +11,18 @@
 real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
                                     int plane_axis);
 
-/* Returns the crack area [m^2] that is created if all cracks grow by one spacing along their whole fronts, halved on
- * planes of symmetry. Without a pre-crack the front in three dimensions is the shortest side of the body. A bar in one
- * dimension (`space: line`) counts as 25 spacings wide. */
+/* Returns the crack area [m^2] that is created if all cracks of run e grow by one spacing along their whole fronts,
+ * halved on planes of symmetry. Without a pre-crack the front in three dimensions is the shortest side of the body. A
+ * bar in one dimension (`space: line`) counts as 25 spacings wide. */
 real crack_area_of_growth_by_one_spacing(const struct run *e);
 
-/* Determines the next crack increment from trial equilibria, unless it is already known. Stores its bonds in
- * statics.next, its energies in statics.ahead, and the load size at which it is due in statics.due. Returns FAILED if
- * a trial equilibrium is not found. */
+/* Determines the next crack increment of run e from trial equilibria, unless it is already known. Stores its bonds in
+ * statics.next, its energies in statics.ahead, and the load size at which it is due in statics.due. Returns FAILED if a
+ * trial equilibrium is not found. */
 status crack_increment_find(struct run *e);
 
-/* Breaks the bonds of the next crack increment and moves the tips of SIF-driven cracks, without finding the new
- * equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken. */
+/* Breaks the bonds of the next crack increment of run e and moves the tips of SIF-driven cracks, without finding the
+ * new equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken. */
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e);
 
 /* Finds the equilibrium after crack_increment_break_bonds_and_move_tips has broken bonds, and converts material points

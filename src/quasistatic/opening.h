@@ -14,12 +14,12 @@ status gauge_check_positions(const struct scene *scene, const struct particles *
  * crack) since the start [m]. */
 real gauge_opening(const struct particles *part, const struct statics *statics);
 
-/* Returns true if material points or bonds of the body may yield (have plastic strain). */
+/* Returns true if material points of `part` or bonds of the body may yield (have plastic strain). */
 bool body_may_yield(const struct particles *part, const struct bonds *bonds);
 
-/* Finds the equilibrium at which the opening between the two gauge particles equals `wanted` [m], by varying the
- * pseudo-time. t: first pseudo-time tried [s]. Returns FAILED, with a message, if an equilibrium is not found, or if
- * the opening that is reached differs from `wanted` by more than a hundredth. */
+/* Finds the equilibrium of run e at which the opening between the two gauge particles equals `wanted` [m], by varying
+ * the pseudo-time. t: first pseudo-time tried [s]. Returns FAILED, with a message, if an equilibrium is not found, or
+ * if the opening that is reached differs from `wanted` by more than a hundredth. */
 status opening_go_to(struct run *e, real wanted, real t);
 
 #endif

@@ -13,8 +13,8 @@
 
 /* Finds the plane in which the tips of the pre-cracks move, and stores its axes, the direction and middle of the crack
  * fronts and its planes of symmetry in *plane. The caller has set the members dim, spacing, section, body_mirrors and
- * body_mirror of *plane. tips: tips of the pre-cracks; precracks: the pre-cracks. Returns NULL, or the reason why there
- * is no such plane (a static text). */
+ * body_mirror of *plane. tips: tips of the pre-cracks; precracks: the pre-cracks; p: particles. Returns NULL, or the
+ * reason why there is no such plane (a static text). */
 const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struct crack_tips *tips,
                                             const struct crack_list *precracks, const struct particles *p);
 
@@ -33,14 +33,15 @@ void sif_plane_project_particle(const struct sif_plane *plane, const struct part
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
                                real segment_end[2][DIM_MAX]);
 
-/* Returns the width [m] of the body along the crack front, averaged over the segment between the points `segment_start`
- * and `segment_end` of the plane, two coordinates each [m]. For a plane body the width is its thickness. */
+/* Returns the width [m] of the body p along the crack front, averaged over the segment between the points
+ * `segment_start` and `segment_end` of the plane, two coordinates each [m]. For a plane body the width is its
+ * thickness. */
 real sif_plane_body_width_along_front(const struct sif_plane *plane, const struct particles *p,
                                       const real *segment_start, const real *segment_end);
 
 /* Returns the area of the crack face that intersects the plane in the segment between the points `segment_start` and
- * `segment_end`, two coordinates each [m]: length times width of the body along the front [m^2]. The area is halved if
- * the segment lies on a plane of symmetry. */
+ * `segment_end`, two coordinates each [m]: length times width of the body p along the front [m^2]. The area is halved
+ * if the segment lies on a plane of symmetry. */
 real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *segment_start,
                           const real *segment_end);
 
@@ -80,7 +81,8 @@ bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const st
 void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
                                            const struct sif_crack_tip *tip, real position[2]);
 
-/* Returns the crack energy per area [J/m^2] of the material at a tip (toughness_of_material). */
+/* Returns the crack energy per area [J/m^2] of the material at a tip, between particles of p
+ * (toughness_of_material). */
 real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *p, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors of a tip and sets tip->heading, the direction of its next increment, by the
@@ -90,7 +92,7 @@ void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct part
                               struct sif_crack_tip *tip);
 
 /* Moves the tip with index `tip` to the end of its next increment, appends the segment to the path of the cracks, and
- * sets `ended` of the tip if it has reached a surface or another crack. */
+ * sets `ended` of the tip if it has reached a surface of the body p or another crack. */
 void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct particles *p, int tip);
 
 /* Computes the stress-intensity factors of the tip that has grown most among those that can still grow, and stores them
@@ -112,18 +114,18 @@ void sif_cracks_free(struct sif_cracks *cracks);
 
 /* ---- increments (sif_cut.c) -------------------------------------------------------------------------------------- */
 
-/* Breaks the intact bonds that cross the last part of the pre-crack behind a tip; they add no fracture energy. Needed
- * after a tip has been moved off a row of particles (sif_start.c). */
+/* Breaks the intact bonds of run e that cross the last part of the pre-crack behind a tip; they add no fracture energy.
+ * Needed after a tip has been moved off a row of particles (sif_start.c). */
 void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
 
-/* Determines the next crack increment of the SIF-driven cracks under the present loads. For each tip that can grow, a
- * trial equilibrium with the bonds of its increment broken gives the energy that is released. Stores the bonds to
- * break in statics.next, the energies in statics.ahead, and the load size at which the increment is due in
+/* Determines the next crack increment of the SIF-driven cracks of run e under the present loads. For each tip that can
+ * grow, a trial equilibrium with the bonds of its increment broken gives the energy that is released. Stores the bonds
+ * to break in statics.next, the energies in statics.ahead, and the load size at which the increment is due in
  * statics.due. Returns FAILED if an equilibrium is not found. */
 status sif_increment_find(struct run *e);
 
 /* Moves all tips that take part in the present crack increment (member `selected` of struct sif_crack_tip) to the ends
- * of their increments, and clears `selected`. */
+ * of their increments in the body p, and clears `selected`. */
 void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p);
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */

@@ -6,15 +6,15 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the largest ratio [1] of stretch to critical stretch among all intact bonds b; bonds must break if it exceeds
- * 1. limit: critical stretches. */
+/* Returns the largest ratio [1] of stretch to critical stretch among all intact bonds b of the particles p; bonds must
+ * break if it exceeds 1. limit: critical stretches. */
 real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the
- * largest one by at most the fraction `ratio_tolerance` [1]. No more than `max_pairs` pairs of particles are separated,
- * plus pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the next crack
- * increment (statics.next). Adds their energy at the critical stretch to *added_energy [J], and the crack area that
- * corresponds to it to *added_crack_area [m^2]. Returns the number of directed bonds broken. */
+/* Breaks the intact bonds of run e with the largest ratios of stretch to critical stretch: those whose ratio differs
+ * from the largest one by at most the fraction `ratio_tolerance` [1]. No more than `max_pairs` pairs of particles are
+ * separated, plus pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the
+ * next crack increment (statics.next). Adds their energy at the critical stretch to *added_energy [J], and the crack
+ * area that corresponds to it to *added_crack_area [m^2]. Returns the number of directed bonds broken. */
 int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area);
 
@@ -22,8 +22,8 @@ int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t m
  * record) is not fracture energy; it is added to the energy lost by the solver and by the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l);
 
-/* Restores the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and flags
- * of their rows (all bonds of one particle) and particles from the records of the list. */
+/* Restores in s and b the bonds of the list l, which must be the bonds that were broken last, and the energies, damage
+ * and flags of their rows (all bonds of one particle) and particles from the records of the list. */
 void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
 
 /* Appends a copy of *record to the list l, whose array grows as needed; free l->bond with memory_free. */

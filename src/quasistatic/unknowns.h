@@ -9,40 +9,42 @@
 
 struct contact;
 
-/* Lists the particles and mesh nodes whose displacements are unknown, with their weights, the boundaries that
- * prescribe their components and their present displacements, and allocates the fields of s->balance. The caller has
- * set the member `length` of s->balance. Release with unknowns_free. */
+/* Lists the particles and mesh nodes whose displacements are unknown, with their weights, the boundaries that prescribe
+ * their components and their present displacements, and allocates the fields of s->balance. The caller has set the
+ * member `length` of s->balance. loads: boundaries. Release with unknowns_free. */
 void unknowns_list_particles_and_nodes(struct statics *s, const struct particles *p, const struct mesh *mesh,
                                        const struct loads *loads);
 
 /* Frees the lists and fields in *s that unknowns_list_particles_and_nodes has allocated. */
 void unknowns_free(struct statics *s);
 
-/* Stores the reference position of unknown number `unknown_number`, a particle or a mesh node, in position[] [m]. */
+/* Stores the reference position of unknown number `unknown_number` of s, a particle or a mesh node, in position[]
+ * [m]. */
 void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                         int64_t unknown_number, real *position);
 
-/* Sets the positions of particles, mesh nodes and the mirror images of nodes to their reference positions plus the
- * displacements `displacement` [m]. */
+/* Sets the positions of the particles and mesh nodes of s and the mirror images of nodes to their reference positions
+ * plus the displacements `displacement` [m]. */
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
                                   const struct field *displacement);
 
-/* Stores in sign[d] the factor, +1 or -1, between component d of the displacement of the mirror image with the index
- * `image` and that of the particle that it mirrors. All factors are +1 if `image` is a particle of the body. */
+/* Stores in sign[d] the factor, +1 or -1, between component d of the displacement of the mirror image (of `loads`) with
+ * the index `image` and that of the particle that it mirrors. All factors are +1 if `image` is a particle of the
+ * body. */
 void image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
                                       real sign[DIM_MAX]);
 
-/* Computes the applied forces at the pseudo-time `pseudo_time` [s] and stores them in s->applied, dim components for
- * each particle of the body [N]. Allocates these arrays on the first call. */
+/* Computes the applied forces of `loads` at the pseudo-time `pseudo_time` [s] and stores them in s->applied, dim
+ * components for each particle of the body [N]. Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time);
 
-/* Returns the Euclidean norm [N] of all applied forces on components of displacement that no boundary prescribes, and
- * of the contact forces of rigid bodies. loads: the supports of the body. */
+/* Returns the Euclidean norm [N] of all applied forces of s on components of displacement that no boundary prescribes,
+ * and of the contact forces of rigid bodies. loads: the supports of the body. */
 real applied_forces_norm(const struct statics *s, const struct particles *p, const struct loads *loads,
                          const struct contact *contact);
 
 /* Computes the reactions and mean displacements of the supports and the sums of applied forces in the present
- * equilibrium, and stores them in *loads. */
+ * equilibrium s of the particles p, and stores them in *loads. */
 void reactions_compute_and_store(const struct statics *s, const struct particles *p, struct loads *loads);
 
 #endif

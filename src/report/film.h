@@ -103,8 +103,8 @@ void film_update_field_ranges_from_frame(struct film *f, const struct output_fra
  * to false for fields with the same value in all frames at all particles. */
 void film_choose_stored_ranges_of_fields(struct film *f);
 
-/* Returns the number of bytes that the page stores in each frame for one group (particles that are shown as one): the
- * sum over all fields that are shown and change with time. */
+/* Returns the number of bytes that the page of film f stores in each frame for one group (particles that are shown as
+ * one): the sum over all fields that are shown and change with time. */
 int film_bytes_per_group_and_frame(const struct film *f);
 
 /* Returns true if the field `field` (a quantity of the particles) of the film f is written to the page: its values

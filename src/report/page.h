@@ -38,8 +38,8 @@ status page_add_picture(struct page *p, const char *entry_name, const char *path
  * nothing for a time that has no date in the calendar. */
 void page_add_time(struct page *p, const char *entry_name, time_t moment);
 
-/* Adds the text of the file `file_name` in `folder` to the JSON as a string. entry_name: name of the entry. Adds
- * nothing if there is no such file. */
+/* Adds the text of the file `file_name` in `folder` to the JSON of the page p as a string. entry_name: name of the
+ * entry. Adds nothing if there is no such file. */
 void page_add_text_file(struct page *p, const char *entry_name, const char *folder, const char *file_name);
 
 /* Completes the page and writes it to the file `path` under a temporary name, which is then renamed. title: title of

@@ -48,7 +48,7 @@ void yaml_write_keys_of_group(struct writer *w, const char *group_path, const vo
  * `group_path`. group_values: structure with their values. */
 void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *group_path, const void *group_values);
 
-/* Writes the key `key` with the absolute path of the file `file`, so that the scene can be run from any folder.
+/* Writes to w the key `key` with the absolute path of the file `file`, so that the scene can be run from any folder.
  * contents_hash: hash of the file, which is written as a comment. */
 void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents_hash);
 

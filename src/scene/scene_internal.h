@@ -101,12 +101,12 @@ status tree_merge_included_files(struct reader *r, struct yaml_node *root);
  * that of an included scene. Other values, such as solids, replace the included value as a whole. */
 bool key_is_merged_with_included_scene(const char *path);
 
-/* Applies all overrides of the command line, r->override, to the tree of the scene. Returns REFUSED, with a message,
- * for an invalid one. */
+/* Applies all overrides of the command line, r->override, to the tree `root` of the scene. Returns REFUSED, with a
+ * message, for an invalid one. */
 status tree_apply_all_overrides(struct reader *r, struct yaml_node *root);
 
-/* Replaces keys of earlier versions of Cleave in the tree by their present names, and notes them in the scene for a
- * warning. Returns REFUSED if both names of a key are given, and for keys that no longer exist. */
+/* Replaces keys of earlier versions of Cleave in the tree `root` by their present names, and notes them in the scene
+ * for a warning. Returns REFUSED if both names of a key are given, and for keys that no longer exist. */
 status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key `path` of an override. If `path` is a name of an earlier version of Cleave, notes
@@ -129,8 +129,8 @@ int path_folder_length(const char *path);
  * memory_free. Returns REFUSED, with a message, if it cannot be read. */
 status file_read_bytes(const char *path, char **bytes, size_t *length);
 
-/* Sets the key `key` in the tree to `value`, in the manner of an override of the command line. An empty value removes
- * the key. Returns REFUSED, with a message, for a malformed key, and if a key to be removed is absent. */
+/* Sets the key `key` in the tree `root` to `value`, in the manner of an override of the command line. An empty value
+ * removes the key. Returns REFUSED, with a message, for a malformed key, and if a key to be removed is absent. */
 status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value);
 
 /* Returns the node at `path` (names of keys from the root on, joined by dots, without indices of lists); NULL if the
@@ -185,8 +185,8 @@ const char *unit_without_kelvin(const char *text, enum unit kind_of_unit, char *
  * message[capacity], as the rest of a sentence that begins with the text of the value. */
 bool quantity_has_unit(const struct quantity *q, enum unit kind_of_unit, char *message, size_t capacity);
 
-/* Returns true if `value` [SI] is finite and inside the bounds of its kind of unit. Otherwise returns false and writes
- * the fault to message[capacity], as the rest of a sentence that begins with the text of the value. */
+/* Returns true if `value` [SI] is finite and inside the bounds of kind_of_unit. Otherwise returns false and writes the
+ * fault to message[capacity], as the rest of a sentence that begins with the text of the value. */
 bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, size_t capacity);
 
 /* Describes a unit for messages, as `a length`, or as `in m^2 s^-1` if its kind has no name, in text[capacity]. twice:

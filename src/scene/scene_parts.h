@@ -178,9 +178,10 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
  * or particles at randomly shifted positions, do not support. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root);
 
-/* Decides where shape functions are evaluated for bodies whose frame is `auto`. The frame is `current` (at the present
- * positions of material points) if a body does not support `reference`, with the reason in body.frame_reason. Otherwise
- * it remains `auto`, and the choice is made when the particles exist. Bodies must have been read before. */
+/* Decides where shape functions are evaluated for bodies of scene s whose frame is `auto`. The frame is `current` (at
+ * the present positions of material points) if a body does not support `reference`, with the reason in
+ * body.frame_reason. Otherwise it remains `auto`, and the choice is made when the particles exist. Bodies must have
+ * been read before. */
 void resolve_automatic_frames_of_bodies(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and then sets the default of the correction of bonds near faces (key

@@ -8,15 +8,15 @@
  * mirror images of particles first. No bond breaks. */
 void static_body_compute_bond_forces(const struct static_body *body);
 
-/* Computes the product K u of the tangent stiffness K of the bonds at the reference positions with the displacements u,
- * as the decrease of the bond forces along u by central differences. displacement: u, a vector for each particle [m];
- * force: receives K u, a vector for each particle [N]; strain_ratio: largest strain that u causes, divided by the
- * largest component of u [1/m]. Overwrites positions and forces of the particles. */
+/* Computes the product K u of the tangent stiffness K of the bonds of `body` at the reference positions with the
+ * displacements u, as the decrease of the bond forces along u by central differences. displacement: u, a vector for
+ * each particle [m]; force: receives K u, a vector for each particle [N]; strain_ratio: largest strain that u causes,
+ * divided by the largest component of u [1/m]. Overwrites positions and forces of the particles. */
 void static_body_compute_tangent_product(const struct static_body *body, const struct field *displacement,
                                          struct field *force, real strain_ratio);
 
 /* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
- * components, those with prescribed displacement. */
+ * components, those with prescribed displacement in s. */
 void static_solver_compute_force_norms(const struct static_solver *s, const struct particles *p, real *norm);
 
 /* Computes the residual s->residual of a static solution and the force s->scale to which it refers, from the forces

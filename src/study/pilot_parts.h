@@ -59,8 +59,9 @@ void pilot_combine_overrides(struct pilot *choice, const struct scene_override *
                              int chosen_key_count);
 
 /* Determines, from `study`, the convergence study of the method `candidate`, the particle spacing that the method
- * requires for the requested accuracy, and stores it with its cost in *candidate (pilot_judge.c). Returns REFUSED if no
- * accuracy can be attributed to the figure (it is missing or zero), FAILED if no figure has values at every spacing. */
+ * requires for the accuracy requested in `search`, and stores it with its cost in *candidate (pilot_judge.c). Returns
+ * REFUSED if no accuracy can be attributed to the figure (it is missing or zero), FAILED if no figure has values at
+ * every spacing. */
 status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
                                         const struct convergence_study *study);
 

@@ -104,36 +104,36 @@ void study_points_compute(struct study_picture *p);
 /* Frees the points p->point that study_points_compute has allocated. */
 void study_points_free(struct study_picture *p);
 
-/* Finds the smallest and the largest value of the points of panel number `panel`, error bars included, in the unit of
- * the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
+/* Finds the smallest and the largest value of the points of panel number `panel` of the picture p, error bars included,
+ * in the unit of the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
 void study_points_range(const struct study_picture *p, int panel, double *low, double *high);
 
 /* Returns the horizontal axis of panel number `panel`: range and kind for those values of the key along this axis
  * (p->across) that have points in the panel. The axis is not logarithmic if the values are evenly spaced. */
 struct study_axis study_axis_across(const struct study_picture *p, int panel);
 
-/* Returns the vertical axis of panel number `panel`: range and kind for the values of the figure that the panel shows,
- * in the unit of the panel. */
+/* Returns the vertical axis of panel number `panel` of the picture p: range and kind for the values of the figure that
+ * the panel shows, in the unit of the panel. */
 struct study_axis study_axis_of_figure(const struct study_picture *p, int panel);
 
-/* Returns the position on the horizontal axis of value number `value_index` of the key along this axis: the value, or
- * value_index if the values are no numbers. */
+/* Returns the position on the horizontal axis of the picture p of value number `value_index` of the key along this
+ * axis: the value, or value_index if the values are no numbers. */
 double study_value_across(const struct study_picture *p, int value_index);
 
 /* Returns the largest number of intervals between tics of the vertical axis at which the numbers do not touch, in
- * panels of the present size. */
+ * panels of the present size of the picture p. */
 int study_intervals_up(const struct study_picture *p);
 
 /* Returns the largest number of intervals between tics of the horizontal axis `axis` at which the numbers do not touch,
- * in panels of the present size. */
+ * in panels of the present size of the picture p. */
 int study_intervals_across(const struct study_picture *p, const struct study_axis *axis);
 
 /* Returns true if every point of every panel of the picture p has a value, i.e. if at least one of the runs combined to
  * the point has the figure that the panel shows. */
 bool study_points_complete(const struct study_picture *p);
 
-/* Writes the title of line number `line` to text[capacity], such as `60, 1`: the values of those keys that distinguish
- * lines. */
+/* Writes the title of line number `line` of the picture p to text[capacity], such as `60, 1`: the values of those keys
+ * that distinguish lines. */
 void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line);
 
 /* Writes the words of the varied key `key` and the unit of its values to text[capacity], as `traction on y+ [MPa]`. */
