@@ -126,8 +126,8 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
                                 subject, constant[k].key, constant[k].value);
 }
 
-/* Adds a warning to *to if material m is stiff and has a toughness (E G_c)^(1/2) below that of any solid but foams. The
- * usual reason is an energy release rate in kJ/m^2. name: of the material in messages. */
+/* Adds a warning to *to if material m of scene s is stiff and has a toughness (E G_c)^(1/2) below that of any solid but
+ * foams. The usual reason is an energy release rate in kJ/m^2. name: of the material in messages. */
 static void units_of_toughness(const struct scene *s, const char *name, const struct material *m, struct warnings *to)
 {
     const real toughness = sqrt(m->young * m->energy_release_rate);
@@ -141,7 +141,7 @@ static void units_of_toughness(const struct scene *s, const char *name, const st
 }
 
 /* Adds warnings to *to about implausible wave speeds, densities, energy release rates, specific heats, yield stresses
- * and critical stretches of the materials. */
+ * and critical stretches of the materials of scene s. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -164,9 +164,9 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds warnings to *to about rigid bodies whose mass does not fit their volume. Their density should be within that of
- * matter, rule[ACCEPT_MASS]. If the densities of the materials are outside, too (other units), it should be within a
- * factor UNLIKE of these. */
+/* Adds warnings to *to about rigid bodies of scene s whose mass does not fit their volume. Their density should be
+ * within that of matter, rule[ACCEPT_MASS]. If the densities of the materials are outside, too (other units), it should
+ * be within a factor UNLIKE of these. */
 static void units_of_rigids(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -185,8 +185,8 @@ static void units_of_rigids(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds warnings to *to about materials whose energy release rate does not fit their tensile strength: a crack in them
- * would need a body many times as large. longest: longest edge of the box around all particles [m]. */
+/* Adds warnings to *to about materials of scene s whose energy release rate does not fit their tensile strength: a
+ * crack in them would need a body many times as large. longest: longest edge of the box around all particles [m]. */
 static void units_of_brittleness(const struct scene *s, real longest, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -339,7 +339,7 @@ static real least_strength(const struct scene *s)
 /* Adds a warning to *to if the largest stress of the run is too small to make a crack grow. This is estimated from
  * Griffith's plate (1921): a crack as long as the longest edge a of the body would have the energy release rate pi
  * sigma^2 a/E, which is compared with the smallest one of a material. As bending is not computed, sigma is the stress
- * times the slenderness of the body. stress: stress that the loads cause [Pa]. */
+ * times the slenderness of the body. p: particles; stress: stress of the loads [Pa]. */
 static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
 {
     real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;
@@ -359,9 +359,9 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
 }
 
 /* Adds a warning to *to if the largest stress of the run cannot break any material, or is far above the strength. The
- * stress is estimated from tractions, as rho c v from speeds v, and as E u/L from displacements u of bodies of length L
- * (rho: density, c: wave speed, E: Young's modulus). Displacements in dynamic runs are not reported as too large, since
- * they may grow after the first bonds have broken. */
+ * stress of `loads` on p is estimated from tractions, as rho c v from speeds v, and as E u/L from displacements u of
+ * bodies of length L (rho: density, c: wave speed, E: Young's modulus). Displacements in dynamic runs are not reported
+ * as too large, since they may grow after the first bonds have broken. */
 static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
                            struct warnings *to)
 {
@@ -417,9 +417,9 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
 
 /* ---- steps and particles ----------------------------------------------------------------------------------------- */
 
-/* Adds warnings to *to about implausibly few or many time steps, about waves that travel less than a spacing during the
- * run, and about waves that cross the bodies very often. wave_speed: speed of the fastest wave [m/s]; longest: longest
- * edge of the box around all particles [m]. */
+/* Adds warnings to *to about implausibly few or many time steps of `clock`, about waves that travel less than a spacing
+ * during the run, and about waves that cross the bodies very often. wave_speed: speed of the fastest wave [m/s];
+ * longest: longest edge of the box around all particles [m]. */
 static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, real longest,
                           struct warnings *to)
 {
@@ -454,8 +454,8 @@ real engine_particle_count_between_positions(const struct scene *s, real low, re
     return n;
 }
 
-/* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has few particles along an axis. name: name of
- * the body. */
+/* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has few particles along an axis. s: scene;
+ * name: name of the body. */
 static void units_of_body(const struct scene *s, const char *name, const real *low, const real *high,
                           struct warnings *to)
 {
@@ -482,8 +482,8 @@ bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct par
     return box_high[0] >= box_low[0];
 }
 
-/* Adds warnings to *to about bodies with a pre-crack if they have few particles along an axis. Joined bodies count as
- * one. */
+/* Adds warnings to *to about bodies of s with a pre-crack if they have few particles along an axis. Joined bodies count
+ * as one. */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {

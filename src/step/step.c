@@ -49,8 +49,8 @@ static void conversion(struct run *e, struct step *now)
     timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
 }
 
-/* Updates the pairs of particles that may be in contact, and sets in now->motion how peridynamic particles move in this
- * step. */
+/* Updates the pairs of particles of run e that may be in contact, and sets in now->motion how peridynamic particles
+ * move in this step. */
 static void motion_begin(struct run *e, struct step *now)
 {
     contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
@@ -61,8 +61,8 @@ static void motion_begin(struct run *e, struct step *now)
     timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
 }
 
-/* Sorts the points on the grid into cells. Returns FAILED, with a message, if positions of points are not finite or if
- * a grid would need too many nodes. */
+/* Sorts the points of run e on the grid into cells. Returns FAILED, with a message, if positions of points are not
+ * finite or if a grid would need too many nodes. */
 static status sort(struct run *e)
 {
     bool lost;
@@ -70,9 +70,9 @@ static status sort(struct run *e)
     return lost ? divergence_check_particles(e, true, false) : OK;
 }
 
-/* Damps the velocities of points in the interface zone (material points near peridynamic particles), before the forces
- * of the step are computed. Adds the first half of the energy that this removes to e->damped; the second half is added
- * when the velocities after the step are known. Sets now->damps to true if the scene has such damping. */
+/* Damps the velocities of points of run e in the interface zone (material points near peridynamic particles), before
+ * the forces of the step are computed. Adds the first half of the energy that this removes to e->damped; the second
+ * half is added when the velocities after the step are known. Sets now->damps to true if the scene has such damping. */
 static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
@@ -81,9 +81,9 @@ static void zone_damp(struct run *e, struct step *now)
     loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
-/* Stores the velocities before the forces of this step, from which the energy loss by bulk damping is computed. In the
- * first step it also damps them over half a time step, because velocities are half a step behind positions from then
- * on. Does nothing without bulk damping. now->decay: product of damping rate and time step [1]. */
+/* Stores the velocities of run e before the forces of this step, from which the energy loss by bulk damping is
+ * computed. In the first step it also damps them over half a time step, because velocities are half a step behind
+ * positions from then on. Does nothing without bulk damping. now->decay: product of damping rate and time step [1]. */
 static void damping_begin(struct run *e, const struct step *now)
 {
     real *const *before = e->report->sampling.before;
