@@ -65,10 +65,10 @@ struct partial_stress {
     /* [entries][symmetric] derivative of the mean strain of the point's family by the strain of its cell; 0 for points
      * without bonds; NULL: bond-based model [1] */
     real *local;
-    bool gives_all; /* all stress is transmitted (coupling `handshake`): M and local are 0 */
-    int64_t entries;
-    int32_t *touched; /* particles whose entries were recomputed; whoever has read them sets touches = 0 */
-    int64_t touches;
+    bool gives_all;              /* all stress is transmitted (coupling `handshake`): M and local are 0 */
+    int64_t entries;             /* number of entries */
+    int32_t *touched;            /* particles whose entries were recomputed; whoever has read them sets touches = 0 */
+    int64_t touches;             /* number of these particles */
     struct partial_table *table; /* table of the segments of lattice bonds in cells (src/coupling/partial_table.c) */
 };
 

@@ -35,18 +35,18 @@ enum bond_energy { ENERGY_OF_STRETCH, ENERGY_OF_ELONGATION, ENERGY_OF_DISPLACEME
 
 /* Rules (enumerations above) and sizes that define families and the weights of their bonds. */
 struct family {
-    enum space space;
-    enum volume_rule volume;
-    enum calibration calibration;
-    enum surface_rule surface;
-    enum shell_rule shells;
-    enum influence influence;
-    enum bond_energy energy;
-    real spacing;         /* lattice spacing [m] */
-    real horizon;         /* horizon delta, reach of bonds [m] */
-    real cutoff;          /* largest distance of a neighbour, with a relative tolerance [m] */
-    real section;         /* cross-section A (1D) [m^2], thickness (2D) [m], 1 (3D) */
-    real cell_volume;     /* volume of a lattice particle: spacing^dim section [m^3] */
+    enum space space;             /* dimension and plane state */
+    enum volume_rule volume;      /* part of the volume of a neighbour that counts: beta */
+    enum calibration calibration; /* how the stiffness of bonds follows from the elastic constants */
+    enum surface_rule surface;    /* correction near faces */
+    enum shell_rule shells;       /* dependence of weights on the direction of the bond */
+    enum influence influence;     /* dependence of weights on the length of the bond: omega */
+    enum bond_energy energy;      /* measure from which the energy of a bond follows */
+    real spacing;                 /* lattice spacing [m] */
+    real horizon;                 /* horizon delta, reach of bonds [m] */
+    real cutoff;                  /* largest distance of a neighbour, with a relative tolerance [m] */
+    real section;                 /* cross-section A (1D) [m^2], thickness (2D) [m], 1 (3D) */
+    real cell_volume;             /* volume of a lattice particle: spacing^dim section [m^3] */
     real full;            /* sum of V_j beta over a full family (volume factor beta, all lattice neighbours) [m^3] */
     real weighted;        /* sum of omega beta r^2 over a full family, with the weights that are stored [m^2] */
     real shell_weight[2]; /* isotropic shells: factors on bonds near the axes and near the diagonals [1] */
@@ -142,7 +142,7 @@ static inline struct state_modulus state_based_moduli_of_material(const struct m
 /* Inputs of bonds_make besides the particles: rules of families, limits, `materials` materials, cracks, images. All
  * pointers are borrowed. */
 struct bond_source {
-    struct family family;
+    struct family family;            /* rules and sizes of families */
     const struct cells *cells;       /* search over reference positions, cell edge >= cutoff */
     const struct material *material; /* [materials] */
     int materials;

@@ -11,17 +11,17 @@
 /* State of the coupling of peridynamic particles and material points in a run. PD-MPM bonds are bonds between a
  * peridynamic particle and a material point. */
 struct coupling_state {
-    bool approaches; /* bodies may be in contact: material points near another body convert */
-    struct partial_stress partial;
-    bool flip;                  /* velocities are transferred from the grid by FLIP */
-    bool uses_partial;          /* `partial` is filled: partial stresses, or data of state-based PD-MPM bonds */
-    uint8_t *bonded;            /* [n] 1: material point with PD-MPM bonds (FLIP); NULL: none */
-    struct interface_zone zone; /* damped zone beside peridynamic particles (FLIP, partial stress) */
+    bool approaches;               /* bodies may be in contact: material points near another body convert */
+    struct partial_stress partial; /* share of their stress that material points leave to bonds */
+    bool flip;                     /* velocities are transferred from the grid by FLIP */
+    bool uses_partial;             /* `partial` is filled: partial stresses, or data of state-based PD-MPM bonds */
+    uint8_t *bonded;               /* [n] 1: material point with PD-MPM bonds (FLIP); NULL: none */
+    struct interface_zone zone;    /* damped zone beside peridynamic particles (FLIP, partial stress) */
     real damping_share; /* strength of the damping in `zone` in a step (interface_zone_damp_and_return_half_energy) [1];
                            0: none */
-    struct conversion conversion;
-    struct notches notches;     /* representation of pre-cracks: slits or cut bonds */
-    struct region start_region; /* peridynamic from the start; no solids: empty */
+    struct conversion conversion; /* numbers, time and position of conversions */
+    struct notches notches;       /* representation of pre-cracks: slits or cut bonds */
+    struct region start_region;   /* peridynamic from the start; no solids: empty */
 };
 
 /* Sets how peridynamic particles and material points of run e are coupled: by the method that the scene names (partial

@@ -67,16 +67,15 @@ struct law {
     } power;
     struct flow_curve table; /* table: points (plastic strain, yield stress) */
     struct {
-        /* [Pa] [Pa] [1] [1] [1] [1/s] [K] [K]: (A + B a^n)(1 + C log(rate/eps0))(1 - ((T - T_room)/(T_melt -
-         * T_room))^m)
-         */
+        /* (A + B a^n)(1 + C log(rate/eps0))(1 - T*^m), T* = (T - T_room)/(T_melt - T_room); in order [Pa] [Pa] [1] [1]
+         * [1] [1/s] [K] [K] */
         real A, B, n, C, m, eps0, T_room, T_melt;
     } johnson_cook;
     struct {
         real modulus, recall; /* C [Pa], 0: no kinematic hardening; gamma [1]: dX = 2/3 C de_p - gamma X da */
     } kinematic;
-    real specific_heat,
-        taylor_quinney; /* c [J/(kg K)], 0: no heating; beta, share of the plastic work that heats [1] */
+    /* c [J/(kg K)], 0: no heating; beta, share of the plastic work that heats the material [1] */
+    real specific_heat, taylor_quinney;
     /* values derived by law_compute_derived_constants */
     real yield;                 /* yield stress at no plastic strain, at the reference rate and room temperature [Pa] */
     real young, poisson, shear; /* elastic constants [Pa] [1] [Pa]; shear is 0 in 1D */

@@ -92,8 +92,8 @@ struct mesh {
     const uint8_t *level;
     uint8_t *absent; /* [grid.n] 1: a whole cell whose particles are not created (hollow.h), part of a coarser cell;
                         NULL: none */
-    int64_t filled_cells,
-        filled_nodes; /* with `absent`: number of cells that are not absent, of nodes at their corners */
+    /* with `absent`: number of cells that are not absent; of nodes at their corners */
+    int64_t filled_cells, filled_nodes;
     /* [filled_cells], [filled_nodes] indices of these, ascending; NULL without `absent` */
     int32_t *filled_cell, *filled_node;
     int32_t *place; /* [particles] (cell << dim) + number of the quarter position, -1: not in the mesh */
@@ -103,8 +103,8 @@ struct mesh {
     int32_t *span;        /* [rows][2] index of the first node of a row that has mass, and one past the last */
     int64_t bands, *band; /* bands (layers of cells): runs of band b are run[band[b]] .. run[band[b+1]-1] */
     int64_t runs;
-    struct mesh_run *run; /* [runs] consecutive cells along x */
-    int64_t partial_cells;
+    struct mesh_run *run;      /* [runs] consecutive cells along x */
+    int64_t partial_cells;     /* number of partial cells */
     int32_t *partial_cell;     /* [partial_cells, padded to whole groups of LANES] partial cells, ascending */
     uint8_t *partial_material; /* [as partial_cell] material of the cell, of several the one that converts first */
     bool *partial_stressed;    /* [as partial_cell] a point may have exceeded the conversion stress */
@@ -112,16 +112,16 @@ struct mesh {
                         of each partial cell, divided by its volume (mesh_partial.h) [Pa] */
     /* [groups + 1] bonded points in the cells of a group: end[ends[group]] .. end[ends[group + 1] - 1]; NULL: none */
     int32_t *ends;
-    struct mesh_end *end;
-    real *end_share;     /* [bonded points][modes] derivative of particles.end_strain by the modes of the cell [1] */
-    int32_t *alike;      /* [groups] index of the first group with bitwise equal stiffness */
-    real *partial_force; /* [groups][2^dim dim][LANES] forces of the partial cells on their corners [N] */
+    struct mesh_end *end; /* bonded points, group by group */
+    real *end_share;      /* [bonded points][modes] derivative of particles.end_strain by the modes of the cell [1] */
+    int32_t *alike;       /* [groups] index of the first group with bitwise equal stiffness */
+    real *partial_force;  /* [groups][2^dim dim][LANES] forces of the partial cells on their corners [N] */
     int64_t exposed;
     struct mesh_exposed *exposed_list; /* [exposed] points to which bonds reach, ascending by cell */
     struct active_set active;          /* blocks of nodes that a wave has reached */
     int64_t segments;                  /* number of blocks per row of nodes */
     real rounding;                     /* displacements are rounded to multiples of this [m] */
-    struct mesh_slits slits;
+    struct mesh_slits slits;           /* free surfaces between cells */
 
     /* Only of a mesh of coarse cells (mesh/levels.h), which has no points; else NULL. Its grid.momentum is the momentum
      * of a node divided by its mass, from which its velocity follows (kernels/mesh/mesh_inertia.c) [m/s]. */

@@ -69,9 +69,9 @@ enum time_kind { TIME_CONSTANT, TIME_STEP, TIME_PULSE, TIME_RAMP, TIME_TABLE };
  *   TABLE     piecewise linear through (t[k], value[k]); constant outside */
 struct time_function {
     enum time_kind kind;
-    real from, until; /* [s] */
-    int n;
-    real *t, *value; /* [s], [1] */
+    real from, until; /* STEP, PULSE, RAMP: beginning and end [s] */
+    int n;            /* TABLE: number of points */
+    real *t, *value;  /* TABLE: [n] times [s], ascending; factors [1] */
 };
 
 /* Returns the value of the time function f, a dimensionless factor, at the time t [s]. */

@@ -28,10 +28,12 @@ enum solid_kind {
     SOLID_KINDS
 };
 
-/* Kinds of motions by which copies of a solid are placed; each motion acts on all copies made by previous motions. */
+/* Kinds of motions by which copies of a solid are placed. */
 enum motion_kind { MOTION_MOVE, MOTION_ROTATE, MOTION_MIRROR, MOTION_GRID, MOTION_RING };
+
+/* A motion by which copies of a solid are placed; it acts on all copies made by previous motions. */
 struct solid_motion {
-    enum motion_kind kind;
+    enum motion_kind kind;               /* capitals below: kinds that use a member */
     real step[DIM_MAX];                  /* MOVE: displacement; GRID: distance of copies in each direction [m] */
     real about[DIM_MAX];                 /* ROTATE, RING: a point of the axis; MIRROR: a point of the plane [m] */
     real axis[DIM_MAX];                  /* ROTATE, RING: axis of any length, unused in 2D; MIRROR: normal */

@@ -87,9 +87,9 @@ struct sif_tip {
     /* radius at which the second sum counts half while the tip moves; it does not count within a third of this radius,
      * and counts fully beyond five thirds [m] */
     real core;
-    real thickness; /* thickness of the body [m] */
-    enum sif_weight weight;
-    enum sif_stress stress;
+    real thickness;         /* thickness of the body [m] */
+    enum sif_weight weight; /* weight function of the integral */
+    enum sif_stress stress; /* source of the stress */
 };
 
 /* Motion of all particles, mirror images included, at one time, as arrays [component 0, 1][particle] in the plane.

@@ -29,10 +29,10 @@ struct grid_method {
     struct active_points active;    /* points that transfers include */
     struct grid_coupled coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct rotation_groups turning; /* groups of points with a common rotation (FLIP) */
-    struct transfer_data transfer;
-    bool sort_needed;   /* points have left their cells or have converted */
-    real smallest_mass; /* of a node that moves [kg] */
-    real spacing;       /* of particles [m] */
+    struct transfer_data transfer;  /* inputs of the transfers, besides particles and grid */
+    bool sort_needed;               /* points have left their cells or have converted */
+    real smallest_mass;             /* of a node that moves [kg] */
+    real spacing;                   /* of particles [m] */
 };
 
 /* Makes the background grids mpm of a run: one for all bodies, or one for each body if material points of several

@@ -47,10 +47,10 @@ struct mesh_hanging {
  * motion. Hanging nodes are nodes of level L - 1 in the middle of an edge or a face of a coarse cell, which determines
  * their motion. */
 struct mesh_level {
-    struct mesh mesh;
+    struct mesh mesh;            /* cells and nodes of this level */
     struct constrained_set held; /* nodes on mirrors and with prescribed motion */
     int64_t ghosts;
-    struct mesh_ghost *ghost;
+    struct mesh_ghost *ghost; /* [ghosts] nodes of this level */
     int64_t hangings;
     struct mesh_hanging *hanging; /* [hangings] nodes of level L - 1 */
     int64_t cells;

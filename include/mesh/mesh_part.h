@@ -22,7 +22,7 @@ struct frame_ring {
 
 /* Material points in coarse cells whose particles were never made; they exist only for the last frame of output. */
 struct coarse_cell_points {
-    struct particles part;
+    struct particles part;             /* the points */
     real *spacing;                     /* spacing of the points [m] */
     real *gradient[DIM_MAX * DIM_MAX]; /* gradient of the displacement, if a frame contains strains [1] */
 };
@@ -41,8 +41,8 @@ struct reference_frame {
     struct mesh_source source;   /* data from which `mesh` is made */
     struct elastic *elastic;     /* [materials] elastic constants of the cells */
     struct mesh_levels levels;   /* coarse cells */
-    uint8_t
-        *room; /* [mesh.grid.n] largest coarsening level that the thickness of the body allows; NULL: not computed */
+    /* [mesh.grid.n] largest coarsening level that the thickness of the body allows; NULL: not computed */
+    uint8_t *room;
     int room_most;                         /* largest value of `room` */
     struct cells_without_particles hollow; /* cells whose particles are not created */
     bool lacks; /* true: particles that are needed at the start were not created, and the run must be set up again */
@@ -144,7 +144,7 @@ enum rise_kind { RISE_NONE, RISE_BOUNDARY, RISE_INITIAL, RISE_BODY };
 
 /* A load and its rise time, the time within which it grows from 0 to its largest value. */
 struct load_rise {
-    enum rise_kind kind;
+    enum rise_kind kind; /* what loads the body */
     int number;          /* its number in the scene */
     bool pulse;          /* a pulse; its rise time is a quarter of its length */
     real seconds, waves; /* rise time [s]; distance that waves travel in this time [spacings] */
@@ -168,10 +168,10 @@ struct levels_choice {
     int levels, automatic; /* number for this run; number that `mpm.levels: auto` chooses */
     bool given;            /* the scene gives the levels */
     enum levels_why why;
-    real across;       /* thickness of the body [spacings] */
-    int64_t particles; /* particles of the body, made or not */
-    real step_share;   /* time step of the scene divided by the critical time step [1] */
-    struct load_rise rise;
+    real across;           /* thickness of the body [spacings] */
+    int64_t particles;     /* particles of the body, made or not */
+    real step_share;       /* time step of the scene divided by the critical time step [1] */
+    struct load_rise rise; /* load that limits the levels */
 };
 
 /* Computes r->room, the highest coarsening level (0: finest) that the thickness of the body allows in each cell, if

@@ -187,8 +187,8 @@ enum field_scale { FROM_ZERO, BOTH_SIGNS, FROM_LEAST, CATEGORY };
 struct plot_field {
     const char *name, *stored; /* name of this field; name of the field in the file from which it is computed */
     int component;             /* index of the component; -1: magnitude */
-    const char *unit;
-    enum field_scale scale;
+    const char *unit;          /* SI unit of the values */
+    enum field_scale scale;    /* kind of colour scale */
 };
 
 /* Finds the field called `name` in the table of fields that can be drawn, and stores a pointer to its entry in *field.
@@ -213,9 +213,9 @@ status plot_field_choose_default(const struct plot_field **field, const char *fo
 
 /* A rigid body as a picture of one frame shows it: its shape at the start and its placement in the frame. */
 struct rigid_shown {
-    const struct region *shape; /* at t = 0; borrowed from the scene */
-    struct rigid_placement at;
-    bool bounded;
+    const struct region *shape;       /* at t = 0; borrowed from the scene */
+    struct rigid_placement at;        /* position and rotation in the frame */
+    bool bounded;                     /* the body is finite */
     real low[DIM_MAX], high[DIM_MAX]; /* box at t = 0: of the body, or around the particles if the body is unbounded [m]
                                        */
 };

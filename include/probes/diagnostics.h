@@ -14,8 +14,8 @@
 /* Energy, momentum and angular momentum of a run at the last sample (line of history.csv), and the errors of their
  * balances. */
 struct energy_balance {
-    real time; /* of the sample [s] */
-    struct energy energy;
+    real time;              /* of the sample [s] */
+    struct energy energy;   /* energies by kind [J] */
     real external_work;     /* work of loads and supports since the start [J] */
     real balance_error;     /* (E - E_0 - work) divided by the largest |E| or |work| so far [1] */
     real momentum[DIM_MAX]; /* of all bodies [kg m/s] */

@@ -39,9 +39,9 @@ struct baseline {
 
 /* Read-only view of a run that probes measure (observed_run_view_of); all pointers are borrowed. */
 struct observed_run {
-    const struct particles *part;
-    const struct cells *cells; /* search over reference positions */
-    const struct bonds *bonds;
+    const struct particles *part;         /* particles of all bodies */
+    const struct cells *cells;            /* search over reference positions */
+    const struct bonds *bonds;            /* all bonds */
     const struct kernels *kernels;        /* for ENERGY: loops over bonds */
     const struct loads *loads;            /* boundary conditions, with reactions */
     const struct grid *grid;              /* background grid of the current frame */
@@ -73,11 +73,11 @@ struct probe; /* probes_parts.h */
 /* The probes of a run, and the values of the columns of history.csv that they add. */
 struct probes {
     int n;
-    struct probe *probe;
-    int columns; /* of all probes */
-    struct column *column;
-    real *value;  /* [columns] at the last sample */
-    real sampled; /* time of the last sample; NAN if none [s] */
+    struct probe *probe;   /* [n] */
+    int columns;           /* number of columns of all probes */
+    struct column *column; /* [columns] names and units */
+    real *value;           /* [columns] at the last sample */
+    real sampled;          /* time of the last sample; NAN if none [s] */
 };
 
 /* Time of the velocities after a time step, and a factor on the velocities that are interpolated to the time of a

@@ -12,9 +12,9 @@ struct probing {
     struct wave_pulse *pulse; /* [pulses] pulses of the initial states */
     int pulses;
     struct baseline baseline; /* for PULSE probes, made at the end of the run */
-    bool has_baseline;
-    real residual_step0; /* for PATCH probes: largest nodal force of the first step [N] */
-    real strain_stress;  /* for PATCH probes: largest component of the initial stress [Pa] */
+    bool has_baseline;        /* `baseline` is set */
+    real residual_step0;      /* for PATCH probes: largest nodal force of the first step [N] */
+    real strain_stress;       /* for PATCH probes: largest component of the initial stress [Pa] */
 };
 
 /* Returns the largest absolute value [Pa] among all components of the stress of all particles of p. */

@@ -17,28 +17,28 @@ struct crack_increment {
  * struct describes a straight front by its intersection with the plane across it. Positions are reference positions in
  * that plane. */
 struct sif_crack_tip {
-    real start[2];      /* position before any growth [m] */
-    real position[2];   /* present position [m] */
-    real along[2];      /* unit vector: x axis of the frame of the stress-intensity factors */
-    real heading[2];    /* unit vector: direction of the next increment */
-    real last[2];       /* unit vector: direction of the segment that ends at the tip */
-    real straight;      /* length of growth for which the direction still stays constant [m] */
-    real length_behind; /* length of the crack behind the tip, from its start or its last kink [m] */
-    real grown;         /* growth so far [m] */
-    bool reversed;      /* the first corner of the pre-crack lies at this tip, not the second one */
-    bool ended;         /* the tip has reached a surface or another crack and grows no more */
-    bool selected;      /* the tip takes part in the next crack increment */
-    int body;
+    real start[2];                 /* position before any growth [m] */
+    real position[2];              /* present position [m] */
+    real along[2];                 /* unit vector: x axis of the frame of the stress-intensity factors */
+    real heading[2];               /* unit vector: direction of the next increment */
+    real last[2];                  /* unit vector: direction of the segment that ends at the tip */
+    real straight;                 /* length of growth for which the direction still stays constant [m] */
+    real length_behind;            /* length of the crack behind the tip, from its start or its last kink [m] */
+    real grown;                    /* growth so far [m] */
+    bool reversed;                 /* the first corner of the pre-crack lies at this tip, not the second one */
+    bool ended;                    /* the tip has reached a surface or another crack and grows no more */
+    bool selected;                 /* the tip takes part in the next crack increment */
+    int body;                      /* index of the body in which the tip is */
     real K[2];                     /* K_I and K_II of the last evaluation [Pa m^(1/2)] */
     struct crack_increment ahead;  /* the next increment of the tip */
     struct crack_increment behind; /* the last increment of the tip */
-    real due;                      /* load size at which the next increment is due, INFINITY: at no load */
+    real due;                      /* load size at which the next increment is due, INFINITY: at no load [m, N] */
 };
 
 /* The plane in which the tips move: the plane of a plane body, or in space the plane across the fronts, which must be
  * straight and parallel and run through the whole body (sif_plane.c). */
 struct sif_plane {
-    bool made;
+    bool made;             /* the plane has been found */
     int dim;               /* of the body */
     real spacing;          /* of the particles [m] */
     real section;          /* thickness of a plane body [m] */
@@ -46,11 +46,11 @@ struct sif_plane {
     real front[DIM_MAX];   /* unit vector along the fronts; 0 for a plane body */
     real middle;           /* position of the middle of a front along `front` [m] */
     int mirrors;
-    struct mirror_plane
-        mirror[2 * DIM_MAX]; /* [mirrors] symmetry planes parallel to the fronts; `axis` is one of the plane */
+    /* [mirrors] symmetry planes parallel to the fronts; the member `axis` is 0 or 1, an axis of the plane */
+    struct mirror_plane mirror[2 * DIM_MAX];
     int body_mirrors;
-    const struct mirror_plane
-        *body_mirror; /* [body_mirrors] symmetry planes of the body; `axis` is one of space; borrowed */
+    /* [body_mirrors] symmetry planes of the body; the member `axis` is a coordinate axis; borrowed */
+    const struct mirror_plane *body_mirror;
 };
 
 /* Largest number of tips of SIF-driven cracks. */
@@ -66,9 +66,9 @@ struct path_segment {
 struct sif_cracks {
     const struct scene *scene;        /* borrowed */
     const struct bond_source *source; /* borrowed: pre-cracks, family and critical stretches */
-    struct sif_plane plane;
-    const char *fault; /* why no crack of the scene is SIF-driven; NULL: cracks are */
-    bool known;        /* the tips of the pre-cracks have been found */
+    struct sif_plane plane;           /* plane in which the tips move */
+    const char *fault;                /* why no crack of the scene is SIF-driven; NULL: cracks are */
+    bool known;                       /* the tips of the pre-cracks have been found */
     int n;
     struct sif_crack_tip tip[SIF_TIPS_MAX]; /* [n] */
     real tried;                             /* load size at which the next increment was last determined [m, N] */

@@ -99,12 +99,12 @@ struct statics {
     struct multigrid *precondition;          /* preconditioner; NULL until its next use makes it */
     int64_t directions;            /* search directions of the first solution with this preconditioner; 0: none yet */
     struct memory_archive plastic; /* plastic state at the start of the next solutions (system.c) */
-    struct flow_start
-        *flow_start;        /* [particles of the body] state before plastic flow; NULL until the first load step */
-    struct flow_turn turn;  /* largest rotation of the direction of flow so far */
-    real t;                 /* present pseudo-time [s] */
-    real stretch_ratio;     /* largest ratio of stretch to critical stretch in the last equilibrium [1] */
-    struct break_list next; /* bonds of the next crack increment; empty: none has been found */
+    /* [particles of the body] state at the start of a load step; NULL until the first load step */
+    struct flow_start *flow_start;
+    struct flow_turn turn;         /* largest rotation of the direction of flow so far */
+    real t;                        /* present pseudo-time [s] */
+    real stretch_ratio;            /* largest ratio of stretch to critical stretch in the last equilibrium [1] */
+    struct break_list next;        /* bonds of the next crack increment; empty: none has been found */
     struct crack_increment ahead;  /* the next crack increment */
     struct crack_increment behind; /* the last crack increment */
     real due; /* size of the loads (displacement or force) at which the next increment is due, INFINITY: none [m, N] */

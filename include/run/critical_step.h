@@ -8,9 +8,9 @@
 /* A body of n particles with bonds, as the linear operator M^-1/2 K M^-1/2 on vectors [dim][n], with mass matrix M and
  * tangent stiffness K. */
 struct bond_operator {
-    struct bonds *b; /* rows of all particles of the body */
-    struct particles *p;
-    bond_force_fn *force;
+    struct bonds *b;           /* rows of all particles of the body */
+    struct particles *p;       /* the particles; positions and forces are overwritten */
+    bond_force_fn *force;      /* kernel of the bond forces */
     const struct loads *loads; /* whose mirror images move with the body; NULL: none */
     real spacing, *root;       /* of particles [m]; [n] square roots of the masses [kg^1/2] */
 };

@@ -46,8 +46,8 @@ struct particle_list_form {
 /* Particles read from a file, in SI units. Arrays have one entry for each of the n particles; an array is NULL if the
  * file has no such column. */
 struct particle_list {
-    struct particle_list_head head;
-    struct particle_list_form form;
+    struct particle_list_head head; /* columns that were found in the file */
+    struct particle_list_form form; /* unit and columns as the scene gives them */
     int64_t n;
     int dim;
     real *X[DIM_MAX];              /* [m] */

@@ -15,9 +15,9 @@ struct stability {
     bool lost;                           /* an energy of the last sample is not finite */
     bool stretched;                      /* the warning that points are stretched or flow too far has been printed */
     bool parted;                         /* the warning that metal has come apart has been printed */
-    bool released; /* the warning that broken bonds release more energy than they stored has been printed */
-    struct point_pairs pairs;
-    struct large_motion motion;
+    bool released;            /* the warning that broken bonds release more energy than they stored has been printed */
+    struct point_pairs pairs; /* neighbouring points of metal, for the search for gaps (parted.h) */
+    struct large_motion motion; /* state of the checks for large motion */
 };
 
 #endif

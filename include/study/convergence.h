@@ -35,10 +35,10 @@ extern const char *const verdict_name[VERDICTS];
 struct convergence {
     struct level_figures level[LEVELS_MOST];
     int levels;
-    enum verdict verdict;
-    double bias;  /* half-width of an error that does not decrease with the spacing, for example of irregular
-                   * lattices; 0: none */
-    double order; /* order observed on the three finest levels; NAN: none */
+    enum verdict verdict; /* whether the means converge */
+    double bias;          /* half-width of an error that does not decrease with the spacing, for example of irregular
+                           * lattices; 0: none */
+    double order;         /* order observed on the three finest levels; NAN: none */
     double index; /* grid convergence index of the finest level (Roache 1998, factor of safety 1.25); NAN: no order
                    * of 1/2 or more is observed */
     double order_likely, order_error;   /* mean and standard deviation of the orders that are consistent with all

@@ -50,9 +50,9 @@ struct convergence_study {
 
 /* Convergence of one figure (a scalar result), and its sensitivity to parameters of the discretisation. */
 struct scalar_result_study {
-    const char *name;
+    const char *name;     /* name of the figure; borrowed */
     char unit[UNIT_ROOM]; /* SI unit; "": none */
-    struct convergence c;
+    struct convergence c; /* means, errors and order of convergence */
     double step_moves;    /* change of the figure for a time step 10 % longer; NAN: unknown */
     double spacing_moves; /* change from level 1 to level 0 */
     double horizon_moves; /* change for a horizon one spacing longer, at level 1; NAN: unknown */

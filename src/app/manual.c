@@ -13,6 +13,7 @@
 struct entry {
     const char *term, *text, *of;
 };
+/* A section of the manual with n entries. of_run: the section belongs to the page of `cleave run` as well. */
 struct section {
     const char *title;
     const struct entry *entry;

@@ -162,7 +162,7 @@ struct regular_bonds {
     int16_t *number;    /* [n] numbers of these neighbours in a full family */
     uint8_t *from, *to; /* [n] first and last lane with a neighbour at the distance */
     uint8_t *bonds;     /* [n] bit l: lane l has a bond at the distance: one of both particles is peridynamic */
-    struct stencil_cache *stencil_cache;
+    struct stencil_cache *stencil_cache; /* bonds of recent row blocks of this thread */
 };
 
 /* Allocates the arrays of `bonds`, which list the bonds of eight lattice particles by index distance (index of the

@@ -16,7 +16,7 @@ static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k
 struct block_shape {
     int64_t first[DIM_MAX], blocks[DIM_MAX]; /* first block, counted from node 0; number of blocks */
     int dim;
-    int64_t cells_in_block, n;
+    int64_t cells_in_block, n; /* number of cells of a block; number of blocks */
 };
 
 /* Returns the blocks (boxes of cells) that overlap the box of the grid g: their range along each axis, and their

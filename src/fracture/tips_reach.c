@@ -44,7 +44,7 @@ static real tips_reach_of(const struct crack_tips *t, const struct particles *p,
 struct ahead {
     const struct crack_tips *t;
     const struct particles *p;
-    struct tip_reach *reach;
+    struct tip_reach *reach; /* [tips] extent of each crack */
     int64_t n[TIPS_MAX];
     struct place *place[TIPS_MAX]; /* positions of the particles; NULL: counted only */
 };

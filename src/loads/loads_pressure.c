@@ -20,7 +20,7 @@ struct ends {
     const struct boundary *boundary, *all; /* boundary with axis and side; boundaries of the scene */
     int n;                                 /* number of boundaries of the scene */
     const struct particles *p;
-    real spacing;
+    real spacing; /* lattice spacing [m] */
     pressure_face_fn *found;
     void *context;
 };

@@ -12,14 +12,14 @@
 
 /* Contents of a particles file, the fields that do not change between frames, copied from the particles. */
 struct particles_file {
-    struct path path;
-    int64_t n; /* number of rows */
+    struct path path; /* path of the file */
+    int64_t n;        /* number of rows */
     int dim;
-    unsigned fields; /* bit set of all fields of the frames; the units of all of them are listed in the file */
-    int64_t content; /* hash of the contents */
-    char *rows;      /* the fixed fields one after the other; NULL: the file is there already */
-    int32_t *cells;  /* [n + 1] buffer for the lists of cells */
-    bool compress;
+    unsigned fields;        /* bit set of all fields of the frames; the units of all of them are listed in the file */
+    int64_t content;        /* hash of the contents */
+    char *rows;             /* the fixed fields one after the other; NULL: the file is there already */
+    int32_t *cells;         /* [n + 1] buffer for the lists of cells */
+    bool compress;          /* with gzip */
     const char *scene_text; /* borrowed */
 };
 

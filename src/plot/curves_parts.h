@@ -6,9 +6,9 @@
 
 /* Data of curves against time or load step, as sent to gnuplot in the data block $data, and properties of the run. */
 struct series {
-    const struct history *h;
-    int time;           /* column of the time, or of the number of the load step */
-    struct unit second; /* unit of the time; factor 1 without name for load steps */
+    const struct history *h; /* history of the run; borrowed */
+    int time;                /* column of the time, or of the number of the load step */
+    struct unit second;      /* unit of the time; factor 1 without name for load steps */
     enum picture_format format;
     const char *pictures; /* folder of the pictures */
     bool bar;             /* the run has one dimension */

@@ -13,10 +13,10 @@ struct map_key {
 
 /* Content of a picture of maps: quantity, view, key (legend) and heading. title: "" for no heading. */
 struct maps_shown {
-    enum map map;
-    const struct view *view;
+    enum map map;            /* quantity */
+    const struct view *view; /* rectangle and colours */
     const char *title;
-    struct map_key key;
+    struct map_key key; /* key (legend) */
     enum picture_format format;
     bool outside; /* panels are outside views, without axes at their left */
 };

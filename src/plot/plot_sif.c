@@ -40,8 +40,8 @@ struct factors {
     int n;
     char name[PROBES_SHOWN][NAME_MAX_LENGTH];
     int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN]; /* columns of K_I and K_II of each probe; of contour_spread */
-    double factor[2 * PROBES_SHOWN],
-        percent[PROBES_SHOWN]; /* factors from columns to the unit of the axis, to per cent */
+    /* factors from the columns to the unit of the axis; to per cent */
+    double factor[2 * PROBES_SHOWN], percent[PROBES_SHOWN];
     struct unit unit;
 };
 

@@ -38,9 +38,9 @@ struct film_set {
 
 /* A frame (state of the run at one time) that was read for a page. used: the page shows the frame. */
 struct film_frame {
-    struct listed_frame listed;
-    int64_t step;
-    int set; /* index of its particle set */
+    struct listed_frame listed; /* file and time of the frame */
+    int64_t step;               /* number of the time step or load step */
+    int set;                    /* index of its particle set */
     bool used;
 };
 

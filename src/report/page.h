@@ -13,13 +13,13 @@ enum page_type { PAGE_U8, PAGE_U16, PAGE_I16, PAGE_F32, PAGE_PNG, PAGE_TYPES };
 /* A page of HTML while it is composed in memory: a JSON text that describes it, and arrays of numbers to which the JSON
  * refers. */
 struct page {
-    struct json json; /* describes the page; its file is a stream in memory */
-    char *text;       /* of the JSON */
-    size_t text_length;
-    FILE *arrays; /* stream in memory of one <script> element for each array */
-    char *array_text;
-    size_t array_length;
-    int count; /* number of arrays */
+    struct json json;    /* describes the page; its file is a stream in memory */
+    char *text;          /* of the JSON */
+    size_t text_length;  /* length of the JSON [byte] */
+    FILE *arrays;        /* stream in memory of one <script> element for each array */
+    char *array_text;    /* text of these elements */
+    size_t array_length; /* length of this text [byte] */
+    int count;           /* number of arrays */
 };
 
 /* Initialises an empty page in memory, with an open JSON object to which entries are added. Returns FAILED if there is

@@ -8,11 +8,11 @@
 
 /* Destination and state of the output in YAML. */
 struct writer {
-    FILE *out;
-    const struct scene *scene;
-    int dim;    /* dimensions of points: dim of the scene, or 2 in an extrusion */
-    int indent; /* indentation of the next line [characters] */
-    bool dash;  /* the next line begins an item of a list */
+    FILE *out;                 /* receives the text */
+    const struct scene *scene; /* the scene that is written */
+    int dim;                   /* dimensions of points: dim of the scene, or 2 in an extrusion */
+    int indent;                /* indentation of the next line [characters] */
+    bool dash;                 /* the next line begins an item of a list */
 };
 
 /* Begins a line of the YAML text of w: writes the indentation, a dash if the key is the first one of a list item, and

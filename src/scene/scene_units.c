@@ -268,7 +268,7 @@ static const char *trap(const char *c, size_t length)
 }
 
 struct complaint {
-    char *what;
+    char *what; /* [room] receives a message */
     size_t room;
 };
 

@@ -32,11 +32,11 @@ struct pilot_candidate {
 
 /* State of the choice of method and spacing by pilot runs: what is required, the candidates, and their results. */
 struct pilot_search {
-    const char *scene;
+    const char *scene;                     /* path of the scene file; borrowed */
     const struct scene_override *override; /* [overrides] of the user; borrowed */
     int overrides;
-    struct study_options options;
-    struct pilot_wish wish;
+    struct study_options options;        /* options of the studies */
+    struct pilot_wish wish;              /* wanted accuracy and time */
     char folder[PATH_ROOM], figure[128]; /* folder of the pilot runs; name of the figure */
     double begun;                        /* start time on wall_clock_seconds [s] */
     struct pilot_candidate at[4];        /* [n] applicable methods */

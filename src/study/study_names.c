@@ -100,6 +100,7 @@ static const char *key_label(const struct varied_key *key, int keys, int k)
     return own;
 }
 
+/* A varied key with its label, and its index `at`, for sorting. */
 struct labelled {
     const char *label, *key;
     int at;
