@@ -26,10 +26,11 @@
 #include "rigid/rigid.h"
 #include "scene/requests.h"
 
-/* Table by which contact of the form `surface` finds the face beside a particle: depth of the face below the particle
- * as a function of the density of the face's particles at this particle (contact_face.c). PROFILE_NODES: number of
- * entries of the table. */
+/* Number of entries of the table struct contact_profile. */
 enum { PROFILE_NODES = 86 };
+
+/* Table by which contact of the form `surface` finds the face beside a particle: depth of the face below the particle
+ * as a function of the density of the particles of the face at this particle (contact_face.c). */
 struct contact_profile {
     /* nodes of the table: density [1], depth [spacings], derivative of the depth by the density [spacings] */
     real density[PROFILE_NODES], depth[PROFILE_NODES], slope[PROFILE_NODES];
@@ -41,7 +42,7 @@ struct contact_law {
     enum contact_between between;   /* allowed between: no particles, different bodies, all particles */
     enum contact_form form;         /* contact of faces (`surface`) or of pairs of particles (`pair`) */
     enum contact_distance distance; /* form `pair`: rule for the contact distance */
-    struct contact_profile profile; /* form `surface`: force by gap */
+    struct contact_profile profile; /* form `surface`: depth below a face by its density */
     real friction;                  /* coefficient of friction [1] */
     int materials;                  /* number of materials */
     real *stiffness; /* [materials^2] k/(V_i V_j) by pair of materials: contact stiffness k divided by the volumes of

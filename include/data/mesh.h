@@ -108,7 +108,7 @@ struct mesh {
     int32_t *partial_cell;     /* [partial_cells, padded to whole groups of LANES] partial cells, ascending */
     uint8_t *partial_material; /* [as partial_cell] material of the cell, of several the one that converts first */
     bool *partial_stressed;    /* [as partial_cell] a point may have exceeded the conversion stress */
-    real *stiffness; /* [groups][modes (modes + 1)/2][LANES] lower half of the symmetric stiffness by deformation modes
+    real *stiffness; /* [groups][modes (modes + 1)/2][LANES] half of the symmetric stiffness by deformation modes
                         of each partial cell, divided by its volume (mesh_partial.h) [Pa] */
     /* [groups + 1] bonded points in the cells of a group: end[ends[group]] .. end[ends[group + 1] - 1]; NULL: none */
     int32_t *ends;
