@@ -135,7 +135,7 @@ enum probe_kind {
     PROBE_TIP,      /* one crack tip (the longest, or the one nearest to `at`)                    */
     PROBE_BREAK,    /* first cut bond in a region                                                 */
     PROBE_REACTION, /* force of the support at a named boundary                                   */
-    PROBE_PATCH,    /* largest nodal force residual over stress x h under uniform strain          */
+    PROBE_PATCH,    /* largest nodal force residual divided by stress x h, under uniform strain */
     PROBE_SPALL,    /* separated end of a bar                                                     */
     PROBE_POINT,    /* displacement, velocity, stress, damage of the particle nearest to `at`     */
     PROBE_LINE,     /* profile from `from` to `to` in `points` stations, at the end and per frame */

@@ -38,8 +38,9 @@ struct cost {
     double equilibria;  /* load steps: largest number of equilibria */
     /* largest ratio of stretch to critical stretch of the intact body [1]; its pseudo-time [s] */
     real overload, overload_at;
-    enum cost_basis basis;  /* how `run` was estimated */
-    double coarser, growth; /* SCALED: factor on the spacing; time of all steps over that expected from the first [1] */
+    enum cost_basis basis; /* how `run` was estimated */
+    double coarser,
+        growth; /* SCALED: factor on the spacing; time of all steps divided by that expected from the first [1] */
     double all_peridynamic; /* time of a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
     double bytes;           /* peak memory of a run without conversion [byte] */
     struct warnings found;  /* warnings of the trial steps of this scene */

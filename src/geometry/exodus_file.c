@@ -12,7 +12,7 @@
 #include "exodus_parts.h"
 #include "source.h"
 
-/* Largest size of an array over the size of its netCDF-4 file [1]: gzip compresses equal numbers by at most this
+/* Largest size of an array divided by the size of its netCDF-4 file [1]: gzip compresses equal numbers by at most this
  * factor. */
 enum { UNPACKED_MOST = 1024 };
 

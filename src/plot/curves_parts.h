@@ -142,8 +142,8 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
 status history_curves_draw(const struct plot_request *request, const char *title);
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
- * frame[frame_count], to the file `sheet`. title: heading of the picture; projection: tells load steps from times.
- * Returns FAILED if gnuplot fails. */
+ * frame[frame_count], to the file `sheet`. title: heading of the picture; projection: states whether the frames are
+ * load steps. Returns FAILED if gnuplot fails. */
 status bar_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                          const struct output_frame *frame, int frame_count);
 

@@ -181,7 +181,7 @@ status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)
     return OK;
 }
 
-/* Kinetic energy, over that of the body moving at its wave speed, below which all energies are round-off [1]. */
+/* Kinetic energy below which all energies are round-off, divided by that of the body moving at its wave speed [1]. */
 #define ENERGY_OF_ROUND_OFF 1e-24
 
 bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)
