@@ -138,8 +138,8 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Computes p->end_strain and, in models with rotations, p->end_rotation of those points with state-based bonds that are
- * in eight partial cells (with missing points or several materials). group: number of these cells, from 0. */
+/* Computes for points with state-based bonds in group `group` of eight partial cells (with missing or unequal points)
+ * the rotation p->end_rotation of their cell and its share p->end_strain [1] in the mean strain over their bonds. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -187,8 +187,8 @@ void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-/* Adds the forces p->f on material points of cell I to the nodes of the cell, by their interpolation weights. places:
- * bit q is set for each point q = 0 .. 2^dim - 1 of the cell whose force is added. */
+/* Adds the forces p->f on material points of cell I to the nodes of the cell, by interpolation weights. places: bit q
+ * is set for each point q = 0 .. 2^dim - 1 of the cell whose force is added. */
 static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -292,7 +292,7 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
         stress_3(mesh, p, m, finite);
 }
 
-/* Stores the displacement gradient du_a/dX_b [1] of each point i of cell I in to[a dim + b][i]. */
+/* Stores the gradient du_a/dX_b [1] of the displacement u at each point i of cell I in to[a dim + b][i]. */
 static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX];
@@ -349,7 +349,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Sets FLAG_STRESSED of points of cell I (cell_points_mark), by a function for one `dim` that is not inlined. */
+/* Sets FLAG_STRESSED as cell_points_mark(mesh, p, m, I, dim, finite), by a function that is not inlined. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -361,9 +361,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns an upper bound of the stress in each of eight cells [Pa], closer than that of mesh_force: the maximum over
- * its points of a bound of the principal stresses and, with a strength surface, of cell_strength_bound. m: elastic
- * constants; s: strain of the cells; there[q]: mask of cells that have point number q; NULL if all have all points. */
+/* Returns an upper bound of the principal stresses in eight cells [Pa], closer than that of mesh_force: the maximum
+ * over the points of a cell of row sums of the stress and, with a strength surface, of cell_strength_bound. m:
+ * constants; s: strain of the cells; there[q]: mask of cells that have point number q; NULL: all have all. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -450,9 +450,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED of the points of eight partial cells (with missing points or several materials) whose principal
- * stress exceeds the conversion stress. Examines only cells whose bound places_tension exceeds it, and cells for which
- * it is no bound (several materials, mean dilatation). group: number of the eight cells, from 0. */
+/* Sets FLAG_STRESSED of points of eight partial cells (points missing or several materials) whose principal stress
+ * exceeds the conversion stress. Examines only cells whose bound places_tension exceeds it, and cells for which it is
+ * no bound (several materials, mean dilatation). group: number of the cells, from 0; m: constants [material]. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {

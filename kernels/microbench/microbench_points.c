@@ -30,8 +30,8 @@ struct corner {
     real N[CORNERS], gx[CORNERS], gy[CORNERS];
 };
 
-/* Returns the shape functions of point i at the four corners of its cell, and their derivatives. cx, cy: indices of the
- * cell along x and y. */
+/* Returns the shape functions of point i of p at the four corners of its cell, and their derivatives. cx, cy: indices
+ * of the cell along x and y. */
 static ALWAYS_INLINE struct corner corner_make(const struct microbench_points *p, int64_t i, int cx, int cy)
 {
     const real inverse = 1 / p->h, r = p->x[i] * inverse - cx, s = p->y[i] * inverse - cy;
@@ -51,8 +51,8 @@ static void add_corners(real *field, int cx, int cy, const real *sum)
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* First map of a step: adds mass, momentum and internal force of the points of one cell to its four nodes. cx, cy:
- * indices of the cell along x and y. */
+/* First map of a step: adds mass, momentum and internal force of the points of one cell to its four nodes. p: all
+ * points and nodes. cx, cy: indices of the cell along x and y. */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -89,7 +89,7 @@ static void cell_remap(struct microbench_points *p, int cx, int cy)
     add_corners(p->px, cx, cy, px), add_corners(p->py, cx, cy, py);
 }
 
-/* Updates stress and volume of point i for one step, with the objective stress rate of Jaumann. xx, yy, xy: strain
+/* Updates stress and volume of point i of p for one step, with the objective stress rate of Jaumann. xx, yy, xy: strain
  * increments [1]; spin: rotation angle of the step [rad]. */
 static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, int64_t i, real xx, real yy, real xy,
                                                   real spin)
@@ -101,8 +101,8 @@ static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, i
     p->volume[i] *= 1 + xx + yy;
 }
 
-/* Third map of a step: updates position, stress and volume of the points of one cell from the nodal velocities. cx, cy:
- * indices of the cell along x and y. */
+/* Third map of a step: updates position, stress and volume of the points (of p) in one cell from the nodal velocities.
+ * cx, cy: indices of the cell along x and y. */
 static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -139,15 +139,15 @@ MAP(scatter)
 MAP(remap)
 MAP(gather)
 
-/* Sets mass, momentum and force of all nodes to 0, before a step. */
+/* Sets mass, momentum and force of all nodes of p to 0, before a step. */
 static void nodes_clear(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
     for (int I = 0; I < NODES; I++) p->m[I] = p->px[I] = p->py[I] = p->fx[I] = p->fy[I] = 0;
 }
 
-/* Computes for all nodes the change of velocity (into fx, fy) and the new velocity (ux, uy) from momentum and force,
- * and then sets the momentum to 0. */
+/* Computes for all nodes of p the change of velocity (into fx, fy) and the new velocity (ux, uy) from momentum and
+ * force, and then sets the momentum to 0. */
 static void nodes_move(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
@@ -159,7 +159,7 @@ static void nodes_move(struct microbench_points *p)
     }
 }
 
-/* Divides the momentum of all nodes by their mass, after the second map: px, py are then velocities. */
+/* Divides the momentum of all nodes of p by their mass, after the second map: px, py are then velocities. */
 static void nodes_remapped(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
@@ -178,8 +178,8 @@ double microbench_points_run(struct microbench_points *p)
     return (wall_clock_seconds() - start) / (double)p->n;
 }
 
-/* Sets positions, velocities, volumes and masses of the points: steel, spacing 0.5 mm, with a wave so weak that points
- * stay in their cells during the measurement. */
+/* Sets positions, velocities, volumes and masses of the points p: steel, spacing 0.5 mm, with a wave so weak that
+ * points stay in their cells during the measurement. */
 static void place_points(struct microbench_points *p)
 {
     for (int c = 0; c < CELLS_X * CELLS_Y; c++) {

@@ -61,9 +61,9 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
  * f_g), as if the mirrored body were present, for every shape. Mirror nodes are few and several may share an image;
  * they are processed in order by one thread. */
 
-/* Adds mass, reflected force and reflected momentum of each mirror node (a node beyond a plane of symmetry) to its
- * image node, and sets them to 0 at the mirror node. Stores in its member `taken` the impulse that the points gave to
- * the mirror node [N s]. transfer: scheme of the grid; dt_velocity: time over which forces change the velocities
+/* Adds mass, reflected force and reflected momentum of each mirror node of g (a node beyond a plane of symmetry) to its
+ * image node, and sets them to 0 at the mirror node. Stores in the member `taken` of the mirror node the impulse that
+ * the points gave to it [N s]. transfer: scheme of the grid; dt_velocity: time over which forces change the velocities
  * [s]. */
 static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, real dt_velocity)
 {
@@ -82,11 +82,11 @@ static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, rea
     }
 }
 
-/* Sets velocity and change of velocity of each mirror node (a node beyond a plane of symmetry) to the reflected ones of
- * its image node, and adds the reaction of the plane to impulse[axis] [N s]. A component that changes sign needs the
- * impulse m_g dv_g - dt f_g at the node and an equal impulse at its image: together they do no work, since node and
- * image move in opposite directions. transfer: scheme of the grid, which decides whether the momentum from the points
- * counts, too. */
+/* Sets velocity and change of velocity of each mirror node of g (a node beyond a plane of symmetry) to the reflected
+ * ones of its image node, and adds the reaction of the plane to impulse[axis] [N s]. A component that changes sign
+ * needs the impulse m_g dv_g - dt f_g at the node and an equal impulse at its image: together they do no work, since
+ * node and image move in opposite directions. transfer: scheme of the grid, which decides whether the momentum from the
+ * points counts, too. */
 static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, real impulse[DIM_MAX])
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++) {
@@ -179,8 +179,9 @@ static void followers_find(struct grid *g, real smallest_mass)
     array_sort(g->follower, n, sizeof *g->follower, by_node);
 }
 
-/* Adds the force and the mass of the light node I, multiplied by `times`, to the heavier node J, from which the
- * acceleration of I is extrapolated. The momentum of J is scaled with its mass, so that its velocity does not change;
+/* Adds the force and the mass of the light node I of g, multiplied by `times`, to the heavier node J, one of two from
+ * which the acceleration of I is extrapolated linearly. times: weight of J in this extrapolation, 2 for the nearer
+ * node, -1 for the farther one. The momentum of J is scaled with its mass, so that its velocity does not change;
  * components normal to a plane of symmetry through J are left as they are. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
@@ -258,9 +259,9 @@ static void grid_absorb_again(struct grid *g)
         }
 }
 
-/* Computes the new velocity of node I from its momentum and force. The change of velocity replaces the force, and the
- * momentum becomes 0. dt_velocity: time over which forces change the velocities [s]. A node lighter than smallest_mass
- * [kg] gets velocity and change 0. */
+/* Computes the new velocity of node I of g from its momentum and force. The change of velocity replaces the force, and
+ * the momentum becomes 0. dt_velocity: time over which forces change the velocities [s]. A node lighter than
+ * smallest_mass [kg] gets velocity and change 0. */
 static ALWAYS_INLINE void node_advance(struct grid *g, int64_t I, real dt_velocity, real smallest_mass, const int dim)
 {
     const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;

@@ -143,8 +143,8 @@ static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct tur
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the root of group g: the last group in the chain of groups that it has joined, or g itself if it has joined
- * none. A group consists of points that rotate together. */
+/* Returns the root of group g of t: the last group in the chain of groups that it has joined, or g itself if it has
+ * joined none. A group consists of points that rotate together. */
 static int32_t group_root(const struct rotation_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
@@ -200,8 +200,8 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
     w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
 }
 
-/* Adds the angular momentum g->sum of each group of points to that of its root, the group that it has joined (points of
- * a group rotate together). */
+/* Adds the angular momentum g->sum of each group of t to that of its root, the group that it has joined (points of a
+ * group rotate together). */
 static void sums_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -210,14 +210,14 @@ static void sums_join(struct rotation_groups *t)
     }
 }
 
-/* Returns true if the points of group g rotate with an angular velocity of this group: g has mass, has not joined
+/* Returns true if the points of group g of t rotate with an angular velocity of this group: g has mass, has not joined
  * another group, and no support constrains its body. */
 static bool group_turns(const struct rotation_groups *t, int32_t g)
 {
     return t->group[g].root == g && t->group[g].joined > 0 && !t->group[g].held;
 }
 
-/* Computes the angular velocity of each root (a group of points that has joined no other group) from the angular
+/* Computes the angular velocity of each root of t (a group of points that has joined no other group) from the angular
  * momentum g->sum of all groups that have joined it. It is 0 for a root without mass and in bodies that a support
  * constrains. */
 static void spins_find(struct rotation_groups *t, int dim)
@@ -230,8 +230,8 @@ static void spins_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes for each root (a group of points that has joined no other group) the gain of angular velocity ("spin") that
- * restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
+/* Computes for each root of t (a group of points that has joined no other group) the gain of angular velocity ("spin")
+ * that restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
  * computes the spin with this gain: J spin = g->angular + (J - g->added) gain. g->added is the part of J that was added
  * to a thin group to keep J regular. */
 static void gains_find(struct rotation_groups *t, int dim)
@@ -252,7 +252,7 @@ static void gains_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes mass (`joined`) and centre of mass (`moment`) of each root, a group of points that has joined no other
+/* Computes mass (`joined`) and centre of mass (`moment`) of each root of t, a group of points that has joined no other
  * group, from masses and first moments of all groups that have joined it. */
 static void centres_find(struct rotation_groups *t)
 {
@@ -294,8 +294,8 @@ static void moments_shift(struct rotation_groups *t)
     }
 }
 
-/* Adds the inertia of each group of points that rotate together to that of its root, the group that it has joined. If
- * the inertia of a root nearly vanishes about some axis, adds the inertia of its mass at a radius of LEAST_ARM
+/* Adds the inertia of each group of t (points that rotate together) to that of its root, the group that it has joined.
+ * If the inertia of a root nearly vanishes about some axis, adds the inertia of its mass at a radius of LEAST_ARM
  * spacings. spacing: distance of the particles [m]. */
 static void inertias_find(struct rotation_groups *t, real spacing, int dim)
 {

@@ -21,14 +21,15 @@ static bool is_driven(const struct particles *p, int32_t i)
     return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN;
 }
 
-/* Sets the bits `flag` in the flags of particle i, by an atomic store (is_driven). */
+/* Sets the bits `flag` in the flags of particle i. The store is atomic, because other threads may read these flags at
+ * the same time. */
 static void set_flag(struct particles *p, int32_t i, int flag)
 {
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Returns half the elastic energy of bond q of row `row` (bonds of one particle) at the given stretch [J]; the other
- * half belongs to the row of its other particle. Only for bond-based models. */
+/* Returns half the elastic energy [J] that bond q of row `row` (bonds of one particle) has at the stretch `stretch`
+ * [1]; the other half belongs to the row of its other particle. Only for bond-based models. */
 static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stretch)
 {
     return 0.5 * b->stiffness * b->w[q] * bond_entry_normalised_energy(b, row / LANES, q, stretch) /
@@ -70,8 +71,9 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
 }
 
 /* Returns half the energy [J] that bond q of row `row` has dissipated in all when it passes the end of its softening in
- * this step. In the leap-frog step from the stretch s_0, with the stiffness 1 - d, to s_1 it loses s_0 s_1 (1 - d)/2,
- * divided by stiffness, weight and length. dt: time step [s]. */
+ * this step. row: number of the row (bonds of one particle). In the leap-frog step from the stretch s_0 to s_1, with
+ * the damage d at its start, the bond loses the energy s_0 s_1 (1 - d)/2 times its stiffness, weight and length. dt:
+ * time step [s]. */
 static real half_energy_of_softening_to_end(const struct bonds *b, const struct particles *p, int64_t row, int64_t q,
                                             real dt)
 {
@@ -84,9 +86,9 @@ static real half_energy_of_softening_to_end(const struct bonds *b, const struct 
            (softening_normalised_dissipated_energy(b->soft.curve, onset, end, most) + 0.5 * kept * before * now);
 }
 
-/* Ends the softening of bond q of row `row`: adds `energy`, half of what the bond has dissipated [J], to the fracture
- * energy of the row, and marks the bond as broken. The bond must be at the end of its softening, where it has no
- * force. */
+/* Ends the softening of bond q of row `row` (bonds of one particle): adds `energy`, half of what the bond has
+ * dissipated [J], to the fracture energy of the row, and marks the bond as broken. The bond must be at the end of its
+ * softening, where it has no force. */
 static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q, real energy)
 {
     b->soft.most[q] = b->soft.end[q];
@@ -111,8 +113,8 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
 
 /* Returns the stretch [1] with which the lost energy of bond q, from particle i to j, is computed when the bond breaks
  * in this step: the stretch at which it passed its limit. Where bonds soften, the bond has no force after this step: a
- * leap-frog step from the stretch s_0 to s_1 then takes s_0 s_1/2 of its energy, divided by stiffness, weight and
- * length, and the root of s_0 s_1 is returned. limit: breaking limits and time step. */
+ * leap-frog step from the stretch s_0 to s_1 then loses the energy s_0 s_1/2 times stiffness, weight and length, and
+ * the square root of s_0 s_1 is returned. limit: breaking limits and time step. */
 static real stretch_at_break(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                              int64_t q, int32_t i, int32_t j)
 {
@@ -204,8 +206,8 @@ static bool is_past(struct bonds *b, const struct particles *p, const struct bon
     return stretch > range.end;
 }
 
-/* Breaks the bonds of row `row` (all bonds of one particle) whose stretch exceeds their limit. Returns how many it
- * broke. */
+/* Breaks the bonds of row `row` (all bonds of one particle) whose stretch exceeds their breaking limit. limit: breaking
+ * limits and time step. Returns the number of bonds broken. */
 static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];

@@ -25,9 +25,10 @@ struct family_sums {
 };
 
 /* Adds the eight bonds of a column (one bond of each of eight particles) to *sum, the sums over their families (all
- * bonds of one particle): w r e, with the extension e = |Y| - r, and in models with rotations w Y (x) xi. x[dim],
- * X[dim]: present and reference positions of the eight particles [m]. model: state-based model, a compile-time
- * constant. */
+ * bonds of one particle): w r e with weight w, reference length r and extension e = |Y| - r of the bond vector Y, and
+ * in models with rotations w Y (x) xi with the reference vector xi. Also updates the smallest and largest stretch in
+ * *sum. x[dim], X[dim]: present and reference positions of the eight particles [m]. model: state-based model, a
+ * compile-time constant. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
                                             const struct column column, const lanes *x, const lanes *X, const int dim,
                                             const enum pd_model model)

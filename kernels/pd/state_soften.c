@@ -34,9 +34,9 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
     return 0;
 }
 
-/* Returns a mean energy of the bonds of one row over the last step [J], in which the product of the displacements
- * before and after the step replaces their squares: what changes in it when bonds are damaged is what leap-frog loses.
- * dt: time step [s]. */
+/* Returns a mean of the energy of the bonds of one row (bonds of one particle) over the last time step dt [s]: the
+ * elastic energy with the squares of displacements replaced by the products of displacements before and after the step
+ * [J]. When bonds are damaged, this mean falls by the energy that the leap-frog step loses. */
 static real row_energy_of_step(const struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     return 2 * state_row_energy(b, p, row, 0.5 * dt) -

@@ -225,9 +225,9 @@ void *memory_new_lazy_zeroed(const char *label, int64_t count, size_t size)
     return array_make(label, count, size, MOSTLY_ZERO);
 }
 
-/* Extends the array at `pointer` from old_length to `length` bytes within the pages that it owns, without moving it,
- * and sets the new bytes to 0. Returns true on success. Returns false, and changes nothing, if the array has no pages
- * of its own, these are too short, or `length` is smaller than old_length. */
+/* Extends the array `pointer` from old_length to `length` bytes within the pages that it owns, without moving it, and
+ * sets the new bytes to 0. Returns true on success. Returns false, and changes nothing, if the array has no pages of
+ * its own, these are too short, or `length` is smaller than old_length. */
 static bool array_extend(void *pointer, size_t old_length, size_t length)
 {
     struct block block;

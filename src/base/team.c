@@ -158,9 +158,10 @@ const char *machine_memory_limit_name(void)
 
 /* ---- the team ---------------------------------------------------------------------------------------------------- */
 
-/* Binds each of the `threads` threads of the team, except the calling one, to a core of its own in `place`, or to all
- * allowed cores if there are fewer cores than threads. The calling thread remains free: its mask shows later calls, for
- * other team sizes, what the process may use, and programs that it starts inherit it. */
+/* Binds each of the `threads` threads of the team, except the calling one, to a core of its own, or to all allowed
+ * cores if there are fewer cores than threads. The calling thread remains free: its mask shows later calls, for other
+ * team sizes, what the process may use, and programs that it starts inherit it. place: cores that the process may
+ * use. */
 static void bind_helpers(const struct place *place, int threads)
 {
     bool apart = core_at(place, threads - 1) != NULL;

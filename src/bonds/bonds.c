@@ -14,7 +14,7 @@ const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
 /* Returns true if particle i has a row (list of bonds) in the previous bonds `old` with bonds to all particles within
  * the cutoff, as rows of peridynamic particles have. Rows of material points have bonds to peridynamic neighbours only.
- * For a mirror image, the row of the particle that it mirrors is tested. s: inputs of the bonds. */
+ * For a mirror image, the row of the particle that it mirrors is tested. s: list of the mirror images. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
@@ -31,10 +31,10 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks particle or image i and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the sets of eight
- * consecutive particles that contain one of them, which get rows of bonds; in fresh[particles] these particles
- * themselves, whose neighbours must be searched again. s: inputs of the bonds; map: lattice sites; found[capacity]:
- * working memory. */
+/* Marks particle or mirror image i and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the sets of
+ * eight consecutive particles that contain one of them, which get rows of bonds; in fresh[particles] these particles
+ * themselves, whose neighbours must be searched again. map: map from lattice sites to particles; found[capacity]:
+ * working memory for the indices of neighbours; s: cutoff and cells of the search. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -47,9 +47,9 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
 /* Marks by 1 in wanted[(n + 7)/8] the sets of eight consecutive particles that get rows (lists of bonds): sets with a
  * peridynamic particle or with a material point that has a peridynamic neighbour. Rows of other particles of a marked
  * set have no bonds. Whole sets are used, since a row block keeps its eight particles for as long as it exists. Marks
- * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. s:
- * inputs of the bonds; old: previous bonds or NULL; map: lattice sites; capacity: largest number of neighbours of a
- * particle. */
+ * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
+ * previous bonds or NULL; map: map from lattice sites to particles; s: data from which bonds are made; capacity:
+ * largest number of neighbours of a particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -89,8 +89,9 @@ struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_sou
     return t;
 }
 
-/* Returns an array [n] with the row index of each particle, all -1 (no row). If the previous bonds `old` (or NULL) have
- * a spare array of this kind, it is taken from them instead of allocating one. The caller owns the array. */
+/* Returns an array [n] for the row (list of bonds) of each particle, with all entries -1 (no row). If the previous
+ * bonds `old` (or NULL) have a spare array of this kind, it is taken from them instead of allocating one. The caller
+ * owns the array. */
 static int32_t *row_of_make(struct bonds *old, int64_t n)
 {
     int32_t *row_of = old ? old->no_rows : NULL;
@@ -168,8 +169,9 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
 }
 
 /* Returns true if the bonds of row block g (eight rows stored together) can be made from the map of lattice sites,
- * without a search: its particles are consecutive, on a regular part of the lattice, and have no changed weights. The
- * bonds are then in room->regular. */
+ * without a search: its particles are consecutive, on a regular part of the lattice, and have no changed weights. In
+ * this case stores the bonds in room->regular. pass: the bonds and the data from which they are made; room: working
+ * memory of the thread. */
 static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
@@ -187,7 +189,7 @@ static void reach_widen(int32_t *reach, int32_t distance)
 
 /* Increases room->reach to the largest difference of the indices of two bonded particles in row block g (eight rows
  * stored together). Images do not count, as they have no rows. regular: true if the bonds are in room->regular (found
- * from the lattice map), false if they are in room->row (found by search). */
+ * from the lattice map), false if they are in room->row (found by search). pass: the bonds. */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -271,8 +273,9 @@ static void rows_pass(const struct rows_pass *pass)
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
 }
 
-/* Copies the row blocks (eight rows stored together) that are equal to previous ones from the previous bonds, and sets
- * b->n to the number of directed bonds of all row blocks. pass: the rows that are made. */
+/* Copies the row blocks (eight rows stored together) that are equal to previous ones from the previous bonds
+ * (pass->maker.old) to the new ones (pass->b), and sets the member n of the latter to the number of directed bonds of
+ * all row blocks. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;

@@ -21,8 +21,9 @@ static bool image_rotates(const struct bond_source *s, const struct particles *p
     return clamp;
 }
 
-/* Returns an array [n_all - n] with 1 for images of particles of p in clamped planes (by the inputs s of the bonds) and
- * 0 for others; NULL if no image is in a clamped plane. The caller frees it with memory_free. */
+/* Returns an array [n_all - n] with 1 for images across clamped planes (planes at which all motion is prevented) and 0
+ * for others; NULL if no image is in a clamped plane. s: planes to which the images belong. The caller frees the array
+ * with memory_free. */
 static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
 {
     bool any = false;
@@ -35,9 +36,9 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts in c->n the intact bonds of column k (the k-th bonds) of row block g (eight rows stored together) to images in
- * clamped planes. If c->entry is not NULL, also stores index, both particles, inverse length and weight of each of
- * these bonds. is[images]: 1 for images in clamped planes. */
+/* Counts in c->n the intact bonds of column k (the k-th bonds) of row block g (eight rows stored together) to images
+ * across clamped planes (planes at which all motion is prevented). If c->entry is not NULL, also stores index, both
+ * particles, inverse length and weight of each of these bonds. is[images]: 1 for images across clamped planes. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -53,9 +54,9 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Counts in c->n the intact bonds of all row blocks (eight rows stored together) of b to images in clamped planes, and
- * stores them if c->entry is not NULL. Images have indices behind those of the body, so that one comparison excludes
- * most columns. is[images]: 1 for images in clamped planes. */
+/* Counts in c->n the intact bonds of all row blocks (eight rows stored together) of b to images across clamped planes
+ * (planes at which all motion is prevented), and stores them if c->entry is not NULL. Images have indices behind those
+ * of the body, so that one comparison excludes most columns. is[images]: 1 for images across clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;
@@ -88,11 +89,11 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Lists in c->end the reactions of bonds between a particle and an image across a clamped plane, sorted by the particle
- * on which they act. In state-based models the particle already has its half of the bond force; the other half is one
- * reaction, on the particle that the image mirrors. In bond-based models the particle has both halves; two reactions
- * move one half from there to the particle that the image mirrors. The bonds must be in c (bonds_note). s: inputs of
- * the bonds. */
+/* Lists in c->end the reactions of bonds between a particle and an image across a clamped plane (at which all motion is
+ * prevented), sorted by the particle on which they act. In state-based models the particle already has its half of the
+ * bond force; the other half is one reaction, on the particle that the image mirrors. In bond-based models the particle
+ * has both halves; two reactions move one half from there to the particle that the image mirrors. The bonds must be in
+ * c (bonds_note). s: list of the images. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

@@ -13,8 +13,8 @@ struct holes_by_size {
     int32_t most;
 };
 
-/* Inserts hole number k (a range of unused columns of the bond arrays) in the list of the holes of its size, in
- * front. */
+/* Inserts hole number k (a range of unused columns of the bond arrays) at the beginning of the list that s has of the
+ * holes of this size. */
 static void hole_list(struct holes_by_size *s, int64_t k)
 {
     const int32_t size = s->all->hole[k].columns;
@@ -35,7 +35,7 @@ static struct holes_by_size holes_sort(struct bond_holes *all)
     return s;
 }
 
-/* Takes `columns` columns from the smallest hole (range of unused columns) in s that has as many, and returns the first
+/* Takes `columns` columns from the smallest hole of s (range of unused columns) that has as many, and returns the first
  * of them; -1 if there is no such hole or `columns` is 0. The rest of the hole remains a hole. */
 static int64_t hole_take(struct holes_by_size *s, int32_t columns)
 {

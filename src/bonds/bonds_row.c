@@ -31,8 +31,8 @@ void bond_row_buffer_free(struct row *row)
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
 /* Lists the particles and images of the body of particle i within its cutoff in found[capacity], in ascending order,
- * without i. s: inputs of the bonds, with the cells of the search. Returns their number. A number above `capacity`
- * means that the list is incomplete. */
+ * without i. Returns their number. A number above `capacity` means that the list is incomplete. s: cutoff and cells of
+ * the search. */
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found,
                          int capacity)
 {
@@ -46,7 +46,8 @@ static int family_search(const struct bond_source *s, const struct particles *p,
 }
 
 /* Removes from found[n] those neighbours of particle i for which the line to i passes through a void (a hole of the
- * body without particles) of s. The others keep their order. Returns the number of remaining neighbours. */
+ * body without particles). s: has the voids. The others keep their order. Returns the number of remaining
+ * neighbours. */
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
     int kept = 0;
@@ -100,8 +101,8 @@ bool particle_is_near_precrack_or_void(const struct bond_source *source, const s
 
 /* Returns the weight [1] of the bond between particles i and j: product of partial volume, influence, volumes and
  * materials of both particles, and the surface correction. xi[dim], r: reference vector from i to j and its length [m];
- * s: rules of weights; pairs: stiffness by pair of materials, divided by that of material 0. Exchanging i and j changes
- * no bit. */
+ * s: family and surface correction; pairs: stiffness by pair of materials, divided by that of material 0. Exchanging i
+ * and j changes no bit. */
 static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                         int32_t i, int32_t j, const real *xi, real r)
 {
@@ -117,8 +118,8 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
 
 /* Lists the neighbours with which particle i has bonds in row->nbr[capacity], ascending: all within the cutoff if it is
  * peridynamic, only the peridynamic ones if it is a material point. Sets row->n, their number, and row->family_volume,
- * the volume of all neighbours within the cutoff [m^3]. s: inputs of the bonds; map: map from lattice sites to
- * particles. */
+ * the volume of all neighbours within the cutoff [m^3]. s: cutoff and cells of the search; map: map from lattice sites
+ * to particles. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
@@ -148,10 +149,10 @@ static real elastic_strain_along(const struct particles *p, const struct materia
     return sum;
 }
 
-/* Returns the initial plastic state of the bond between material points i and j of p (j may be an image): 0 if neither
- * has yielded. Its plastic stretch is the part of the present stretch that the points' stress does not explain
- * elastically, its plastic path the mean of their plastic strains. A bar then carries the stress of its points to the
- * last digit. s: materials; r: reference length of the bond [m]. The value is symmetric in i and j. */
+/* Returns the initial plastic state of the bond between material points i and j (j may be an image): 0 if neither has
+ * yielded. Its plastic stretch is the part of the present stretch that the points' stress does not explain elastically,
+ * its plastic path the mean of their plastic strains. A bar then carries the stress of its points to the last digit. s:
+ * has the elastic constants; r: reference length of the bond [m]. The value is symmetric in i and j. */
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
@@ -169,7 +170,8 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 
 /* Returns the stretch of the bond between `particle` and `other_particle` above which the vector test reports the bond
  * to the exact test [1]: the stretch at which the bond breaks or begins to soften, reduced by TRIGGER_MARGIN; half of
- * it if the strength depends on the strain rate, which is measured from there on. source: limits of bonds. */
+ * it if the strength depends on the strain rate, which is measured from there on. source: has the critical
+ * stretches. */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle)
 {
@@ -180,8 +182,9 @@ real bond_stretch_that_triggers_exact_test(const struct bond_source *source, con
 }
 
 /* Computes inverse lengths and weights of the bonds from particle i to the row->n neighbours in row->nbr, and
- * row->trigger, the smallest stretch to be tested. A bond that a pre-crack cuts gets weight 0 and a negative inverse
- * length. s: inputs of the bonds; pairs: stiffness by pair of materials, divided by that of material 0. */
+ * row->trigger, the smallest stretch at which one of these bonds must be tested for breaking or softening [1]. A bond
+ * that a pre-crack cuts gets weight 0 and a negative inverse length. s: data from which bonds are made; pairs:
+ * stiffness by pair of materials, divided by that of material 0. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
@@ -201,8 +204,9 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-/* Returns the plastic state of bond k of one particle of row block `row_block` (eight rows stored together). lane:
- * which of the eight particles, 0 to 7. Only if bonds may yield (b->plastic_stretch is not NULL). */
+/* Returns the plastic state of bond number k (from 0) of one of the eight particles of row block `row_block` (eight
+ * rows stored together). lane: number of this particle, 0 to 7. Call it only if bonds may yield (b->plastic_stretch is
+ * not NULL). */
 static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;

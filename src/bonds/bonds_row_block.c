@@ -212,8 +212,8 @@ int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds)
 }
 
 /* Fills *column with the bonds from particle i + l to particle j + l, l = 0 .. 7: neighbours, inverse lengths and
- * weights. bonds: bit l is set if the bond of particle i + l exists; the others become padding, with inverse length and
- * weight 0. m: inputs of the rows. */
+ * weights. m: data from which rows are made; bonds: bit l is set if the bond of particle i + l exists; the others
+ * become padding, with inverse length and weight 0. */
 static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds)
 {
     const struct bond_source *s = m->source;
@@ -277,9 +277,9 @@ void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_bu
     bond_row_block_store_columns_or_stencil(b, buffer, g, m->p);
 }
 
-/* Allocates working memory `buffer` for row blocks (eight rows stored together) whose rows have up to `capacity` bonds,
- * for the worst case. Little of it is ever touched, as the arrays are not cleared. map: map from lattice sites to
- * particles. Release it with bond_row_block_buffer_free. */
+/* Allocates *buffer, the working memory for row blocks (eight rows stored together) whose rows have up to `capacity`
+ * bonds, for the worst case. Little of this memory is ever touched, as the arrays are not cleared. map: map from
+ * lattice sites to particles. Release it with bond_row_block_buffer_free. */
 void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map)
 {
     buffer->room = capacity;

@@ -210,8 +210,8 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
     return true;
 }
 
-/* Returns true if each of the eight particles of b has a neighbour at every index distance (neighbour minus particle)
- * in b->offset. */
+/* Returns true if each of the eight consecutive particles whose bonds are in b has a neighbour at every index distance
+ * (neighbour minus particle) in b->offset. */
 static bool is_full(const struct regular_bonds *b)
 {
     unsigned other = 0;
@@ -273,7 +273,7 @@ void regular_bonds_free(struct regular_bonds *bonds)
 }
 
 /* Computes inverse length [1/m] and weight [1] of the bonds from particle i + l to j + l for l = 0 .. 7, in inverse[8]
- * and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s: rules of weights;
+ * and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s: family and materials;
  * pairs: stiffness by pair of materials, divided by that of material 0; dim: number of dimensions, known at compile
  * time. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,

@@ -197,10 +197,10 @@ static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted
 
 /* ---- means ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the row (bonds of one particle) of e that holds the strain of particle or image j: the row of j, or for an
- * image the row of the particle that it mirrors, whose strain is still to be reflected. sign[dim]: receives -1 for the
- * axes to be reflected, else 1. Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is
- * clamped. */
+/* Returns the row (bonds of one particle) that holds the strain of particle or image j: the row of j, or for an image
+ * the row of the particle that it mirrors, whose strain is still to be reflected. sign[dim]: receives -1 for the axes
+ * to be reflected, else 1. e: bonds and strains. Returns -1 if that row does not hold bonds to all neighbours, or if a
+ * mirror is clamped. */
 static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
 {
     const struct particles *p = e->p;
@@ -227,8 +227,8 @@ static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distanc
     }
 }
 
-/* Computes the mean of the strains of row `row` and of the rows of all neighbours to which its intact bonds lead, from
- * e->strain[0] into e->strain[1]. */
+/* Computes the mean of the strains of row `row` (bonds of one particle) and of the rows of all neighbours to which its
+ * intact bonds lead, from e->strain[0] into e->strain[1]. */
 static void row_average(struct evaluation *e, int64_t row)
 {
     const int dim = e->p->dim, count = symmetric_component_count(dim);
@@ -305,7 +305,7 @@ static void evaluation_free(struct evaluation *e)
  * (failure criterion in stress), or a bond of it has begun to soften. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Returns true if row `row` (bonds of one particle) of e has an intact bond that can break and has not begun to
+/* Returns true if row `row` of e (bonds of one particle) has an intact bond that can break and has not begun to
  * soften. */
 static bool row_can_start(const struct evaluation *e, int64_t row)
 {
@@ -401,9 +401,9 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
 
 /* ---- start ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the smallest onset of softening that bonds of particle or image j of e may have [1], the share LEAST_ONSET of
- * its strain at the tensile strength, if the stress of the particle has reached its strength surface (failure criterion
- * in stress); INFINITY if it has not. */
+/* Returns the smallest stretch at which bonds of particle or image j may begin to soften [1]. If the stress of the
+ * particle has reached its strength surface (failure criterion in stress), this is LEAST_ONSET times its strain at the
+ * tensile strength; otherwise it is INFINITY. e: bonds, particles and their stresses. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
     const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);
@@ -413,10 +413,10 @@ static real start_of(const struct evaluation *e, int32_t j)
     return LEAST_ONSET * row_strength(e, row) * m->tensile_strength / m->young;
 }
 
-/* Returns the softening state of `bond` of particle i of e, whose softening begins because the stress has reached a
- * strength surface. least: lower limit of the onset from start_of [1]. The onset is the larger of the present stretch
- * of the bond and s, where s is the smaller of `least` and of the stretch at which the bond would begin to soften by
- * itself. */
+/* Returns the softening state of a bond of particle i whose softening begins because the stress has reached a strength
+ * surface. least: lower limit of the onset from start_of [1]. The onset is the larger of the present stretch of the
+ * bond and s, where s is the smaller of `least` and of the stretch at which the bond would begin to soften by itself.
+ * e: materials and critical stretches. */
 static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
 {
     const struct particles *p = e->p;
@@ -434,7 +434,7 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
 
 /* Starts the softening of the bonds of row block g (eight rows stored together) of b that are intact, have not begun to
  * soften, and lead from or to a particle on its strength surface (failure criterion in stress). Material points with
- * such bonds are marked for conversion. e: ratios of stress to strength. */
+ * such bonds are marked for conversion. e: particles that have reached their strength surface. */
 static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -465,8 +465,9 @@ real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct 
     return most;
 }
 
-/* Marks by 1 in touched[row blocks] the row block (eight rows stored together) of row `row` of e, whose particle is on
- * its strength surface, and those of all neighbours to which its bonds lead. Several threads may mark one row block. */
+/* Marks by 1 in touched[row blocks] the row block (eight rows stored together) of row `row`, whose particle is on its
+ * strength surface, and those of all neighbours to which its bonds lead. e: the bonds. Several threads may mark one row
+ * block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

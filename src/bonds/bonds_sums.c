@@ -13,7 +13,8 @@
 #define WHOLE 1e-12
 
 /* Returns the sum of the volumes of the neighbours of particle i, each times the weight of the bond to it in the family
- * f [m^3]. s: inputs of the bonds; map: map from lattice sites to particles; found[capacity]: working memory. */
+ * f [m^3]. s: cutoff and cells of the search; map: map from lattice sites to particles; found[capacity]: working
+ * memory. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int capacity)
 {
@@ -214,9 +215,10 @@ real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const str
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
-/* Returns a table for bounds of frequencies: the stiffness of the bonds of s for each pair of materials, divided by
- * that of material 0 [1]. In state-based models the entry of two materials is the mean of both, since each row of a
- * bond responds with its own modulus. The caller frees the array `ratio` of the table with memory_free. */
+/* Returns a table for bounds of frequencies: the stiffness of bonds for each pair of materials, divided by that of
+ * material 0 [1]. In state-based models the entry of two materials is the mean of both, since each row of a bond
+ * responds with its own modulus. s: materials and model. The caller frees the array `ratio` of the table with
+ * memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
     struct pair_table pairs = material_pair_table_make_of_micro_moduli(s);

@@ -9,8 +9,8 @@
 #define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the family */
 
 /* Returns the share of the volume of a neighbour at distance r [m] that counts [1]. It falls linearly from 1 to 0 over
- * one spacing about the horizon of the family f. It is rounded to 1e-9: lattice distances that are equal except for
- * round-off then have equal weights. */
+ * one spacing about the horizon of the family f (neighbourhood of a particle). It is rounded to 1e-9: lattice distances
+ * that are equal except for round-off then have equal weights. */
 static real ramp(const struct family *f, real r)
 {
     /* rounded, so that distances equal on paper have equal weights */
@@ -20,10 +20,11 @@ static real ramp(const struct family *f, real r)
 }
 
 /* Returns the share beta of the volume of a neighbour at distance r [m] that counts [1] (Seleson 2014); 1 if the family
- * f uses whole volumes. */
+ * f (neighbourhood of a particle) uses whole volumes. */
 static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
 
-/* Returns the influence function omega of the family f (neighbourhood of a particle) at distance r [m] [1]. */
+/* Returns the influence function omega [1] of the family f (neighbourhood of a particle) for a neighbour at distance r
+ * [m]. */
 static real influence(const struct family *f, real r)
 {
     switch (f->influence) {
@@ -40,10 +41,10 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Returns the weight that a bond of length r [m] has in the elastic constants of a lattice, up to a constant factor:
- * omega r for energies of stretches, omega r^2 for those of elongations, with the influence function omega of the
- * family f. Energies of displacements are isotropic with any weights by direction; the weights then are those of bonds
- * without influence function, r. */
+/* Returns the weight that a bond of length r [m] has in the elastic constants of a lattice, up to a constant factor.
+ * omega: influence function of the family f (neighbourhood of a particle). The weight is omega r if the energy is one
+ * of stretches, omega r^2 if it is one of elongations. An energy of displacements is isotropic with any weights by
+ * direction; for it the weight is r, that of bonds without influence function. */
 static real stiffness_weight(const struct family *f, real r)
 {
     switch (f->energy) {
@@ -56,9 +57,9 @@ static real stiffness_weight(const struct family *f, real r)
     }
 }
 
-/* Returns the distance r [m] with the round-off of positions removed: the lattice distance f->spacing sqrt(k) nearest
- * to r, with a whole number k, if r is one up to round-off, else r. Bonds of equal length then have weights that are
- * equal to the last bit. */
+/* Returns the distance r [m] with the round-off of positions removed: the lattice distance spacing sqrt(k) nearest to
+ * r, with a whole number k, if r is one up to round-off, else r. Bonds of equal length then have weights that are equal
+ * to the last bit. f: has the spacing. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);

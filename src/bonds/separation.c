@@ -23,8 +23,8 @@ struct crossing {
     real breaks, weighted, sum, energy;
 };
 
-/* Compares the bonds *a and *b across a plane (struct crossing) for qsort: by the opening of the plane at which they
- * break, the last to break first. */
+/* Compares two bonds across a plane (struct crossing) for qsort: by the opening of the plane at which they break, the
+ * last to break first. Returns -1, 0 or 1. a, b: struct crossing. */
 static int later(const void *a, const void *b)
 {
     const struct crossing *x = a, *y = b;

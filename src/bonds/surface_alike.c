@@ -50,7 +50,7 @@ static void kinds_start(struct kinds *s, const struct near_faces *b)
 
 /* Returns a hash of the kind of a particle and of the kinds of its neighbours (particles of one kind have equal
  * surroundings). It is a sum with one term for each neighbour: its kind and mirrors times factor[k], a random word for
- * its lattice offset k. t: index of the particle among those near faces. */
+ * its lattice offset k. t: index of the particle among b, those near faces; s: kinds of these. */
 static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
@@ -80,7 +80,7 @@ static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, i
 
 /* Returns a hash (colour) of the surroundings of a particle, reflected by the axes in `mirrors` (bit d: axis d). It
  * combines the present colours s->colour of the particle and its neighbours, and so describes surroundings that are
- * larger by one family (neighbourhood). t: index of the particle among those near faces. */
+ * larger by one family (neighbourhood). t: index of the particle among b, those near faces. */
 static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
@@ -135,8 +135,9 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
 /* Returns a reflection under which the surroundings of the particles of kind number `kind` have the smallest hash
- * (colour) of all reflections. (The particles of a kind have equal surroundings.) b: particles near faces. A reflection
- * is a set of axes, with bit d for axis d. Returns the first such set >= `from`; -1 if there is none. */
+ * (colour) of all reflections. (The particles of a kind have equal surroundings.) A reflection is a set of axes, with
+ * bit d for axis d. Returns the first such set >= `from`; -1 if there is none. s: kinds, with the hashes; b: particles
+ * near faces. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -151,7 +152,7 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
 /* Assigns kinds of particles to classes. A kind has equal surroundings; two kinds belong to one class if they are
  * mirror images of each other, i.e. if the smallest hashes of their mirrored surroundings are equal. of[kinds]:
  * receives the number of the class of each kind, from 0. Sets a->classes, their number plus 1, and a->member, a
- * particle of each class. b: particles near faces. */
+ * particle of each class. s: kinds, with the hashes; b: particles near faces. */
 static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};
@@ -215,7 +216,7 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
 }
 
 /* Returns the index of a bond in tables [classes, offsets], which have one entry for equal bonds. The bond leads from
- * particle t (an index among those near faces) to the neighbour at lattice offset number k. The particles of a class
+ * particle t (an index among b, those near faces) to the neighbour at lattice offset number k. The particles of a class
  * have equal surroundings up to mirrors; the offset is reflected by the mirrors that map the particle to its class. */
 static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
 {
@@ -241,9 +242,9 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
         }
 }
 
-/* Joins the table entries in a of bonds of one class that are mirror images of each other, so that they get one factor.
- * A class consists of particles with equal surroundings up to mirrors. b: particles near faces, with the lattice
- * offsets; parent: union-find forest of the entries. */
+/* Joins the table entries of bonds of one class that are mirror images of each other, so that they get one factor. A
+ * class consists of particles with equal surroundings up to mirrors. a: classes; b: particles near faces, with the
+ * lattice offsets; parent: union-find forest of the entries. */
 static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;

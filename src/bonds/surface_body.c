@@ -125,18 +125,18 @@ static void search_free(struct search *search)
     memory_free(search->found);
 }
 
-/* Prepares `search` for the particles first .. first + 7 of b. Finds their neighbours from the map of lattice sites if
- * the particles are on a regular part of the lattice (search->eight is then true). */
+/* Prepares `search` for the particles first .. first + 7. b: particles near faces. Finds the neighbours from the map of
+ * lattice sites if the particles are on a regular part of the lattice (search->eight is then true). */
 static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
 {
     search->first = first;
     search->eight = regular_bonds_find_ignoring_cracks(search->map, b->source, b->p, first, &search->regular);
 }
 
-/* Finds the neighbours of particle i of b among those that a map of lattice sites gave for eight particles that contain
- * i (search->regular, set by search_turn). near: true if a pre-crack may separate some of them from i, which are then
- * left out. to[offsets]: receives the neighbours by lattice offset; other entries are unchanged; NULL: neighbours are
- * only counted. Returns the number of neighbours. */
+/* Finds the neighbours of particle i among those that a map of lattice sites gave for eight particles that contain i
+ * (search->regular, set by search_turn). b: particles near faces, with the pre-cracks; near: true if a pre-crack may
+ * separate some of them from i, which are then left out. to[offsets]: receives the neighbours by lattice offset; other
+ * entries are unchanged; NULL: neighbours are only counted. Returns the number of neighbours. */
 static int regular_neighbours(const struct near_faces *b, const struct search *search, int64_t i, bool near,
                               int32_t *to)
 {
@@ -155,10 +155,10 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
     return kept;
 }
 
-/* Finds the neighbours of particle i of b that no pre-crack separates from i. i must be one of the eight particles for
- * which `search` was prepared last (search_turn). to[offsets]: receives the neighbours by lattice offset, -1 for
- * offsets without a neighbour; NULL: neighbours are only counted. Returns their number, or -1 if a neighbour is not on
- * the lattice of the particle. */
+/* Finds the neighbours of particle i that no pre-crack separates from it. i must be one of the eight particles for
+ * which `search` was prepared last (search_turn). b: particles near faces, with the pre-cracks; to[offsets]: receives
+ * the neighbours by lattice offset, -1 for offsets without a neighbour; NULL: neighbours are only counted. Returns
+ * their number, or -1 if a neighbour is not on the lattice of the particle. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
@@ -200,8 +200,8 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Sets near[i] to 1 if i is a particle of the body b, not an image; near[particles]: marks. Several threads may set the
- * same entry. */
+/* Sets near[i] to 1 if i is a particle of the body of b, not a mirror image. near[particles]: marks. Several threads
+ * may set the same entry. */
 static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
 {
     if (i >= b->p->n) return;
@@ -289,9 +289,9 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
     return neighbours_list(b, map);
 }
 
-/* Finds the first pair of neighbours in b whose distance along some axis is not a whole number of spacings, and which
- * no pre-crack separates. map: map from lattice sites to particles; apart[2]: receives both particles, -1 if there is
- * no such pair. */
+/* Finds the first pair of neighbours whose distance along some axis is not a whole number of spacings, and which no
+ * pre-crack separates. b: particles near faces; map: map from lattice sites to particles; apart[2]: receives both
+ * particles, -1 if there is no such pair. */
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;

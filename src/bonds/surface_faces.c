@@ -34,15 +34,15 @@ struct raw_faces {
 };
 
 /* Returns true if a particle has a face at one end of an axis, because it has no neighbour there. t: index of the
- * particle among those near faces; axis: 0 to dim - 1; up: 1 for the end in positive direction, 0 for that in negative
- * direction. */
+ * particle among b, those near faces; axis: 0 to dim - 1; up: 1 for the end in positive direction, 0 for that in
+ * negative direction. */
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
     return near_faces_neighbour_at_offset(b, t, b->offset.axis[axis][up]) < 0;
 }
 
-/* Returns the face of particle or image j: its position and its area vector. For an image it is the face of the
- * particle that is mirrored, reflected. The size of the face is 0 if the particle is near no face. */
+/* Returns the face in `raw` of particle or mirror image j: its position and its area vector. For an image it is the
+ * face of the particle that is mirrored, reflected. The size of the face is 0 if the particle is near no face. */
 static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
@@ -60,7 +60,7 @@ static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 }
 
 /* Returns the weight of a neighbour at lattice offset number k in means over faces [1]: 1 - r/(reach + 1), but at least
- * 0, with the distance r of the neighbour and the largest component `reach` of an offset [spacings]. */
+ * 0, with the distance r of the neighbour and the largest component `reach` of an offset in o [spacings]. */
 static real nearness(const struct offsets *o, int k) { return fmax(1 - o->length[k] / (o->reach + 1), 0); }
 
 /* Mean over the faces whose normals are less than 90 degrees from that of a particle: normal, and variance of their
@@ -118,7 +118,7 @@ struct smooth {
 /* Computes how the lattice face of a particle is smoothed, in *to: the matrix that projects the area of the face onto
  * the mean normal N of the faces nearby, and its contribution to the mean of N (x) N. Without a face the matrix is the
  * identity and the contribution 0. On the lattice inclined faces are steps; where these scatter too much about a plane,
- * they are smoothed less. t: index of the particle among those near faces. */
+ * they are smoothed less. raw: faces on the lattice; t: index of the particle among those near faces. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -174,7 +174,7 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
 
 /* Computes f->normal2[t], the mean of N (x) N over the faces near a particle with unit normals N, weighted by nearness.
  * If fewer faces are near than at a plane face, the mean is reduced, except in models with rotations (`rotates`). s:
- * smoothed faces; plane: sum of the weights at a plane face; t: index of the particle among those near faces. */
+ * smoothed faces; plane: sum of the weights at a plane face; t: index of the particle among b, those near faces. */
 static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
                            real plane, bool rotates, int64_t t)
 {
@@ -201,7 +201,7 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
  * moments of their bonds. f->area receives the area, extrapolated from the middles of the layers to the face. f->dipole
  * receives weights of sum 0 that describe the change from layer to layer: 1, -1 on the first two layers, or with
  * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face. smooth: smoothing
- * of the face; t: index of the particle among those near faces; up: 1 for the end in positive direction, else 0. */
+ * of the face; t: index of the particle among b, those near faces; up: 1 for the end in positive direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
                         int64_t t, int axis, int up, bool rotates)
 {
@@ -225,8 +225,8 @@ static void face_spread(struct surface_fit_targets *f, const struct near_faces *
 }
 
 /* Returns the number of layers of particles along an axis through a particle, from face to face of the body, at most
- * `most`; `most` also if the line contains particles that are near no face. t: index of the particle among those near
- * faces. */
+ * `most`; `most` also if the line contains particles that are near no face. t: index of the particle among b, those
+ * near faces. */
 static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;

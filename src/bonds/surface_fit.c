@@ -83,7 +83,7 @@ struct moments {
 };
 
 /* Returns component abcd of the fourth moment M of a full family (the sum of w r nnnn over its bonds with weight w,
- * length r and direction n), divided by M_1111 [1]. a, b, c, d: axes, from 0. */
+ * length r and direction n), divided by M_1111 [1]; from m. a, b, c, d: axes, from 0. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
@@ -142,7 +142,7 @@ static void moments_make(struct moments *m, const struct offsets *o)
 /* Returns the constant alpha of models without particle rotations [1]: near a face the fourth moments of the bonds are
  * to be (1 + alpha dipole) M, where M is the fourth moment of a full family and the dipole is 1 in the first layer of
  * particles and -1 in the second. alpha is the value for a plane face along which the body is stretched; in an
- * isotropic family the value for shear along the face is equal. o: lattice offsets with their weights. */
+ * isotropic family the value for shear along the face is equal. m: has M; o: lattice offsets with their weights. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -249,8 +249,9 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
 
 /* Prepares c, the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form
  * that weighs deviations of their third and fourth moments, and the target of these moments, less the moments of bonds
- * whose factors are fixed. goal: means of the face properties over the particles of the class; alpha: coefficient by
- * which the dipole raises the target of the fourth moments [1]; class: its number in a, from 1. */
+ * whose factors are fixed. m: moments of the bonds; b: particles near faces; a: classes; goal: means of the face
+ * properties over the particles of the class; alpha: coefficient by which the dipole raises the target of the fourth
+ * moments [1]; class: its number, from 1. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -276,9 +277,9 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Returns the sum of x . Q x over those bonds of a class (particles with equal surroundings) of q whose factors on
- * their weights are fitted. x: moments of a bond, the tensors w nnn and w r nnnn (direction n, weight w, length r),
- * from m; Q: quadratic form that weighs deviations of the moments of the class; class: its number, from 1. */
+/* Returns the sum of x . Q x over those bonds of a class (particles with equal surroundings) whose factors on their
+ * weights are fitted. x: moments of a bond, the tensors w nnn and w r nnnn (direction n, weight w, length r), from m;
+ * Q: quadratic form that weighs deviations of the moments of the class; class: its number in q, from 1. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
@@ -340,7 +341,7 @@ static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 }
 
 /* Returns true if a particle is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
- * within its cutoff, but separated from it. t: index of the particle among those near faces. */
+ * within its cutoff, but separated from it. t: index of the particle among b, those near faces. */
 static bool at_crack_end(const struct near_faces *b, int64_t t)
 {
     const struct offsets *o = &b->offset;
@@ -367,7 +368,8 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     return false;
 }
 
-/* Returns the number of neighbours of a particle within the cutoff. t: index of the particle among those near faces. */
+/* Returns the number of neighbours of a particle within the cutoff. t: index of the particle among b, those near
+ * faces. */
 static int neighbours(const struct near_faces *b, int64_t t)
 {
     int n = 0;
@@ -400,7 +402,7 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     }
 }
 
-/* Fixes the factors in q on the weights of bonds of b at ends of cracks and in thin parts, which have too few layers of
+/* Fixes in q the factors on the weights of bonds at ends of cracks and in thin parts, which have too few layers of
  * particles (f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle
  * rotations. Bonds at ends of cracks also get the factor 1 if bonds may break: they break next, and the critical
  * stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated

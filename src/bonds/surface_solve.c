@@ -24,8 +24,8 @@
  * number of classes whose blocks are stored interleaved, so that vector instructions solve with all of them at once. */
 enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2, TOGETHER = 4 };
 
-/* State of the solver, with the matrix A and the block preconditioner B of the linear system of a Newton step. Vectors
- * have one number for each moment of each class: [classes width]. */
+/* State of the solver that fits the weights of bonds near faces. Vectors have one number for each moment of each class:
+ * [classes width]. */
 struct descent {
     const struct surface_fit_problem *fit;
     int64_t n; /* length of the vectors */
@@ -67,8 +67,8 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* Computes value[offsets]: for each bond of a class of q (particles with equal surroundings) the scalar product of the
  * moments of the bond and the vector by[thirds + fourths]. The moments of a bond are tensors of rank 3 and 4 formed of
- * its direction; thirds, fourths: numbers of their components, known at compile time. changes[offsets/2]: pairs of
- * opposite bonds with the mark 0 are skipped; NULL if none is. */
+ * its direction; thirds, fourths: numbers of their components, known at compile time. q: moments of all offsets;
+ * changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -85,11 +85,11 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
     }
 }
 
-/* Subtracts from to[thirds + fourths] the sum of x times the moments over the bonds of a class of q (particles with
- * equal surroundings). The moments of a bond are tensors of rank 3 and 4 formed of its direction; thirds, fourths:
- * numbers of their components, known at compile time. x[sets]: a number for each set of bonds that share a factor;
- * group[offsets]: set of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped,
- * since their x is 0; NULL if none is. */
+/* Subtracts from to[thirds + fourths] the sum of x times the moments over the bonds of a class (particles with equal
+ * surroundings). The moments of a bond are tensors of rank 3 and 4 formed of its direction; thirds, fourths: numbers of
+ * their components, known at compile time. q: moments of all offsets; x[sets]: a number for each set of bonds that
+ * share a factor; group[offsets]: set of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark
+ * 0 are skipped, since their x is 0; NULL if none is. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -118,8 +118,9 @@ static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of,
         for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * of[thirds + y];
 }
 
-/* Returns the part of the array changes[classes, offsets/2] that belongs to class number `class` of q (particles with
- * equal surroundings): the marks of its pairs of opposite bonds. Returns NULL if `changes` is NULL. */
+/* Returns the part of the array changes[classes, offsets/2] that belongs to class number `class` (particles with equal
+ * surroundings): the marks of its pairs of opposite bonds. q: has `offsets`, the number of lattice offsets. Returns
+ * NULL if `changes` is NULL. */
 static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_t *changes, int32_t class)
 {
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
@@ -144,11 +145,11 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
     }
 }
 
-/* Computes for d the vector to[classes, moments] = Q^-1 by - sum m x, plus the targets of the moments if `goals`. For
- * each class (particles with equal surroundings) the sum is over its bonds: m are the moments of a bond, x[sets] has a
- * number for each set of bonds that share a factor, Q is the quadratic form of the class. by[classes, moments]: a
- * vector; changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped, since their x is 0; NULL if
- * none is. */
+/* Computes the vector to[classes, moments] = Q^-1 by - sum m x, plus the targets of the moments if `goals`. For each
+ * class (particles with equal surroundings) the sum is over its bonds: m are the moments of a bond, x[sets] has a
+ * number for each set of bonds that share a factor, Q is the quadratic form of the class. d: the problem; by[classes,
+ * moments]: a vector; changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped, since their x
+ * is 0; NULL if none is. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {
@@ -258,10 +259,10 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of the bond at lattice offset number k in the diagonal block that the preconditioner of d has for
- * class number `class` (particles with equal surroundings): n/prior, or 0 if the factor of the bond is at a bound or
- * fixed. n: number of bonds of the class that share this factor, which are mirror images of each other. The weight is
- * exact for multipliers with the symmetry of the class. */
+/* Returns the weight of the bond at lattice offset number k in the diagonal block that the preconditioner has for class
+ * number `class` (particles with equal surroundings): n/prior, or 0 if the factor of the bond is at a bound or fixed.
+ * d: state of the solver; n: number of bonds of the class that share this factor, which are mirror images of each
+ * other. The weight is exact for multipliers with the symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
     const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
@@ -297,8 +298,9 @@ static void block_make(const struct descent *d, int32_t class)
     for (int at = 0; at < width * (width + 1) / 2; at++) all[at][class % TOGETHER] = block[at];
 }
 
-/* Returns true if the factor of a bond of class number `class` (particles with equal surroundings) of d has reached or
- * left one of its bounds since the last linear system was set up, so that the block of the class must be recomputed. */
+/* Returns true if the factor of a bond of class number `class` (particles with equal surroundings) has, in d, reached
+ * or left one of its bounds since the last linear system was set up, so that the block of the class must be
+ * recomputed. */
 static bool class_turned(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -320,7 +322,7 @@ static void class_mark(struct descent *d, int32_t class)
     }
 }
 
-/* Sets up the linear system of a Newton step of d for the present factors of bonds: marks the factors that are between
+/* Sets up the linear system of a Newton step for the present factors of bonds in d: marks the factors that are between
  * their bounds, and computes the preconditioner. Its block of a class (particles with equal surroundings) is kept if no
  * mark of a bond of this class has changed since the last linear system. */
 static void system_make(struct descent *d)

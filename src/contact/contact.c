@@ -127,7 +127,7 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Evaluates contact in parallel for all rows of the contact list (particles near faces, which may come into contact).
+/* Evaluates contact in parallel for all rows of the contact list c (particles near faces, which may come into contact).
  * With a law of the form `pair`, adds the contact forces to p->f. With the form `surface`, only computes the gaps, from
  * which faces_force computes forces afterwards. dt: time step [s]. all: receives the number of contacts, the largest
  * overlap and its particle. */
@@ -152,7 +152,7 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
 }
 
 /* Adds the contact forces of a law of the form `surface`, friction included, to p->f, for all rows of the contact list
- * (particles that may come into contact). Call it after rows_sweep, which computes the gaps. Friction is added in a
+ * c (particles that may come into contact). Call it after rows_sweep, which computes the gaps. Friction is added in a
  * second pass, since it requires the friction springs of all rows, which the first pass advances by the time step dt
  * [s]. */
 static void faces_force(struct contact *c, struct particles *p, real dt)

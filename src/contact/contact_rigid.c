@@ -230,8 +230,8 @@ static void rigid_block(const void *context, int64_t first, int64_t end, real *s
 
 enum { RIGID_TERMS = 2 * DIM_MAX }; /* number of components of force and moment */
 
-/* Adds the contact forces of rigid body number `body` to p->f, and stores the opposite force and moment in the body.
- * Bodies are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction
+/* Adds the contact forces of rigid body number `body` of c to p->f, and stores the opposite force and moment in the
+ * body. Bodies are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction
  * springs and energy corrections are not advanced. all: receives the largest overlap, its particle and the number of
  * contacts. */
 static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)

@@ -15,10 +15,10 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-/* Returns true if the conversion flags of all material points of p, particles of scene s, must be tested in this step.
- * This is so if there are points on the background grid, which keeps no record of flagged points, or if another process
- * may have flagged points or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points
- * belong to the mesh of the reference frame r and no cell of it has recorded a high stress. */
+/* Returns true if the conversion flags of all material points must be tested in this step. This is so if there are
+ * points on the background grid, which keeps no record of flagged points, or if another process may have flagged points
+ * or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points belong to the mesh of the
+ * reference frame r and no cell of it has recorded a high stress. s: scene. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||

@@ -26,9 +26,9 @@ static void name_add(struct name_list *l, const char *name)
         snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
 }
 
-/* Adds a warning to `to` that the material points of bodies of scene s in the reference frame have no contact with
- * other bodies. It names these bodies; without such bodies, no warning is added. reference: states for each body
- * whether it is in the reference frame. */
+/* Adds a warning to `to` that the material points of bodies of s in the reference frame (on a mesh of the undeformed
+ * body) have no contact with other bodies. It names these bodies; without such bodies, no warning is added. reference:
+ * states for each body whether it is in the reference frame. */
 static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
 {
     struct name_list names = {0};

@@ -22,8 +22,9 @@ static bool interface_zone_is_free(const struct particles *p, int32_t j)
 }
 
 /* Sets mark[j] to `as` for all particles j within `radius` [m] of one of n particles, list[n], of the same body. Leaves
- * out particles that have a mark or whose velocity damping may not change, and, if `as` is POINT, particles that are no
- * material points. s: cells of the neighbour search. Threads that reach the same particle write the same value. */
+ * out particles that already have a mark, those whose velocity must not be changed by damping, and, if `as` is POINT,
+ * particles that are no material points. s: cells of the neighbour search. Threads that reach the same particle write
+ * the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -73,7 +74,7 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the nearest neighbours of member k of the interface zone (material points near peridynamic particles, and
+/* Finds the nearest neighbours of member k of the interface zone r (material points near peridynamic particles, and
  * neighbours) with which damping acts. At least one of the two must be a material point of the zone, and no pre-crack
  * of s may separate them. mark, slot: as computed by members_make; to: receives the indices of these neighbours in the
  * list of members, or NULL to count them only; near: working memory. Returns the number of these neighbours. */
@@ -96,8 +97,8 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
 
 /* Counts or lists the neighbours of all members of the interface zone r (material points near peridynamic particles,
  * and neighbours). With `count` true, stores the number of neighbours of member k in r->start[k + 1]. With `count`
- * false, stores their indices in r->neighbour, from r->start[k] on. s: cells of the neighbour search; mark, slot: as
- * computed by members_make. Returns the largest number of neighbours of a member, at least 1. */
+ * false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by members_make. s: cells
+ * of the neighbour search and pre-cracks. Returns the largest number of neighbours of a member, at least 1. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {

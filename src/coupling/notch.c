@@ -165,7 +165,7 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
 }
 
 /* Returns true if a slit of n (pre-crack along which nodes of the mesh are doubled), or the mirror image of one, is so
- * near particle i of p that it may cut bonds of this particle. s: length of bonds. */
+ * near particle i that it may cut bonds of this particle. s: cutoff and cells of the neighbour search. */
 static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     for (int k = 0; k < n->slits + n->images; k++)

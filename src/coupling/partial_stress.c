@@ -88,8 +88,8 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
 }
 
 /* Returns V/Q of a particle [m^-2]: its volume V divided by Q, the weighted volume of its family (sum of w xi^2 V over
- * its bonds). Without bonds in b, V and Q are those of a complete family on the lattice of s. i: index of the particle
- * or of a mirror image of it. */
+ * its bonds). Without bonds in b, V and Q are those of a complete family on the lattice. s: the family on the lattice
+ * and the list of images; i: index of the particle or of a mirror image of it. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_source_particle(p, s->image, i)];
@@ -143,9 +143,9 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
 
 /* Adds to T the contributions of the bonds of particle j to the stiffness of a cubic cell, which belongs to another
  * material point. Only the part of a bond inside the cell counts; only bonds of material points count. T[n][n]:
- * stiffness of all bonds in the cell times its volume, over symmetric components [J]; j: particle or mirror image;
- * X[dim], half: centre and half edge of the cell [m]; box[rows]: bounding boxes of the bonds of each row, by which most
- * rows are skipped; s: law of the bonds. */
+ * stiffness of all bonds in the cell times its volume, over symmetric components [J]; s: law of the bonds and list of
+ * images; j: particle or mirror image; X[dim], half: centre and half edge of the cell [m]; box[rows]: bounding boxes of
+ * the bonds of each row, by which most rows are skipped. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -175,9 +175,9 @@ real particle_cell_half_edge(const struct particles *p, const struct bond_source
 }
 
 /* Computes T, the stiffness that the bonds of all material points near point i have within the cell of i, times the
- * volume of the cell [J]. Tests the bonds one by one, which works for any arrangement of particles. T[n][n]: over
- * symmetric components, 0 before; box[rows]: bounding boxes of the bonds of each row; near: working memory; s: law of
- * the bonds. */
+ * volume of the cell [J]. Tests the bonds one by one, which works for any arrangement of particles. s: law of the bonds
+ * and cells of the search; T[n][n]: over symmetric components, 0 before; box[rows]: bounding boxes of the bonds of each
+ * row; near: working memory. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
 {
@@ -191,7 +191,7 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
 }
 
 /* Computes the matrix M = T C^-1/V over symmetric components, M[n][n]: M sigma is the part of the stress sigma of
- * material point i of p that bonds carry. s: materials. C, V: elastic tensor and volume of the point; T[n][n]:
+ * material point i that bonds carry. C, V: elastic tensor and volume of the point; s: has the materials; T[n][n]:
  * stiffness of the bonds within the cell of the point, times V [J]. Returns false if M is 0, i.e. if no bond crosses
  * the cell. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
@@ -261,7 +261,7 @@ enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 /* Sets bits in mark[p->n] for the particles that are affected when particles have changed. OWN: a changed particle.
  * DIRTY: its distance from a changed particle is at most `radius` [m], so that its partial stress (stress that bonds
  * replace) must be recomputed. OTHERS_ROW: its distance is at most radius + reach [m], so that its bonds may cross the
- * cell of a DIRTY particle. s: cells of the neighbour search; changed[n]: indices of the changed particles, or NULL if
+ * cell of a DIRTY particle. s: cutoff and cells of the search; changed[n]: indices of the changed particles, or NULL if
  * all peridynamic particles have changed. With reach 0, the affected particles are those within the cutoff of bonds,
  * found by the map from lattice sites to particles, `map` (NULL: by a search). */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s,
@@ -303,7 +303,7 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 
 /* Finds the material points whose partial stress (stress that bonds replace) must be recomputed after a change, and the
  * rows (bonds of one particle) that may cross the cells of these points, and stores both in r. changed[n]: indices of
- * the particles that have changed, or NULL if all peridynamic particles have. s: cells of the neighbour search; table:
+ * the particles that have changed, or NULL if all peridynamic particles have. s: cutoff and cells of the search; table:
  * responses of bonds on a lattice; if it applies to all particles, no rows are listed, since they are then found by
  * lattice site. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
@@ -344,9 +344,9 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Stores the values computed for material point i. M: `size` values of the matrix M (share of the point's stress that
- * bonds carry), followed by `local` values of the tensor L (derivative of the mean strain of its bonds by the strain of
- * its cell; none in bond-based models). Creates an entry for the point if it has none. */
+/* Stores the values computed for material point i in `partial`. M: `size` values of the matrix M (share of the point's
+ * stress that bonds carry), followed by `local` values of the tensor L (derivative of the mean strain of its bonds by
+ * the strain of its cell; none in bond-based models). Creates an entry for the point if it has none. */
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
@@ -358,9 +358,9 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
-/* Removes unused entries from the arrays of stored values of `partial` if they are more than half of all. Points that
- * have become peridynamic or have lost their bonds leave unused entries. p: particles; size, local: number of values of
- * the matrix M and of the tensor L in an entry. */
+/* Removes unused entries from the arrays of values in `partial` if they are more than half of all. Points that have
+ * become peridynamic or have lost their bonds leave unused entries. size, local: number of values of the matrix M and
+ * of the tensor L in an entry. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -382,8 +382,8 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
     memory_free(old.local);
 }
 
-/* Returns true if the entry of material point i stored in `partial` is bitwise equal to M: `size` values of the matrix
- * M and `local` values of the tensor L that follow. Returns false if the point has no entry. */
+/* Returns true if the entry of material point i in `partial` is bitwise equal to M: `size` values of the matrix M and
+ * `local` values of the tensor L that follow. Returns false if the point has no entry. */
 static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     const int64_t at = partial->index[i];

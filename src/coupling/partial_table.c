@@ -62,7 +62,7 @@ static int64_t partial_table_places_of(const struct partial_table *t)
     return n;
 }
 
-/* Computes at[dim], the offset of the lattice site with the number `place` from the site at the centre of the table
+/* Computes at[dim], the offset of the lattice site with the number `place` from the site at the centre of table t
  * [spacings]. The (2 reach + 1)^dim sites of the table form a cube and are numbered with x fastest. */
 static void place_to(const struct partial_table *t, int64_t place, int *at)
 {
@@ -320,9 +320,9 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes the responses to strain (struct response) of the bonds in row `row`, the bonds of one particle. s: law of
- * the bonds; response[vectors][parts]: receives the responses, by the number of the bond's vector on the lattice of t;
- * 0 for broken bonds and for vectors without a bond. */
+/* Computes the responses to strain (struct response) of the bonds in row `row`, the bonds of one particle. t: table of
+ * bond vectors; s: law of the bonds; response[vectors][parts]: receives the responses, by the number of the bond's
+ * vector on the lattice; 0 for broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -413,8 +413,8 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
     }
 }
 
-/* Prefetches from t the responses to strain that sum_row reads for *row, the bonds of one particle, into the cache. It
- * has no other effect. */
+/* Prefetches the responses to strain that sum_row reads from table t for *row, the bonds of one particle, into the
+ * cache. It has no other effect. */
 static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
 {
     const real *response = response_at(t, row->response);
@@ -440,8 +440,9 @@ bool partial_table_applies_to_particle(const struct particles *p, const struct b
 }
 
 /* Inserts particle or mirror image j into to[n], a list in ascending order of j, if its bonds may cross the cell of a
- * material point: if j is a material point, or the image of one, whose bond responses are stored in t. place: number of
- * the site of j in the table with that material point at its centre. Returns the new length of the list. */
+ * material point: if j is a material point, or the image of one, whose bond responses are stored in t. s: list of the
+ * images; place: number of the site of j in the table with that material point at its centre. Returns the new length of
+ * the list. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -454,9 +455,9 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
 }
 
 /* Lists the particles and images whose bonds may cross the cell of material point i in `to`, in ascending order. l: map
- * from lattice sites to particles, in which they are looked up. Sites are visited in the order of the particles, so
- * that only images have to be inserted between others. Returns the number of listed particles, at most t->vectors +
- * 1. */
+ * from lattice sites to particles, in which the sites of table t are looked up; s: list of the images. Sites are
+ * visited in the order of the particles, so that only images have to be inserted between others. Returns the number of
+ * listed particles, at most t->vectors + 1. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -471,8 +472,8 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
 }
 
 /* Lists the particles and images whose bonds may cross the cell of material point i in `to`, in ascending order, found
- * by a neighbour search: for particles without a map of lattice sites. t: table; s: cells of the search; near: working
- * memory. Returns the number of listed particles. */
+ * by a neighbour search: for particles without a map of lattice sites. t: table of bond responses; s: cells of the
+ * search; near: working memory. Returns the number of listed particles. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

@@ -87,8 +87,8 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
 /* Sets bound[i] to 1 for peridynamic particles i that must not become material points: a particle marked in `held` is
  * within the cutoff, or one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i within
  * the cutoff of a peridynamic particle that is not bound. (A set of particles reverts only as a ball, as large as the
- * cutoff, without bound particles; its centre must have near[i] = 1.) All arrays: [p->n]; held, cut: from
- * mark_constrained; rule: cutoff and horizon. */
+ * cutoff, without bound particles; its centre must have near[i] = 1.) rule: cutoff and horizon. All arrays: [p->n];
+ * held, cut: from mark_constrained. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -115,8 +115,8 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
 
 /* Sets mark[i] for all particles i, depending on whether a particle j with other[j] = 1 is within the cutoff (largest
  * bond length). If `meeting` is true, mark[i] becomes 1 for those with wanted[i] = 1 that have such a particle j; if
- * false, for those with wanted[i] = 1 that have none. mark[i] becomes 0 for all others. Arrays: [p->n]; rule:
- * cutoff. */
+ * false, for those with wanted[i] = 1 that have none. mark[i] becomes 0 for all others. rule: has the cutoff. Arrays:
+ * [p->n]. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -254,7 +254,7 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
  * derivative of this stress by a uniform strain, T = (1/V) sum k r l e e e e, in *to [Pa]. V: volume of the cell; l:
  * fraction of the bond inside the cell; F, y: force and present vector of the bond; k, r, e: its stiffness, reference
  * length and direction. In a uniform strain sigma equals the virial stress of the bonds of particle i, but it averages
- * a wave over only half the distance. source: law of the bonds; near: working memory. */
+ * a wave over only half the distance. source: law of the bonds and cells of the search; near: working memory. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
@@ -281,10 +281,10 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Corrects `stress`, the stress of the bonds (law: `source`) that cross the cell of particle i of p [Pa], for missing
- * bonds. The uniform strain that causes this stress is T^-1 stress; the corrected stress is that of a complete family
- * (neighbourhood) under this strain. T[n][n]: derivative of the stress by a uniform strain [Pa], overwritten. Leaves
- * the stress unchanged if T is singular. */
+/* Corrects `stress`, the stress of the bonds that cross the cell of particle i [Pa], for missing bonds. The uniform
+ * strain that causes this stress is T^-1 stress; the corrected stress is that of a complete family (neighbourhood)
+ * under this strain. source: family and materials; T[n][n]: derivative of the stress by a uniform strain [Pa],
+ * overwritten. Leaves the stress unchanged if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -313,7 +313,7 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
 
 /* Sets the state that peridynamic particle i has as a material point from its bonds b: stress, volume and stretch. The
  * velocity gradient becomes 0. If the bonds have too few directions to determine the deformation, it is taken to be
- * undeformed. source: law of the bonds; near: working memory. */
+ * undeformed. source: law of the bonds and cells of the search; near: working memory. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct neighbour_list *near)
 {

@@ -13,7 +13,8 @@ struct boxed {
     int32_t item;
 };
 
-/* Compares the boxes *a and *b (struct boxed) for array_sort: by the coordinate of their middle, then by number. */
+/* Compares two boxes a and b (struct boxed) for array_sort: by the coordinate of their middle, then by number. Returns
+ * -1, 0 or 1. */
 static int boxed_order(const void *a, const void *b)
 {
     const struct boxed *p = a, *q = b;

@@ -117,16 +117,16 @@ static inline void near_in_row(struct search *s, const struct particles *p, int6
     }
 }
 
-/* Returns a lower bound of the distance of X[dim] from the layer of cells with index k, from 0, along axis d [m]; 0 if
- * X is in this layer. The bound is slightly smaller than the distance, so that round-off excludes no cell. */
+/* Returns a lower bound of the distance of X[dim] from the layer of cells of c with index k, from 0, along axis d [m];
+ * 0 if X is in this layer. The bound is slightly smaller than the distance, so that round-off excludes no cell. */
 static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 {
     const real low = c->origin[d] + (real)k * c->width;
     return real_max(0, real_max(low - X[d], X[d] - low - c->width) - 1e-9 * c->width - 1e-15 * fabs(X[d]));
 }
 
-/* Sets *low and *high to the first and last index along axis d of the cells within `reach` [m] of X[dim]; low > high if
- * there are none. */
+/* Sets *low and *high to the first and last index along axis d of the cells of c within `reach` [m] of X[dim]; low >
+ * high if there are none. */
 static inline void cells_within(const struct cells *c, const real *X, int d, real reach, int64_t *low, int64_t *high)
 {
     reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]); /* round-off of the distance */
@@ -190,8 +190,8 @@ int cells_list_particles_near_point(const struct cells *c, const struct particle
     return search(&s, p);
 }
 
-/* Returns the number of particles in the cells that are at most `reach` cells away from cell number `cell` along each
- * axis. */
+/* Returns the number of particles in the cells that are at most `reach` cells away from cell number `cell` of c along
+ * each axis. */
 static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, sum = 0;

@@ -70,13 +70,20 @@ void tensor_compute_principal_values(const real s[6], real value[3], real direct
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* Functions that compute one derived field of a particle each, for the table below. from[]: its stress (6 components)
- * or velocity (3); to: receives the value or values. */
+/* Computes *to, the von Mises stress of a particle, from its stress from[6] [Pa]. */
 static void mises_from(const real *from, real *to) { *to = tensor_mises_stress(from); }
+
+/* Computes *to, the pressure of a particle (minus the mean normal stress), from its stress from[6] [Pa]. */
 static void pressure_from(const real *from, real *to) { *to = -(from[XX] + from[YY] + from[ZZ]) / 3; }
+
+/* Computes to[3], the principal stresses of a particle in descending order, from its stress from[6] [Pa]. */
 static void principal_from(const real *from, real *to) { tensor_compute_principal_values(from, to, NULL); }
+
+/* Computes *to, the speed of a particle, from its velocity from[3] [m/s]. */
 static void speed_from(const real *from, real *to) { *to = sqrt(dot(from, from, 3)); }
 
+/* Computes to[9], three orthogonal unit vectors along the principal stresses of a particle, in descending order of
+ * these, from its stress from[6] [Pa]. */
 static void directions_from(const real *from, real *to)
 {
     real value[3];

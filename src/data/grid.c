@@ -43,7 +43,7 @@ static void grid_arrays_make(struct grid *g)
 
 /* Step by which boxes of nodes grow [nodes]. */
 enum { BOX_STEP = 4 };
-/* Returns the largest multiple of BOX_STEP that is not above k. */
+/* Returns the largest multiple of BOX_STEP [cells] that is not above the cell index k, which may be negative. */
 static int64_t box_floor(int64_t k)
 {
     return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP;

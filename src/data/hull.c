@@ -15,7 +15,7 @@ struct piece {
     int turn;
 };
 
-/* Compares the pieces *a and *b (faces or edges) for array_sort: by their sorted corners, then by the face from which
+/* Compares two pieces a and b (faces or edges) for array_sort: by their sorted corners, then by the face from which
  * they originate. */
 static int piece_order(const void *a, const void *b)
 {
@@ -145,8 +145,8 @@ static int64_t count_shells(const struct hull *s)
 
 /* ---- measures ------------------------------------------------------------------------------------------------- */
 
-/* Computes area_vector of face k, from 0, of the surface s: the normal of the face times its area [m^2]; in 2D, where a
- * face is a segment, the normal times the length [m]. */
+/* Computes area_vector, that of face k, from 0, of the surface s: the normal of the face times its area [m^2]; in 2D,
+ * where a face is a segment, the normal times the length [m]. */
 void hull_compute_face_area_vector(const struct hull *s, int64_t k, real area_vector[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];

@@ -145,9 +145,9 @@ static void face_winding(const struct hull *s, const int32_t *face, const real *
     angle_sum_add(sum, below, triple);
 }
 
-/* Adds the winding number at X[dim] of the faces of node n, replaced by their dipole, to *sum and returns true, if X is
- * farther from the centre of the node than FAR times the node's radius (Barill et al. 2018, first order). Else returns
- * false and adds nothing. */
+/* If X[dim] is farther from the centre of node n (a set of faces of surface s) than FAR times the radius of the node,
+ * adds to *sum the winding number of its faces at X, replaced by their dipole (Barill et al. 2018, first order), and
+ * returns true. Else adds nothing and returns false. */
 static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
 {
     real r2 = 0, radius2 = 0, along = 0;

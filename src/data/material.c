@@ -39,9 +39,9 @@ real material_micro_modulus_of_continuum(const struct material *m, enum space sp
     }
 }
 
-/* Returns the critical stretch s_c of material m in bond-based models in `space` [1]: at s_c the energy of all bonds
- * across a unit area equals the energy release rate G_c (Silling & Askari 2005). horizon: length of the longest bonds
- * [m]. The thickness of a plate cancels. */
+/* Returns the critical stretch s_c of material m in bond-based models [1]: at s_c the energy of all bonds across a unit
+ * area equals the energy release rate G_c (Silling & Askari 2005). space: space of the scene; horizon: length of the
+ * longest bonds [m]. The thickness of a plate cancels. */
 static real critical_bond(const struct material *m, enum space space, real horizon)
 {
     real ratio = m->energy_release_rate / (m->bulk * horizon);

@@ -167,8 +167,8 @@ struct place {
     int32_t id, index;
 };
 
-/* Compares the sort keys *left and *right of particles (struct place) for array_sort: by layer, row, position along x,
- * id and index. */
+/* Compares two sort keys of particles, `left` and `right` (struct place), for array_sort: by layer, row, position along
+ * x, id and index. */
 static int compare_places(const void *left, const void *right)
 {
     const struct place *a = left, *b = right;

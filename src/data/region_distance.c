@@ -10,8 +10,8 @@
 
 enum { RUN_LEAST = 8 }; /* smallest number of solids for which a tree is faster */
 
-/* Returns how many consecutive solids of the region, from number `first` on, are all added or all subtracted. Returns 1
- * if they are fewer than RUN_LEAST, too few for a tree of boxes to be faster, or if solid `first` is intersected. */
+/* Returns how many consecutive solids of the region r, from number `first` on, are all added or all subtracted. Returns
+ * 1 if they are fewer than RUN_LEAST, too few for a tree of boxes to be faster, or if solid `first` is intersected. */
 static int run_length(const struct region *r, int first)
 {
     const struct solid *s = &r->solid[first];
@@ -38,7 +38,7 @@ void region_build_search_trees(struct region *r, int dim)
     }
 }
 
-/* Returns the number of runs of the region. A run is a sequence of consecutive solids that are all added or all
+/* Returns the number of runs of the region r. A run is a sequence of consecutive solids that are all added or all
  * subtracted; in a region without search trees (region_build_search_trees) each solid is a run. */
 static int region_runs(const struct region *r) { return r->run ? r->runs : r->n; }
 

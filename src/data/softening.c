@@ -168,31 +168,42 @@ static real strain_without_stress(const struct directions *a, real low, real giv
     return 0.5 * (low + high);
 }
 
-/* Functions of one strain, whose zeros strain_without_stress finds: the lateral stress, the axial stress, and the sum
- * of both, divided by E' s_0. The other strain is given. a: bonds of all directions. Strains are in units of s_0, the
- * stretch at which softening begins. */
+/* Returns the lateral stress of the family of bonds a, divided by E' s_0 [1], as a function of the lateral strain,
+ * whose zero strain_without_stress finds; axial: axial strain. Strains are in units of s_0, the stretch at which
+ * softening begins. */
 static real lateral_stress(const struct directions *a, real lateral, real axial)
 {
     return family_stress(a, axial, lateral).lateral;
 }
 
+/* Returns the axial stress of the family of bonds a, divided by E' s_0 [1], as a function of the axial strain, whose
+ * zero strain_without_stress finds; lateral: lateral strain. Strains are in units of s_0, the stretch at which
+ * softening begins. */
 static real axial_stress(const struct directions *a, real axial, real lateral)
 {
     return family_stress(a, axial, lateral).axial;
 }
 
+/* Returns the sum of axial and lateral stress of the family of bonds a, divided by E' s_0 [1], whose zero
+ * strain_without_stress finds: the state is then one of shear. lateral, axial: strains in units of s_0, the stretch at
+ * which softening begins. */
 static real stress_sum(const struct directions *a, real lateral, real axial)
 {
     const struct stress_pair stress = family_stress(a, axial, lateral);
     return stress.axial + stress.lateral;
 }
 
+/* Returns the axial stress of the family of bonds a in uniaxial tension, divided by E' s_0 [1]. strain: axial strain in
+ * units of s_0, the stretch at which softening begins; the lateral stress is 0 (in 1D the lateral strain). */
 static real tension_at(const struct directions *a, real strain)
 {
     const real lateral = a->space == SPACE_LINE ? 0 : strain_without_stress(a, -strain, strain, lateral_stress);
     return family_stress(a, strain, lateral).axial;
 }
 
+/* Returns the stress of the family of bonds a in equal biaxial tension without stress along the third axis, divided by
+ * E' s_0 [1]. strain: strain along the two axes in units of s_0, the stretch at which softening begins. Returns NAN in
+ * 1D. */
 static real biaxial_at(const struct directions *a, real strain)
 {
     if (a->space == SPACE_LINE) return NAN;

@@ -418,7 +418,7 @@ static real voxels_reach(const struct solid *s, const real *along, int dim)
     return sum;
 }
 
-/* Returns the distance of X from the solid that fills all of space: -INFINITY, with an arbitrary normal. */
+/* Returns the distance of X from s, the solid that fills all of space: -INFINITY, with an arbitrary normal. */
 static real all_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)s, (void)X;

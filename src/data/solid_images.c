@@ -152,7 +152,7 @@ static void placement_box(const struct solid *s, const struct placement *i, int 
 
 void solid_bounding_box(const struct solid *s, int dim, struct bounds *box) { placement_box(s, NULL, dim, box); }
 
-/* Rebuilds the tree over the bounding boxes of all copies of a solid. */
+/* Rebuilds the tree over the bounding boxes of all copies of the solid s. dim: number of dimensions. */
 static void images_index(struct solid *s, int dim)
 {
     struct bounds *box = NEW("solids.box", s->images, struct bounds);

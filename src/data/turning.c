@@ -26,7 +26,7 @@ static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int b
     return 0;
 }
 
-/* Compares the particles *a and *b (struct member) for array_sort: first by the group of points with which they rotate,
+/* Compares two particles a and b (struct member) for array_sort: first by the group of points with which they rotate,
  * then by position, then by number. Returns -1, 0 or 1. */
 static int by_member(const void *a, const void *b)
 {
@@ -37,7 +37,7 @@ static int by_member(const void *a, const void *b)
     return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
 }
 
-/* Compares the groups *a and *b of points that rotate together (struct turning_group) for array_sort and bsearch: by
+/* Compares a and b, two groups of points that rotate together (struct turning_group), for array_sort and bsearch: by
  * body, then by position. Returns -1, 0 or 1. */
 static int by_group(const void *a, const void *b)
 {

@@ -22,7 +22,7 @@ bool region_has_voxel_image(const struct region *r)
     return image;
 }
 
-/* Returns true if a solid is known to be convex, by its kind and because it is not copied. */
+/* Returns true if the solid s is known to be convex, by its kind and because it is not copied. */
 static bool solid_convex(const struct solid *s)
 {
     switch (s->kind) {
@@ -62,7 +62,7 @@ static bool box_joins(real *from, real *to, const struct solid *s)
     return true;
 }
 
-/* Returns true if the solids of a region are boxes that together make one box, each extending those before it. */
+/* Returns true if the solids of the region r are boxes that together make one box, each extending those before it. */
 static bool region_is_box(const struct region *r)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -187,9 +187,9 @@ real voids_lower_bound_of_surface_distance(const struct voids *v, const struct p
     return real_max(0, -void_level(v, p->body[particle], X));
 }
 
-/* Returns true if the convex solid s stays convex when its mirror images are added. Only planes of symmetry of v within
- * `reach` [m] of the point X[dim] matter. Returns false for such a plane unless s is a box that the plane touches or
- * cuts. */
+/* Returns true if the convex solid s stays convex when its mirror images are added. Only planes of symmetry (of v)
+ * within `reach` [m] of the point X[dim] matter. Returns false for such a plane unless s is a box that the plane
+ * touches or cuts. */
 static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)
 {
     for (int m = 0; m < v->mirrors; m++) {
@@ -202,11 +202,11 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns a bit for each solid of the body of particle i that contains the particle, but for a seam, and is convex near
- * it. Two particles at most `reach` [m] apart have no void between them if they have a bit in common. Returns ALONE
- * instead if the particle is in such a solid and no other solid of the body is within `reach`. Returns 0 if a
- * subtracted or intersected solid is that near, or if the body has more than SOLIDS_MOST solids. v: shapes of the
- * bodies. */
+/* Returns a bit for each solid of the body of particle i that contains the particle, not nearer than a small margin to
+ * its surface, and is convex near the particle. Two particles at most `reach` [m] apart have no void between them if
+ * they have a bit in common. Returns ALONE instead if there is such a solid and no other solid of the body is within
+ * `reach`. Returns 0 if a subtracted or intersected solid is that near, or if the body has more than SOLIDS_MOST
+ * solids. v: shapes of the bodies. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     real X[DIM_MAX] = {0};
@@ -232,10 +232,10 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
 
 /* Tests whether voids, spaces without material, separate particle i from the neighbours `near` of its own body. Returns
  * VOID_NEAR if the straight line to one of them leaves the body, else 0. Adds VOID_ACROSS if the two surfaces that such
- * a line crosses face each other. Skips neighbours that need no test: depth[n_all], lower bounds of the distances of
- * particles from the surface [m], shows that the line is inside if the two balls with these radii cover it;
- * inside[n_all], bits of the convex solids that contain a particle, shows it if the two particles have a bit in
- * common. */
+ * a line crosses face each other. v: shapes of the bodies. Skips neighbours that need no test: depth[n_all], lower
+ * bounds of the distances of particles from the surface [m], shows that the line is inside if the two balls with these
+ * radii cover it; inside[n_all], bits of the convex solids that contain a particle, shows it if the two particles have
+ * a bit in common. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
                            int64_t i, const struct neighbour_list *near)
 {

@@ -131,7 +131,7 @@ void voxel_part_free(struct voxel_part *p)
     p->level = NULL;
 }
 
-/* Returns the index, in the padded grid (the image with one more voxel on each side), of the voxel at X[dim], moved
+/* Returns the index, in the padded grid (the image v with one more voxel on each side), of the voxel at X[dim], moved
  * by `step` voxels along axis `direction` (-1: not moved). Positions outside the grid count as in its nearest voxel. */
 static int64_t level_index(const struct voxels *v, const real *X, int direction, int step)
 {

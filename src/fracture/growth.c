@@ -154,8 +154,8 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
 }
 
 /* Marks the material points within the cutoff (largest bond length) of the tip of crack g for conversion to peridynamic
- * particles, because cracks grow through bonds only. s: cells of the neighbour search. Returns the number of marked
- * points. */
+ * particles, because cracks grow through bonds only. Returns the number of marked points. s: cells of the neighbour
+ * search. */
 static int claim(const struct growing_crack *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;

@@ -73,7 +73,7 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
     return p->n_of[KIND_PD];
 }
 
-/* Assigns particle i to crack number `tip`, from 0, and appends it to the queue f->queue of particles whose neighbours
+/* Assigns, in f, particle i to crack number `tip`, from 0, and appends it to the queue of particles whose neighbours
  * must be visited. */
 static void flood_label(struct flood *f, int32_t i, int tip)
 {
@@ -81,7 +81,7 @@ static void flood_label(struct flood *f, int32_t i, int tip)
     f->queue[f->queued++] = i;
 }
 
-/* Returns the number of the crack into which crack number `tip` has been merged in this sample f (present set of tip
+/* Returns the number of the crack of f into which crack number `tip` has been merged in this sample (present set of tip
  * positions), or `tip` itself if it has not been merged. */
 static int tips_root_of(const struct flood *f, int tip)
 {
@@ -202,7 +202,7 @@ static bool flood_nucleate(struct flood *f)
     return true;
 }
 
-/* Removes the cracks that have been merged into others in this sample f from the list of tips and from the record of
+/* Removes the cracks that have been merged into others in this sample from the list of tips of f and from the record of
  * their growth. Renumbers the remaining cracks and the labels of particles. */
 static void flood_close_ranks(struct flood *f)
 {
@@ -290,7 +290,7 @@ static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const str
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
 
-/* Returns the slope of the least-squares line through the growth of tip k over time, of the samples first .. last
+/* Returns the slope of the least-squares line through the growth of tip k of t over time, of the samples first .. last
  * [m/s]; NAN if all these samples have the same time. */
 static real regression(const struct crack_tips *t, int k, int64_t first, int64_t last)
 {

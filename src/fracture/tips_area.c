@@ -19,7 +19,7 @@ static int64_t strips_of(const struct crack_tips *t, const struct crack_tip *tip
 
 /* Returns the number, from 0, of the strip of a crack that contains the position X[dim] [m]. The front of the pre-crack
  * at `tip` is divided into strips about one spacing wide. Positions beyond the ends of the front count to the nearest
- * strip. */
+ * strip. t: all cracks, for the spacing. */
 static int64_t strip_at(const struct crack_tips *t, const struct crack_tip *tip, const real *X)
 {
     const real edge2 = dot(tip->edge, tip->edge, t->dim);
@@ -37,9 +37,9 @@ struct ahead {
     int64_t cell;
 };
 
-/* Finds the front of a pre-crack in body number `body` that is nearest to the position X[dim] [m]. Returns the number
- * of its tip, or -1 if X is not ahead of this front or there is no front, and the distance of X from the front [cells
- * of one spacing]. */
+/* Finds the front of a pre-crack of t in body number `body` that is nearest to the position X[dim] [m]. Returns the
+ * number of its tip, or -1 if X is not ahead of this front or there is no front, and the distance of X from the front
+ * [cells of one spacing]. */
 static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X)
 {
     struct ahead found = {-1, 0};
@@ -57,11 +57,11 @@ static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X
     return found;
 }
 
-/* Marks the part of the area ahead of all pre-cracks that is damaged. The fronts of pre-cracks are divided into strips
- * about one spacing wide, and the strip ahead of a front into `deepest` cells of one spacing. cell: the entries of
- * cells that contain a particle with more damage than `least` are set to 1; NULL: no cell is marked. first[k]: number
- * of the first strip of tip k; strip s has the cells from cell[s * deepest] on. Returns the largest distance of such a
- * particle from its front [cells]. */
+/* Marks the part of the area ahead of all pre-cracks of t that is damaged. The fronts of pre-cracks are divided into
+ * strips about one spacing wide, and the strip ahead of a front into `deepest` cells of one spacing. cell: the entries
+ * of cells that contain a particle with more damage than `least` are set to 1; NULL: no cell is marked. first[k]:
+ * number of the first strip of tip k; strip s has the cells from cell[s * deepest] on. Returns the largest distance of
+ * such a particle from its front [cells]. */
 static int64_t strips_mark(const struct crack_tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
 {
@@ -131,7 +131,7 @@ struct bar_place {
     int32_t particle;
 };
 
-/* Compares the particles *a and *b of a bar (struct bar_place) for qsort, in ascending order of their reference
+/* Compares two particles a and b of a bar (struct bar_place) for qsort, in ascending order of their reference
  * positions. */
 static int bar_place_order(const void *a, const void *b)
 {

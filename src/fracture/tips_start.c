@@ -49,7 +49,7 @@ static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n 
 
 /* Returns true if the position X[dim] [m], an end of pre-crack number `self`, is within half a spacing of another
  * pre-crack. The end is then a corner or a branch of a longer cut, from which no crack grows. crack[cracks]: pre-cracks
- * of the scene. */
+ * of the scene. t: has spacing and dimension. */
 static bool on_another(const struct crack_tips *t, const struct crack *crack, int cracks, int self, const real *X)
 {
     for (int c = 0; c < cracks; c++) {
@@ -65,8 +65,8 @@ static bool on_another(const struct crack_tips *t, const struct crack *crack, in
 }
 
 /* Returns the number of the body in which a crack that ends at X[dim] [m] could grow in the direction along[dim] (unit
- * vector); -1 if fewer than two particles of free motion are ahead of X. t: tips, for the spacing; s: search, whose
- * list of found particles is overwritten. */
+ * vector); -1 if fewer than two particles of free motion are ahead of X. t: has the spacing; s: search, whose list of
+ * found particles is overwritten. */
 static int body_ahead(const struct crack_tips *t, struct tip_search *s, const real *X, const real *along)
 {
     real ahead[DIM_MAX];

@@ -73,9 +73,9 @@ static status nodes_read(struct deck *d)
     return OK;
 }
 
-/* Reads the node labels of an element of deck d, which may continue on further lines. Stores the labels of its corners
- * in node[] and of its middle nodes in middle[], in the order of elements.h. The interior node of elements with 27
- * nodes is skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
+/* Reads from deck d the node labels of an element, which may continue on further lines. Stores the labels of its
+ * corners in node[] and of its middle nodes in middle[], in the order of elements.h. The interior node of elements with
+ * 27 nodes is skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
 static status element_nodes(struct deck *d, const struct abaqus_shape *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
@@ -164,8 +164,9 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     return OK;
 }
 
-/* Replaces labels by indices in the sets of the mesh: the labels added since the last call, which belong to `scope`. (A
- * scope is a part of the deck, or what is outside parts.) Removes labels that the scope does not contain. */
+/* Replaces labels by indices in the sets of the mesh of deck d: the labels added since the last call, which belong to
+ * `scope`. (A scope is a part of the deck, or what is outside parts.) Removes labels that the scope does not
+ * contain. */
 static void sets_resolve(struct deck *d, const struct scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {
@@ -189,8 +190,8 @@ static int scope_find(const struct deck *d, const char *name, bool instance)
     return -1;
 }
 
-/* Adds the nodes of an element of the current scope of deck d, by their labels, to the set number `set`. label: of the
- * element; of: the elements of the scope, by label. */
+/* Adds the nodes of an element of the current scope (part of the deck d), by their labels, to the set number `set`.
+ * label: label of the element; of: map from labels to the elements of the scope. */
 static void nodes_of_element_add(struct deck *d, int set, const struct label_map *of, int64_t label)
 {
     const int64_t k = label_map_find(of, label);
@@ -200,7 +201,7 @@ static void nodes_of_element_add(struct deck *d, int set, const struct label_map
         element_mesh_add_to_set(d->m, set, d->m->middle[e->middle + c]);
 }
 
-/* Adds the nodes of the elements of deck d that are in the set called `name` so far to the set number `set`, for *NSET
+/* Adds the nodes of the elements that are in the set called `name` in deck d so far to the set number `set`, for *NSET
  * with the parameter ELSET. Returns REFUSED if there are too many sets or members. */
 static status set_join_nodes_of(struct deck *d, int set, const char *name)
 {
@@ -296,7 +297,7 @@ static status scope_end(struct deck *d)
     return OK;
 }
 
-/* Begins a part of the deck called `name` and makes it the current one. name: "" for what is outside parts. */
+/* Begins a part of deck d called `name` and makes it the current one. name: "" for what is outside parts. */
 static void scope_begin(struct deck *d, const char *name)
 {
     GROW("abaqus.parts", d->scope, d->scopes + 1);
@@ -306,7 +307,7 @@ static void scope_begin(struct deck *d, const char *name)
     scope->node = d->m->nodes, scope->element = d->m->elements;
 }
 
-/* Ends the current part of the deck, or what is outside parts, and begins the next. name: name of the part that begins;
+/* Ends the current part of deck d, or what is outside parts, and begins the next. name: name of the part that begins;
  * NULL for what is outside parts. Returns REFUSED if there are too many parts, or if labels in the ended one are
  * invalid. */
 static status scope_change(struct deck *d, const char *name)
@@ -385,7 +386,7 @@ static status input_read(struct deck *d, status (*read)(struct deck *d), bool ke
     return s;
 }
 
-/* Reads the data lines of the current keyword of deck d: *NODE, *ELEMENT, *NSET or *ELSET. Returns REFUSED for invalid
+/* Reads the data lines of the current keyword of deck d, *NODE, *ELEMENT, *NSET or *ELSET. Returns REFUSED for invalid
  * data. */
 static status data_read(struct deck *d)
 {
@@ -416,7 +417,8 @@ static status keyword_follow(struct deck *d)
     return OK;
 }
 
-/* Reads the keywords of the current file of deck d to its end. Returns REFUSED for invalid ones. */
+/* Reads all keywords of the current file of deck d, with their data. Returns REFUSED, with a message, for invalid
+ * ones. */
 static status keywords_read(struct deck *d)
 {
     while (source_skip_blanks(d->s)) {

@@ -129,7 +129,7 @@ void element_mesh_free(struct element_mesh *m)
 
 /* ---- labels --------------------------------------------------------------------------------------------------- */
 
-/* Compares the entries *a and *b of a label map by label, then by index, for array_sort. */
+/* Compares two entries a and b of a label map for array_sort: by label, then by index. */
 static int label_entry_order(const void *a, const void *b)
 {
     const struct label_entry *p = a, *q = b;

@@ -313,7 +313,7 @@ struct corner_list {
     int32_t node[ELEMENT_CORNERS_MAX], element;
 };
 
-/* Compares the lists of corners *a and *b by their nodes, then by element, for array_sort. */
+/* Compares two lists of corners a and b (struct corner_list) for array_sort: by their nodes, then by element. */
 static int corner_list_order(const void *a, const void *b)
 {
     const struct corner_list *p = a, *q = b;

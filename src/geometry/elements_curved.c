@@ -113,8 +113,8 @@ static void line_add(struct surface_builder *b, const struct patch *p)
 
 /* ---- sides that two elements share ------------------------------------------------------------------------------- */
 
-/* Appends a copy of *side, a side of an element with middle nodes, to the surface b. It is divided into faces later, by
- * surface_builder_divide_sides_into_faces. */
+/* Appends a copy of *side, a side of an element with middle nodes, to the surface of b. The copy is divided into faces
+ * later, by surface_builder_divide_sides_into_faces. */
 void surface_builder_add_side_with_middle_nodes(struct surface_builder *b, const struct patch *side)
 {
     GROW("mesh.patch", b->patch, b->patches + 1);
@@ -148,7 +148,8 @@ static struct patch_key patch_key_of(const struct patch *p, int64_t of)
     return key;
 }
 
-/* Compares the keys of patches *a and *b by their sorted corners, then by index, for array_sort. */
+/* Compares the keys a and b of two patches (sides of elements) for array_sort: by their sorted corners, then by
+ * index. */
 static int key_order(const void *a, const void *b)
 {
     const struct patch_key *p = a, *q = b;
@@ -157,7 +158,7 @@ static int key_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Removes from b pairs of patches (sides of elements) with the same corners and opposite orientation. Two elements add
+/* Removes pairs of patches of b (sides of elements) with the same corners and opposite orientation. Two elements add
  * such a pair at the side that they share. If several patches with the same corners remain, only one of them is
  * retained. */
 static void patches_cancel(struct surface_builder *b)
@@ -199,7 +200,7 @@ struct curves {
     struct curve *curve;
 };
 
-/* Compares the edges *a and *b by the nodes at their ends, then by middle node. */
+/* Compares two edges a and b (struct curve) for sorting: by the nodes at their ends, then by middle node. */
 static int curve_order(const void *a, const void *b)
 {
     const struct curve *p = a, *q = b;

@@ -227,7 +227,7 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
 }
 
 /* Reads side set number `number` (from 1) of the file x: creates a set of elements and adds an element for each side.
- * An empty side set has no arrays and makes no set. Returns REFUSED for unknown elements or sides. */
+ * An empty side set has no arrays and makes no set. Returns REFUSED, with a message, for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_side_ss", number);
@@ -286,7 +286,7 @@ static status element_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads nodes, blocks and sets of the file x into its mesh. Side sets are read before node sets, so that a side set
+/* Reads nodes, blocks and sets of the file x into the mesh. Side sets are read before node sets, so that a side set
  * gets the name if both have the same one; it contains more information. Returns REFUSED for an invalid file. */
 static status mesh_read(struct exodus *x)
 {

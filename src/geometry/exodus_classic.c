@@ -81,8 +81,8 @@ static int64_t next_list(struct header *h, uint64_t tag)
     return h->good ? n : 0;
 }
 
-/* Reads a list of attributes of the header h. elements[NAME_MAX_LENGTH]: receives the value of the attribute elem_type,
- * "" if there is none. */
+/* Reads a list of attributes from the header h. elements[NAME_MAX_LENGTH]: receives the value of the attribute
+ * elem_type, "" if there is none. */
 static void next_attributes(struct header *h, char *elements)
 {
     const int64_t n = next_list(h, TAG_ATTRIBUTES);
@@ -140,7 +140,7 @@ static void header_array(struct header *h)
     h->f->array[h->f->arrays++] = a;
 }
 
-/* Returns REFUSED if an array ends beyond the end of the file. */
+/* Returns REFUSED, with a message, if an array of f ends beyond the end of the file. */
 static status arrays_check(const struct exodus_file *f)
 {
     for (int64_t k = 0; k < f->arrays; k++) {

@@ -153,9 +153,9 @@ static status array_check(const struct exodus_file *f, const char *name, int64_t
                                name, (long long)n);
 }
 
-/* Reads the array called `name` followed by `number` (n numbers) into the new array *reals or *integers; one of
- * these two pointers must be NULL. The caller releases it with memory_free. Returns REFUSED, with nothing allocated,
- * if the array is missing or has another size, or the file is damaged. */
+/* Reads the array called `name` followed by `number` (n numbers) from the file f into the new array *reals or
+ * *integers; one of these two pointers must be NULL. The caller releases it with memory_free. Returns REFUSED, with
+ * nothing allocated, if the array is missing or has another size, or the file is damaged. */
 static status array_read(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **reals,
                          int64_t **integers)
 {

@@ -25,8 +25,8 @@ void exodus_hdf5_close(struct exodus_file *f)
     crash_message_set_file_in_use(NULL);
 }
 
-/* Opens the dataset `name` and stores its lengths in extent[2]. Returns its handle, to be closed with H5Dclose, or a
- * negative number unless the dataset is in this file and has one or two dimensions. */
+/* Opens the dataset `name` of f and stores its lengths in extent[2]. Returns its handle, to be closed with H5Dclose, or
+ * a negative number unless the dataset is in this file and has one or two dimensions. */
 static hid_t dataset_open(const struct exodus_file *f, const char *name, int64_t extent[2])
 {
     hsize_t lengths[2] = {0, 1};

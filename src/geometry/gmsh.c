@@ -59,8 +59,8 @@ struct gmsh {
     int last_set;
 };
 
-/* Returns a number that identifies an entity of a Gmsh file (point, curve, surface or volume) by its dimension (0 to 3)
- * and its tag. */
+/* Returns a number that identifies an entity of a Gmsh file (point, curve, surface or volume) by its dimension dim (0
+ * to 3) and its number `tag` in the file. */
 static int64_t entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
 /* Sets *type to the row of the table `types` for Gmsh's element type `number`. Returns REFUSED for an unsupported
@@ -78,8 +78,9 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
                                (long long)number);
 }
 
-/* Adds an element of the file g to the set of a physical group, which is created if it is new. dim, tag: dimension and
- * number of the group; element: index of the element in the mesh. Returns REFUSED if there are too many groups. */
+/* Adds an element to the set that the mesh of g has of a physical group, which is created if it is new. dim, tag:
+ * dimension and number of the group; element: index of the element in the mesh. Returns REFUSED if there are too many
+ * groups. */
 static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
 {
     if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
@@ -109,9 +110,9 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* Checks a node on an edge of an element of `type`, of order 3 or more, of the file g: returns REFUSED unless it is on
- * the straight line between the ends of the edge. node: corners of the element; edge: number of the edge in Gmsh's
- * order; between: index of the node on the edge. */
+/* Checks a node on an edge of an element of g of order 3 or more: returns REFUSED unless it is on the straight line
+ * between the ends of the edge. type: type of the element; node: corners of the element; edge: number of the edge in
+ * Gmsh's order; between: index of the node on the edge. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {
@@ -157,8 +158,8 @@ static status nodes_known(struct gmsh *g)
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* Reads a text in double quotes from s into text[capacity]; longer texts are cut off. Returns REFUSED if the text does
- * not begin with a quote, or does not end with one on the same line. */
+/* Reads a text in double quotes from the file s into text[capacity]; longer texts are cut off. Returns REFUSED if the
+ * text does not begin with a quote, or does not end with one on the same line. */
 static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
@@ -191,7 +192,7 @@ static status names_read(struct gmsh *g)
     return OK;
 }
 
-/* Records that an entity of the file g belongs to the physical group with the tag `group`. entity: number of the
+/* Records in g that an entity of the file belongs to the physical group with the tag `group`. entity: number of the
  * entity, as returned by entity_key. */
 static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
 {
@@ -268,8 +269,9 @@ static status old_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Removes the last element of the mesh of the file g again if it equals the one before it: format 2.2 has an element of
- * several physical groups once for each. group: its group, which differs from that of the one before. */
+/* Removes the last element of the mesh of g if it equals the element before it: format 2.2 lists an element of several
+ * physical groups once for each of them. group: physical group of the last element; the caller then adds the remaining
+ * element to it. */
 static void old_element_merge(struct gmsh *g, int64_t group)
 {
     const struct element *last = &g->m->element[g->m->elements - 1];
@@ -318,9 +320,9 @@ static status old_elements(struct gmsh *g)
 
 /* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
 
-/* Reads the first line of a section of the file g in format 4.1: the number of blocks, into *blocks, that of nodes or
- * elements in all of them, into *total, and the smallest and the largest label, which are skipped. what: name of the
- * last three, for messages. Returns REFUSED if the line is malformed. */
+/* Reads the first line of a section of the file g in format 4.1: the number of blocks into *blocks, the number of nodes
+ * or elements in all blocks into *total, and the smallest and largest label, which are not stored. what: nodes or
+ * elements, for messages. Returns REFUSED if the line is malformed. */
 static status new_head(struct gmsh *g, const char *what, int64_t *blocks, int64_t *total)
 {
     int64_t skipped;
@@ -331,8 +333,8 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks, int64_
     return source_check_count_fits_file(g->s, "blocks", *blocks, 8);
 }
 
-/* Returns REFUSED unless the blocks of a section of the file g in format 4.1 contain `found` = `announced` rows, the
- * number in the first line of the section. what: nodes or elements. */
+/* Checks a section of the file g in format 4.1: returns REFUSED, with a message, unless `found`, the number of rows in
+ * all of its blocks, equals `announced`, the number in its first line. what: nodes or elements, for the message. */
 static status new_total(const struct gmsh *g, const char *what, int64_t announced, int64_t found)
 {
     if (found == announced) return OK;
@@ -448,8 +450,8 @@ static void section_skip(struct source *s, const char *name)
     s->at = found ? found - s->text + length : s->length;
 }
 
-/* Advances over the last line of the section `name` of the file g, such as $EndNodes of $Nodes. Returns REFUSED if it
- * does not come next, because the section has more than it announces. */
+/* Advances over the last line of the section `name` of the file g, such as $EndNodes of $Nodes. Returns REFUSED, with a
+ * message, if the next line is another one, because the section has more entries than its first line announces. */
 static status section_end(struct gmsh *g, const char *name)
 {
     char end[48], word[sizeof end];

@@ -7,8 +7,8 @@
 #include "base/memory.h"
 #include "pages.h"
 
-/* Callback of libpng, reader png, for reading: copies the next n bytes of the file to `to`. Reports an error to libpng
- * if the file ends before. */
+/* Callback of libpng for reading: copies the next n bytes of the file to `to`. Reports an error to libpng if the file
+ * ends before. png: state of libpng, which has the file. */
 static void bytes_next(png_structp png, png_bytep to, size_t n)
 {
     struct source *s = png_get_io_ptr(png);
@@ -17,7 +17,8 @@ static void bytes_next(png_structp png, png_bytep to, size_t n)
     s->at += (int64_t)n;
 }
 
-/* Callback of libpng, reader png, for errors: stores the message `what` and jumps back to png_read_pages. */
+/* Callback of libpng for errors: stores the message `what` in the state `png` of libpng and jumps back to
+ * png_read_pages. */
 static void fault_kept(png_structp png, png_const_charp what)
 {
     snprintf(png_get_error_ptr(png), 128, "%s", what);

@@ -20,7 +20,7 @@ static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
     return taken;
 }
 
-/* Callback of libtiff for writing, which never happens. Returns -1 for failure. */
+/* Callback of libtiff for writing n bytes, which never happens. Ignores all arguments and returns -1, for failure. */
 static tmsize_t tiff_write(thandle_t handle, void *from, tmsize_t n)
 {
     (void)handle, (void)from, (void)n;
@@ -38,7 +38,7 @@ static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
     return (toff_t)to;
 }
 
-/* Callback of libtiff for closing. Does nothing, since the caller owns the bytes. */
+/* Callback of libtiff for closing the file `handle`. Does nothing and returns 0, since the caller owns the bytes. */
 static int tiff_close(thandle_t handle) { return (void)handle, 0; }
 
 /* Callback of libtiff for the size of the file `handle` [byte]. */

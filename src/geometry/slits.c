@@ -41,7 +41,7 @@ static struct sheet sheet_of(const struct hull *h, int64_t face)
     return s;
 }
 
-/* Compares the faces *a and *b by the x coordinate of their centres, for array_sort. */
+/* Compares two faces a and b (struct sheet) for array_sort, by the x coordinate of their centres. */
 static int by_centre(const void *a, const void *b)
 {
     const struct sheet *p = a, *q = b;
@@ -143,7 +143,7 @@ static real triangle_twice_area(const real *a, const real *b, const real *c)
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Compares the plane points *a and *b by the first, then the second coordinate, for array_sort. */
+/* Compares two plane points a and b for array_sort, by the first, then by the second coordinate. */
 static int by_place(const void *a, const void *b)
 {
     const real *p = a, *q = b;

@@ -26,7 +26,7 @@ static uint32_t word_at(const struct source *s, int64_t at)
     return (uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24;
 }
 
-/* Returns true if the file s is binary: it has the length that its number of triangles implies. Binary files may also
+/* Returns true if the file s is binary: its length is that which its number of triangles implies. Binary files may also
  * begin with "solid", the first word of text files. */
 static bool is_binary(const struct source *s)
 {
@@ -97,7 +97,7 @@ struct corner_key {
     int32_t at;
 };
 
-/* Compares the corners *a and *b by their rounded coordinates, then by node, for array_sort. */
+/* Compares two corners a and b (struct corner_key) for array_sort: by their rounded coordinates, then by node. */
 static int corner_order(const void *a, const void *b)
 {
     const struct corner_key *p = a, *q = b;

@@ -167,10 +167,12 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
 /* Largest such flight, by which weights reach beyond a cell [node distances]: those of GIMP are exact up to here. */
 #define AHEAD_MOST 0.25
 
-/* Sets f->grid.ahead, by which the points of f are mapped ahead of their positions (kernels/mpm/remap_turn.h): their
- * common flight in half a step, from the momentum of their rotating groups t. It is 0 if supports or planes of symmetry
- * act on them, whose nodes do not fly along, for bodies with grids of their own, which may meet, for linear shapes,
- * whose slopes jump between cells, and for cubic ones, whose fifth node beyond a cell is missing. dt: time step [s]. */
+/* Sets f->grid.ahead [node distances], the displacement by which the points of f are mapped ahead of their positions
+ * (kernels/mpm/remap_turn.h). It is the common motion of these points in half a step, from the momentum of t, the
+ * groups of points that rotate together. It is 0 if supports or planes of symmetry act on the points, because nodes
+ * there do not move along; for bodies with grids of their own, which may meet; and for linear and cubic shape functions
+ * (`shape`): the slopes of linear ones jump between cells, and cubic ones would need a fifth node. dt: time step
+ * [s]. */
 static void field_set_flight(struct grid_field *f, const struct rotation_groups *t, enum shape shape, real dt)
 {
     struct grid *g = &f->grid;
@@ -241,9 +243,9 @@ static void mean_dilatation_add(struct grid_method *mpm, struct particles *p, re
 
 /* Sorts points of p of which some have left their cells on the grids mpm. For points with a mean dilatation of cells,
  * replaces half of that of the old cells by half of that of the new cells. coupling: coupling of peridynamic particles
- * and points. Positions that are not finite are left to the next step. Not for materials that yield: a bar that hits a
- * wall loses 0.4 % of its energy with it and gains 0.14 % without. Returns FAILED or REFUSED, with a message, if a grid
- * would need too many nodes. */
+ * and points. Positions that are not finite are left to the next step. Do not call it for materials that yield: a bar
+ * that hits a wall then loses 0.4 % of its energy; without this function it gains 0.14 %. Returns FAILED or REFUSED,
+ * with a message, if a grid would need too many nodes. */
 static status points_enter_cells(struct grid_method *mpm, struct particles *p, enum coupling coupling)
 {
     bool lost = false;

@@ -12,8 +12,8 @@
 /* Returns true if load l is an absorbing boundary. */
 static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
 
-/* Returns true if two absorbing loads act on the same face of at least one particle: the faces have equal axis and
- * side, and the loads have a common particle with an area. */
+/* Returns true if the absorbing loads a and b act on the same face of at least one particle: the faces have equal axis
+ * and side, and the loads have a common particle with an area. */
 static bool absorb_same(const struct load *a, const struct load *b)
 {
     if (a->boundary->face != b->boundary->face || a->boundary->side != b->boundary->side) return false;
@@ -193,7 +193,7 @@ void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed)
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
-/* Compares the dashpots *a and *b (struct dashpot) by node index, for sorting and for binary search. */
+/* Compares a and b (struct dashpot) by their node index, for sorting and for binary search. */
 static int by_dashpot(const void *a, const void *b)
 {
     const struct dashpot *p = a, *q = b;

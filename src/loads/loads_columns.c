@@ -311,7 +311,7 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* Adds the area of column `column` to the areas f of its exposed particle [m^2], the first one from outside. A
+/* Adds the area of column `column` of c to the areas f of its exposed particle [m^2], the first one from outside. A
  * tangential traction acts on the face, half a spacing outside this particle, and its moment would be wrong by this
  * distance. (The shear stress in a plate of n particles per side would be 1 + 1.3/n times too large.) So for tangential
  * components the exposed particle gets 3/2 of the area and the next one in the column -1/2, which preserves force and

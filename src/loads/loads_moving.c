@@ -8,7 +8,8 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* Returns the formula of component d of boundary b (not to be freed). A pressure has one formula for all components. */
+/* Returns the formula by which the value of boundary b is multiplied, for component d (0 .. dim - 1); it belongs to b.
+ * A pressure has one formula for all components. */
 static const struct expression *formula_of(const struct boundary *b, int d)
 {
     return &b->formula[b->kind == BOUNDARY_PRESSURE ? 0 : d];

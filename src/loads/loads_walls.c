@@ -107,11 +107,11 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
     return mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
-/* Lists in *s the components of nodes of g that loads constrain because of the position of the node: in the region of a
- * prescribed motion, or on a plane of symmetry. Adds nodes beyond such planes to g as mirror nodes, which copy the
- * motion of another node. Nodes doubled by slits have no mirror nodes. Must be called once for each box of nodes. mesh:
- * the mesh to which g belongs, or NULL; reference: true if nodes move with the material; only then regions of rotating
- * loads constrain nodes, because the region rotates with the material; p: particles. */
+/* Lists in *s the components of nodes of g that the loads l constrain because of the position of the node: in the
+ * region of a prescribed motion, or on a plane of symmetry. Adds nodes beyond such planes to g as mirror nodes, which
+ * copy the motion of another node. Nodes doubled by slits have no mirror nodes. Must be called once for each box of
+ * nodes. mesh: the mesh to which g belongs, or NULL; reference: true if nodes move with the material; only then regions
+ * of rotating loads constrain nodes, because the region rotates with the material. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {
@@ -149,8 +149,8 @@ static bool component_is_prescribed_twice(const struct loads *l, int dim)
     return twice != 0;
 }
 
-/* Marks those entries of s as overruled whose component of a node a later load in the scene constrains as well. Thus
- * one load alone moves each component of a node, and has its reaction, impulse and work. g: the grid of s. */
+/* Marks those entries of s as overruled whose component of a node a later load of l constrains as well. Thus one load
+ * alone moves each component of a node, and has its reaction, impulse and work. g: the grid of s. */
 static void constrained_mark_overruled(const struct loads *l, struct constrained_set *s, const struct grid *g)
 {
     if (!component_is_prescribed_twice(l, g->dim)) return;

@@ -121,7 +121,8 @@ static void take_frame(struct frame_choice *f, bool reference, const char *reaso
     *f = (struct frame_choice){reference, reason};
 }
 
-/* Sets FLAG_MESHED, the mark of points of the mesh, for all particles of the bodies in the reference frame. */
+/* Sets FLAG_MESHED, the mark of points of the mesh, for all particles of `part` in bodies whose frame in `frame` is the
+ * reference frame. */
 static void frames_mark(struct particles *part, struct reference_frame *frame)
 {
     for (int64_t i = 0; i < part->n; i++)

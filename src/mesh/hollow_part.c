@@ -129,8 +129,8 @@ static bool near_probe(const struct scene *s, const struct probe_request *probe,
     return false;
 }
 
-/* Returns true if X[dim] [m] is so near a POINT or SIF probe of the scene that particles are needed there: within three
- * cells of the point, or of the largest contour around the crack tip. h: edge of a cell [m]. */
+/* Returns true if X[dim] [m] is so near a POINT or SIF probe of the scene s that particles are needed there: within
+ * three cells of the point, or of the largest contour around the crack tip. h: edge of a cell [m]. */
 static bool probed(const struct scene *s, const real *X, real h)
 {
     for (int k = 0; k < s->probes; k++) {

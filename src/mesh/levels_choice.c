@@ -61,7 +61,8 @@ static real slowest_waves(const struct scene *s)
     return slowest;
 }
 
-/* Returns true if the initial state i moves or strains anything; false for a rotation at rate 0, for example. */
+/* Returns true if the initial state i gives any particle a velocity or a strain; false for a rotation at rate 0, for
+ * example. */
 static bool initial_acts(const struct scene_initial *i)
 {
     const int n = DIM_MAX * DIM_MAX;

@@ -25,9 +25,9 @@ enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the edge h of a cell with lumped mass whose waves along an axis have the same dispersion as those in the
- * lattice of bonds of scene s [m]: h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds of length r, with their component
- * xi along the axis. Without bonds, returns the edge of cells of level 0 (the finest). */
+/* Returns the edge h of a cell with lumped mass whose waves along an axis have the same dispersion as those in a
+ * lattice of bonds [m]: h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds of length r, with their component xi along
+ * the axis. Without bonds, returns the edge of cells of level 0 (the finest). s: scene. */
 static real dispersion_edge(const struct scene *s)
 {
     const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;
@@ -127,11 +127,11 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Returns flags [fine->grid.n] that are 1 for the cells that must be of level 0 (the finest). With R = l->roomy_cells +
- * more, these are the cells within R cells of peridynamic particles and of the cells requested in l->wanted; within R +
- * FLANK_MORE cells of slits if there are several, within one cell of a single slit; and within one cell of loaded
- * particles, of probes of stress-intensity factors and of planes of symmetry that are not on nodes. Release the flags
- * with memory_free. */
+/* Returns flags [fine->grid.n] that are 1 for the cells of r that must be of level 0 (the finest). With l = r->levels
+ * and R = l.roomy_cells + more, these are the cells within R cells of peridynamic particles and of the cells requested
+ * in l.wanted; within R + FLANK_MORE cells of slits if there are several, within one cell of a single slit; and within
+ * one cell of particles on which `loads` act, of probes of stress-intensity factors and of planes of symmetry that are
+ * not on nodes. Release the flags with memory_free. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {
@@ -156,9 +156,9 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     return demand;
 }
 
-/* Sets demand[I] = 1 for the cells I of level 0 (the finest) that are part of cells of `level` with a mark, and for
- * those within AROUND_STRESS cells of them. mark: flags of the cells of `level` (cells with the edge of 2^level finest
- * cells). */
+/* Sets demand[I] = 1 for the cells I of level 0 (the finest) of l that are part of cells of `level` with a mark, and
+ * for those within AROUND_STRESS cells of them. mark: flags of the cells of `level` (cells with the edge of 2^level
+ * finest cells). */
 static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
 {
     const struct grid *fine = &l->fine->grid, *g = &level_mesh_read_only(l, level)->grid;

@@ -10,9 +10,9 @@ int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step)
     return due;
 }
 
-/* Sets the displacements of the ghosts of `level` (cells with the edge of 2^level finest cells) to those of the nodes
- * of the next finer level at the same positions. A ghost is a node of the coarser mesh at which the finer mesh has a
- * node, too, and moves with that node. Cells beside finer ones need the ghosts to compute forces. */
+/* Sets the displacements of the ghosts of level `level` of l (cells with the edge of 2^level finest cells) to those of
+ * the nodes of the next finer level at the same positions. A ghost is a node of the coarser mesh at which the finer
+ * mesh has a node, too, and moves with that node. Cells beside finer ones need the ghosts to compute forces. */
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -53,9 +53,9 @@ void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level
         }
 }
 
-/* Adds the forces on the hanging nodes between `level` and the next finer level to their masters, in equal parts. A
- * hanging node is in the middle of an edge or face of a coarser cell, and its masters are the nodes at the ends or
- * corners of this edge or face. */
+/* Adds the forces on the hanging nodes between level `level` of l and the next finer level to their masters, in equal
+ * parts. A hanging node is in the middle of an edge or face of a coarser cell, and its masters are the nodes at the
+ * ends or corners of this edge or face. */
 static void hanging_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -69,10 +69,10 @@ static void hanging_fold(struct mesh_levels *l, int level)
         }
 }
 
-/* Adds the forces that cells of `level` exert on their ghosts to the nodes of the next finer level at the same
- * positions, and sets the forces on the ghosts to 0. A ghost is a node of the coarser mesh at which the finer mesh has
- * a node, too, and moves with that node. The forces are added twice, because the steps of the finer level are half as
- * long. */
+/* Adds the forces that cells of level `level` of l exert on their ghosts to the nodes of the next finer level at the
+ * same positions, and sets the forces on the ghosts to 0. A ghost is a node of the coarser mesh at which the finer mesh
+ * has a node, too, and moves with that node. The forces are added twice, because the steps of the finer level are half
+ * as long. */
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];

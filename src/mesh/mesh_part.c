@@ -11,7 +11,8 @@ static void frame_free_all(struct run *e)
     coarse_cell_points_free(&f->shown);
 }
 
-/* Writes the number of cells of run e of each level, and the number of changes of levels, to the summary j. */
+/* Writes to the summary j the number of cells of each coarsening level (0: finest) of run e, and how often the levels
+ * have changed. */
 static void put_levels(const struct run *e, struct json *j)
 {
     const struct mesh_levels *l = &e->frame->levels;

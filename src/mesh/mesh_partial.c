@@ -236,9 +236,10 @@ static void ends_free(struct mesh *mesh)
 }
 
 /* Computes share[modes]: how much a unit amplitude of each deformation mode of a cell changes the mean strain of the
- * family (the neighbours by bonds) of one of its points. local: derivative of this mean strain by the strain of the
- * cell at the point (struct partial_stress); place: number of the point in the cell, 0 .. 2^dim - 1; B: strains of the
- * points by the modes, from averaged_strains, or NULL if each point has its own dilatation; c: modes. */
+ * family (the neighbours by bonds) of one of its points. c: numbers of modes and components; local: derivative of this
+ * mean strain by the strain of the cell at the point (struct partial_stress); place: number of the point in the cell, 0
+ * .. 2^dim - 1; B: strains of the points by the modes, from averaged_strains, or NULL if each point has its own
+ * dilatation. */
 static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -262,7 +263,7 @@ static int64_t end_entry(const struct cell_maker *c, int32_t i)
 
 /* Appends the points with state-based PD-MPM bonds in partial cell number k (a cell with a stiffness matrix of its own)
  * to mesh->end, from index *n on. Stores for each point how much the deformation modes of the cell change the mean
- * strain of its family. Advances *n by the number of these points. c: modes of the cells. */
+ * strain of its family. Advances *n by the number of these points. c: mesh and bonds. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -278,8 +279,8 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-/* Lists in `mesh` the points with state-based PD-MPM bonds in all partial cells (cells with a stiffness matrix of their
- * own), group by group of LANES such cells. */
+/* Lists the points with state-based PD-MPM bonds in all partial cells (cells with a stiffness matrix of their own),
+ * group by group of LANES such cells. c: has the partial stresses of the points. */
 static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;

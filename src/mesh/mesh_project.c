@@ -167,9 +167,9 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     }
 }
 
-/* Computes to[I] for all nodes I, by code compiled for the number of dimensions. If `value` is not NULL, to[I] is the
- * right side of the projection of `value`, a value for each point. Else it is the product of the mass matrix with the
- * nodal values `from`. */
+/* Computes to[I] for all nodes I of the mesh of m, by code compiled for the number of dimensions. If `value` is not
+ * NULL, to[I] is the right side of the projection of `value`, a value for each point. Else it is the product of the
+ * mass matrix with the nodal values `from`. */
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
 {
 #define CASE(D)                                                                                                        \

@@ -141,8 +141,8 @@ static bool quarter_points_face(int q, int r, int c, int k)
     return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
 }
 
-/* Returns the particle at point q (0 .. 2^dim - 1) of the cell that contains piece number `bit` around node I of m, or
- * -1 if the point does not belong to this piece. A piece is a set of points of a cell that no slit separates; its
+/* Returns the particle (in m) at point q (0 .. 2^dim - 1) of the cell that contains piece number `bit` around node I,
+ * or -1 if the point does not belong to this piece. A piece is a set of points of a cell that no slit separates; its
  * number is 8 c + g for piece g of the cell of which the node is corner c. */
 static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
 {
@@ -150,9 +150,9 @@ static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if the pieces `one` and `other` of the body around node I of m are connected: if there is no slit
- * between a point of one and a point of the other. Points that are opposite each other across the boundary of two cells
- * are tested, or all pairs of points if there are none; pieces of one cell are not connected. A piece is a set of
+/* Returns true if the pieces `one` and `other` of the body around node I of the mesh of m are connected: if there is no
+ * slit between a point of one and a point of the other. Points that are opposite each other across the boundary of two
+ * cells are tested, or all pairs of points if there are none; pieces of one cell are not connected. A piece is a set of
  * points of a cell that no slit divides; 8 c + g is the number of piece g of the cell of which the node is corner c. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
@@ -170,9 +170,9 @@ static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int ot
     return false;
 }
 
-/* Returns the pieces around node I of m that are connected with the lowest piece in the set `open`, directly or through
- * other pieces in it, as one bit each. A piece is a set of points of a cell that no slit separates; bit 8 c + g stands
- * for piece g of the cell of which the node is corner c. */
+/* Returns the pieces around node I (of m) that are connected with the lowest piece in the set `open`, directly or
+ * through other pieces in it, as one bit each. A piece is a set of points of a cell that no slit separates; bit 8 c + g
+ * stands for piece g of the cell of which the node is corner c. */
 static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
 {
     uint64_t group = open & -open;
@@ -197,10 +197,11 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     return positions_parted(m, i, a, b);
 }
 
-/* Returns true if a connected set of pieces around node I of m is connected with its mirror image at the plane of
- * symmetry `plane`, which contains the node: if there is no slit between a point of the set and the mirror image of
- * this point. Points next to the plane are tested, or all points if there are none. A piece is a set of points of a
- * cell that no slit divides. group: the set, where bit 8 c + g is piece g of the cell of which the node is corner c. */
+/* Returns true if a connected set of pieces around node I of the mesh of m is connected with its mirror image at the
+ * plane of symmetry `plane`, which contains the node: if there is no slit between a point of the set and the mirror
+ * image of this point. Points next to the plane are tested, or all points if there are none. A piece is a set of points
+ * of a cell that no slit divides. group: the set, where bit 8 c + g is piece g of the cell of which the node is corner
+ * c. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
@@ -217,10 +218,10 @@ static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, 
     return false;
 }
 
-/* Finds the planes of symmetry through node I of m at which the node is free, because slits separate the body there
- * from its mirror image. Returns their axes as bits. group: the pieces of the body that move with the node, where bit 8
- * c + g is piece g of the cell of which the node is corner c. A piece is a set of points of a cell that no slit
- * divides. */
+/* Finds the planes of symmetry through node I of the mesh of m at which the node is free, because slits separate the
+ * body there from its mirror image. Returns their axes as bits. group: the pieces of the body that move with the node,
+ * where bit 8 c + g is piece g of the cell of which the node is corner c. A piece is a set of points of a cell that no
+ * slit divides. */
 static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
 {
     const struct grid *g = &m->mesh->grid;

@@ -300,7 +300,7 @@ static status region_each(const char *folder, const char *inner, const char *end
     return OK;
 }
 
-/* Returns true if `inner` is the name frames_NAME of the folder of a region of the scene scene_text. */
+/* Returns true if `inner` is the name frames_NAME of the folder of a region of the scene with the text scene_text. */
 static bool is_frames_of_region(const char *inner, const char *scene_text)
 {
     char line[PATH_NAME_ROOM + 16];
@@ -372,15 +372,15 @@ static bool index_lists(const char *path)
     return listed;
 }
 
-/* Checks the file `path`, which a run would remove. Returns REFUSED if its name is that of a frame or particles file,
- * but Cleave did not write it: it has no footer of Cleave's files and is not listed in the index of the older run. */
+/* Checks the file `path`, which a run would remove. Returns REFUSED if it has the name of a frame or particles file,
+ * but is not from Cleave: it has no footer of Cleave's files, and the index of the older run does not list it. */
 static status frame_guard(const char *path)
 {
     if (!is_frame(strrchr(path, '/') + 1, "") || file_has_checksum_footer(path) || index_lists(path)) return OK;
     return status_set(REFUSED, "%s was not written by cleave, or is cut off; move or remove it", path);
 }
 
-/* Checks the file `path` of rigid bodies, which a run would remove. Returns REFUSED if it does not begin as Cleave's
+/* Checks the file of rigid bodies `path`, which a run would remove. Returns REFUSED if it does not begin as Cleave's
  * files of rigid bodies do. */
 static status rigid_guard(const char *path)
 {
@@ -487,7 +487,7 @@ status output_write_text(const struct output *o, const char *file_name, const ch
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the list of frames of a series (number, times, sizes) and the number and hash of its last particles file to the
+/* Saves the list of frames of series s (number, times, sizes) and the number and hash of its last particles file to the
  * archive a if a->saving is true, else restores them. A series is the frames of the whole run or of one region. Returns
  * FAILED if the restored lists do not match. */
 static status series_archive(struct frame_series *s, struct archive *a)

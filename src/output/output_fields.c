@@ -139,7 +139,8 @@ static void copy_strain(const struct frame_source *s, const int32_t *row, int64_
 }
 
 /* Fills the rows first .. end - 1 with the density rho_0/J [kg/m^3], where J^2 = det(1 + 2 E) and E is the
- * Green-Lagrange strain. row[r]: particle of row r; s: source of the frame. */
+ * Green-Lagrange strain. row[r]: index of the particle of row r; s: source of the frame; rows: array with one float per
+ * row. */
 static void copy_density(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++) {
@@ -188,7 +189,8 @@ static void copy_level(const struct frame_source *s, const int32_t *row, int64_t
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
 
 /* Copies the damage of particles to the rows first .. end - 1: the damage computed for the frame if there is one, else
- * that stored in struct particles. row[r]: index of the particle of row r; s: source of the frame. */
+ * that stored in struct particles. s: source of the frame; row[r]: index of the particle of row r; rows: array with one
+ * float per row. */
 static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->extra.state.damage ? s->extra.state.damage : s->p->damage);
@@ -224,7 +226,7 @@ static void copy_fragment(const struct frame_source *s, const int32_t *row, int6
 /* ---- fields of the particles file -------------------------------------------------------------------------------- */
 
 /* Copies the spacing of particles [m] to the rows first .. end - 1. Material points of coarse grid cells have larger
- * spacings. row[r]: index of the particle of row r; s: source of the frame. */
+ * spacings. s: source of the frame; row[r]: index of the particle of row r; rows: array with one float per row. */
 static void copy_spacing(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++)

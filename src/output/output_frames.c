@@ -47,8 +47,8 @@ struct frame_job {
  * do not change from frame to frame are in the particles file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
-/* Copies the rows of those fields of `source` that are stored in the frame of `job` itself, not in the particles file,
- * to o->frame_copy. This memory is used again for the next frame. */
+/* Copies from `source` the rows of those fields of the frame of `job` that are stored in the frame itself, not in the
+ * particles file, to job->o->frame_copy. This memory is used again for the next frame. */
 static void job_copy_fields(struct frame_job *job, const struct frame_source *source)
 {
     struct output *o = job->o;
@@ -163,7 +163,7 @@ static void rows_free(struct frame_series *s)
     s->particles.current = false;
 }
 
-/* Returns true if the frames of the series show particle i of p: it is in the region of the series, or the series has
+/* Returns true if the frames of the series s show particle i of p: it is in the region of the series, or the series has
  * no region. p: particles, or material points of coarse cells. */
 static bool series_shows(const struct frame_series *s, const struct particles *p, int64_t i)
 {
@@ -338,9 +338,9 @@ struct particles_seen {
     int64_t content;           /* hash of the contents of the file */
 };
 
-/* Checks particles file number `number` of a series of frames in the folder of a run, and stores name, fault and hash
- * of the file in *seen. Does nothing if it is the file that was checked last. The checkpoint has the hash of the last
- * particles file of the series. If this file has another hash, it belongs to another run and counts as lost. */
+/* Checks particles file number `number` of the series of frames s in the folder of a run, and stores name, fault and
+ * hash of the file in *seen. Does nothing if it is the file that was checked last. The checkpoint has the hash of the
+ * last particles file of the series. If this file has another hash, it belongs to another run and counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
@@ -355,8 +355,8 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
         seen->fault = "belongs to another run";
 }
 
-/* Reads the time *time [s] of the frame at `path`, and *content, the hash of its particles file. Returns false if the
- * frame cannot be read. */
+/* Reads from the frame at `path` its time into *time [s] and the hash of its particles file into *content. Returns
+ * false if the frame cannot be read. */
 static bool frame_read_marks(const char *path, real *time, int64_t *content)
 {
     struct hdf f;
@@ -406,8 +406,8 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
     if (seen.fault) s->particles.number = -1;
 }
 
-/* Composes and writes both index files of `series`, a series of frames of the output o (frames.hdf.series and
- * frames.xdmf). Returns FAILED if one cannot be written. */
+/* Composes and writes both index files of a series of frames of the output o (frames.hdf.series and frames.xdmf).
+ * Returns FAILED if one cannot be written. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};

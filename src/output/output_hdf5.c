@@ -152,7 +152,7 @@ struct table {
     size_t number;            /* size of a number [byte] */
 };
 
-/* Returns true if all numbers in the rows first .. end - 1 of a table equal the fill value, bit for bit. */
+/* Returns true if all numbers in the rows first .. end - 1 of the table t equal its fill value, bit for bit. */
 static bool table_is_fill(const struct table *t, int64_t first, int64_t end)
 {
     const char *at = t->data + (size_t)first * t->row;

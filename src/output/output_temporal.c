@@ -113,8 +113,8 @@ static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
     }
 }
 
-/* Writes the units of the fields of the temporal file a and the text of the scene, scene_text, to f as field data that
- * all times share. number: working memory with two entries for each frame. */
+/* Writes the units of the fields of a and scene_text, the text of the scene, to f as field data that all times share.
+ * number: working memory with two entries for each frame. */
 static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};

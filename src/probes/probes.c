@@ -200,8 +200,8 @@ void probes_complete_sample_after_step(struct probes *s, const struct observed_r
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the state of all probes (their memories and the values of the last sample) to the archive a if a->saving,
- * else restores it. Returns FAILED or REFUSED, with a message, if the archive does. */
+/* Saves the state of all probes s (their memories and the values of the last sample) to the archive a if a->saving,
+ * else restores it. Returns FAILED or REFUSED, with a message, if reading or writing the archive does. */
 status probes_save_or_load(struct probes *s, struct archive *a)
 {
     if (s->n == 0) return OK;

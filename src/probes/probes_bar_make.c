@@ -23,7 +23,7 @@ struct located {
     int32_t i;
 };
 
-/* Compares *a and *b (struct located) by position X, then by particle number, for sorting. */
+/* Compares a and b (struct located) by position X, then by particle number, for sorting. */
 static int probes_bar_make_by_position(const void *a, const void *b)
 {
     const struct located *p = a, *q = b;
@@ -128,7 +128,7 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     return true;
 }
 
-/* Returns the number of loads in the run that have a boundary condition of kind `kind`. *found: receives the last of
+/* Returns the number of loads in the run o that have a boundary condition of kind `kind`. *found: receives the last of
  * them; unchanged if there is none. */
 static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_kind kind, const struct load **found)
 {

@@ -45,8 +45,8 @@ static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the crack tip of the run that request r refers to: the tip whose origin is nearest to its
- * position `at`, within SAME_TIP spacings, or the first tip if r has no `at`. Returns -1 if there is none. */
+/* Returns the index of the crack tip of run o that request r refers to: the tip whose origin is nearest to its position
+ * `at`, within SAME_TIP spacings, or the first tip if r has no `at`. Returns -1 if there is none. */
 static int tip_meant(const struct probe_request *r, const struct observed_run *o)
 {
     int nearest = -1;
@@ -71,8 +71,8 @@ static int growth_meant(const struct sif_tracked *w, const struct observed_run *
     return -1;
 }
 
-/* Returns REFUSED, with a message, if probe r (state: w) controls the growth of a crack of run o but measures the tip
- * of another one. The scene must then give the key `at`, which selects the tip. */
+/* Returns REFUSED, with a message, if the probe with request r controls the growth of a crack of run o but measures (w)
+ * the tip of another one. The scene must then give the key `at`, which selects the tip. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -86,7 +86,7 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds position and direction of the crack tip of the SIF probe w, from the request r or from a pre-crack of run o,
+/* Finds for w position and direction of the crack tip of a SIF probe, from the request r or from a pre-crack of run o,
  * and the growing crack that starts there. Returns REFUSED, with a message, if position or direction is unknown, or if
  * the probe controls the growth of a crack at another tip. */
 static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
@@ -164,9 +164,9 @@ static const struct crack_tip *other_tip_within(const struct sif_tracked *w, rea
     return NULL;
 }
 
-/* Returns the outer radius of the contour of the SIF probe w in run o, whose request r gives none: OUTER spacings or,
- * if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times it that stays in the body and contains no other
- * tip [m]. */
+/* Returns the outer radius of the contour of the SIF probe w of run o whose request r gives none: OUTER spacings or, if
+ * r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times this value that stays in the body and contains no
+ * other tip [m]. */
 static real default_outer_radius(const struct sif_tracked *w, const struct probe_request *r,
                                  const struct observed_run *o)
 {
@@ -178,7 +178,7 @@ static real default_outer_radius(const struct sif_tracked *w, const struct probe
     return most;
 }
 
-/* Sets the integration contours of the SIF probe w in run o: contour[0], from which the results are computed, then
+/* Sets the integration contours of the SIF probe w of run o: contour[0], from which the results are computed, then
  * those with which it is compared. The latter have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of
  * contour[0]. Sets w->reach to the largest outer radius. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
@@ -233,8 +233,9 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
                       r->name, other[0], other[1], w->reach, 0.99 * distance);
 }
 
-/* Stores body number and elastic constants of the material around the tip of w in run o. Returns REFUSED, with a
- * message, if no particle is ahead of the tip, or if another material or body is within the contours. */
+/* Stores in w the body number and the elastic constants of the material around the tip. r: request, for messages; o:
+ * run. Returns REFUSED, with a message, if no particle is ahead of the tip, or if another material or body is within
+ * the contours. */
 static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -295,8 +296,8 @@ void sif_probe_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip of SIF probe q of run o. Returns true if the tip belongs to a crack
- * that grows because bonds break. Returns false for tips at rest, and for cracks that grow at a prescribed or
+/* Updates position, speed and direction of the tip of SIF probe q from run o. Returns true if the tip belongs to a
+ * crack that grows because bonds break. Returns false for tips at rest, and for cracks that grow at a prescribed or
  * controlled speed, since the position of their tip is known exactly. */
 static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 {
@@ -357,7 +358,7 @@ void sif_probe_store_motion_before_step(struct probe *q, const struct observed_r
     }
 }
 
-/* Computes velocity and acceleration of all particles, w->mean and w->acceleration, at the time of the sample from the
+/* Computes w->mean and w->acceleration, velocity and acceleration of all particles at the time of the sample from the
  * velocities half a step before and after it. t_velocity: time of the current velocities [s]. After the last sample no
  * step follows, and the velocities of one step earlier are used instead. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
@@ -431,8 +432,8 @@ bool sif_probe_factors_are_meaningful(const struct probe *q)
     return !isnan(factors[0]) && !(factors[SIF_FIGURES - 1] > SPREAD_MOST);
 }
 
-/* Composes in text[size] the warning that probe q has no stress-intensity factors at its last sample, and why. t: time
- * of the sample [s]. */
+/* Writes to text[size] the warning that probe q has no stress-intensity factors at its last sample, and why. t: time of
+ * the sample [s]. */
 static void describe_meaningless_factors(const struct probe *q, real t, char *text, size_t size)
 {
     char why[160] = "its ring leaves the body";

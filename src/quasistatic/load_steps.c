@@ -288,8 +288,8 @@ status statics_check_scene_is_solvable(const struct run *e)
     return OK;
 }
 
-/* Warns that crack faces overlap if K_I is negative and contact does not act between particles. K_I: mode I
- * stress-intensity factor of the tip with the largest growth [Pa m^(1/2)]. */
+/* Adds to `to`, and prints, the warning that crack faces overlap, if K_I is negative and contact c does not act between
+ * particles. K_I: mode I stress-intensity factor of the tip with the largest growth [Pa m^(1/2)]. */
 static void warn_closed_faces(struct warnings *to, real K_I, const struct contact *c)
 {
     if (K_I < 0 && c->law.between == CONTACT_NONE)
@@ -299,8 +299,8 @@ static void warn_closed_faces(struct warnings *to, real K_I, const struct contac
 
 #define FLOW_LARGE 0.05 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
 
-/* Warns of plastic strains of particles of p above FLOW_LARGE, too large for additive small strains. Without hardening
- * they are a sign of loads beyond the limit load. */
+/* Adds to `to`, and prints, a warning of plastic strains of p above FLOW_LARGE, too large for additive small strains.
+ * Without hardening they are a sign of loads beyond the limit load. */
 static void warn_large_flow(struct warnings *to, const struct particles *p)
 {
     real most = 0;
@@ -313,8 +313,9 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
 }
 
-/* Warns if points of a bar (space: line) flow without hardening: the plastic strain of a bar in load steps is then not
- * unique, and one cell takes the whole of it. m: materials of the scene, one for each index in p->material. */
+/* Adds to `to`, and prints, a warning if points of a bar (space: line) flow without hardening: the plastic strain of a
+ * bar in load steps is then not unique, and one cell takes the whole of it. m: materials of the scene, one for each
+ * index in p->material. */
 static void warn_of_flow_in_one_cell(struct warnings *to, const struct particles *p, const struct material *m)
 {
     if (p->dim > 1 || !p->plastic_correction[0]) return;
@@ -329,8 +330,8 @@ static void warn_of_flow_in_one_cell(struct warnings *to, const struct particles
     }
 }
 
-/* Warns of bodies that have slid by more than SLID_LEAST spacings on others. slid: statics.slid [m]; spacing: of the
- * particles [m] */
+/* Adds to `to`, and prints, a warning of bodies that have slid by more than SLID_LEAST spacings on others. slid:
+ * distance of sliding along each axis, statics.slid [m]; spacing: spacing of the particles [m]. */
 static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
 {
     for (int a = 0; a < DIM_MAX; a++) {
@@ -343,7 +344,8 @@ static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
     }
 }
 
-/* Adds the warnings about the final state of the run. */
+/* Adds to e->warnings, and prints, the warnings about the final state of run e: closed crack faces, plastic flow,
+ * sliding, and rigid bodies without contact. */
 static void warn_at_end(struct run *e)
 {
     real K[MODES];

@@ -70,7 +70,7 @@ static struct crack *crack_segments(const struct sif_cracks *l, int *n)
     return crack;
 }
 
-/* Frees a list of segments that crack_segments returned. n: number of segments. */
+/* Frees `crack`, a list of n segments that crack_segments returned. */
 static void crack_segments_free(struct crack *crack, int n)
 {
     memory_free(crack[n].corner);

@@ -57,11 +57,10 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                               ON_SURFACE * l->plane.spacing);
 }
 
-/* Sets the energy cost of each bond between particles of p in `list`, the bonds that the next segment of the path of
- * `tip` cuts: the member `held` of its record [J]. The costs are scaled such that their sum is the area of the segment
- * times the crack energy per area; in 3D, energies of bonds at the sides of the body contain surface weights, and some
- * bonds at a pre-crack are already broken. In state-based models, where bonds have no energy of their own, all costs
- * are equal. */
+/* Sets the energy cost of each bond in `list`, the bonds that the next segment of the path of `tip` (a tip of l) cuts:
+ * the member `held` of its record [J]. The costs are scaled such that their sum is the area of the segment times the
+ * crack energy per area; in 3D, energies of bonds at the sides of the body contain surface weights, and some bonds at a
+ * pre-crack are already broken. In state-based models, where bonds have no energy of their own, all costs are equal. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {

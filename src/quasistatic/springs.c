@@ -15,7 +15,8 @@
 
 #define TINY 1e-30 /* a stretch in tension below all others [1] */
 
-/* The matrix during assembly: a first pass counts the entries, a second one stores them. */
+/* State of the assembly of the stiffness matrix a: a first pass counts the entries of each row, a second one stores
+ * them. */
 struct springs {
     const struct run *e;
     const int32_t *particle_at, *node_at; /* unknown of each particle and mesh node, -1: none */
@@ -66,17 +67,18 @@ static struct movers movers_list(const struct springs *s, int64_t i)
     return m;
 }
 
-/* Returns the unknowns of s that determine the displacement of particle or mirror image i, with their weights. sign[d]:
- * receives -1 if component d of an image moves opposite to that of the particle that it mirrors, else 1. */
+/* Returns the unknowns that determine the displacement of particle or mirror image i, with their weights. sign[d]:
+ * receives -1 if component d of an image moves opposite to that of the particle that it mirrors, else 1. s: assembly of
+ * the stiffness matrix. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
     image_compute_displacement_signs(&s->e->part, &s->e->loads, i, sign);
     return movers_list(s, image_source_particle(&s->e->part, s->e->loads.image, i));
 }
 
-/* Adds the stiffness of a bond of particle i to the rows of the unknowns that determine the displacement of i. The bond
- * counts as a spring along its reference direction, with its stiffness in tension. The row of the other particle of the
- * bond adds the other half. */
+/* Adds the stiffness of `bond`, a bond of particle i, to the matrix s->a, in the rows of the unknowns that determine
+ * the displacement of i. The bond counts as a spring along its reference direction, with its stiffness in tension. The
+ * row of the other particle of the bond adds the other half. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
@@ -154,7 +156,7 @@ static void cell_add(struct springs *s, int64_t I)
 
 /* ---- the matrix -------------------------------------------------------------------------------------------------- */
 
-/* Adds all bonds, cells and contacts to the matrix of s. Rows of peridynamic particles are filled in parallel, as each
+/* Adds all bonds, cells and contacts to the matrix s->a. Rows of peridynamic particles are filled in parallel, as each
  * belongs to one row of bonds; rows of mesh nodes in sequence. */
 static void springs_visit(struct springs *s)
 {

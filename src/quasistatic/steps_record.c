@@ -65,9 +65,9 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Returns the crack area in the body p along the paths of the SIF-driven tips, summed over the segments [m^2]. own: the
- * area in the body; face: the area of the whole crack faces, twice as large for segments on planes of symmetry, which
- * cut off half. */
+/* Returns the crack area along the paths of the SIF-driven tips l (directed by stress-intensity factors), summed over
+ * the segments [m^2]. own: the area in the body; face: the area of the whole crack faces, twice as large for segments
+ * on planes of symmetry, which cut off half. */
 static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
     struct crack_area area = {0};

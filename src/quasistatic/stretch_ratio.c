@@ -52,7 +52,7 @@ real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *
     return most + 0; /* of the zeros of two threads either may be taken: never the negative one */
 }
 
-/* Compares the numbers *a and *b for array_sort in descending order. */
+/* Compares two numbers *a and *b for array_sort in descending order. */
 static int descending(const void *a, const void *b)
 {
     const real x = *(const real *)a, y = *(const real *)b;

@@ -80,7 +80,7 @@ static int32_t unknown_of(const struct search *s, int64_t i)
     return -1;
 }
 
-/* Joins the connected components in s of the two particles of each intact bond. */
+/* Joins the connected components in s of the two particles of each intact bond in `bonds`. */
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
@@ -108,7 +108,7 @@ static void unknowns_number(struct search *s)
         s->node[mesh->grid.mirror_node[k].node] = s->node[mesh->grid.mirror_node[k].image];
 }
 
-/* Allocates the arrays of a search for unconstrained fragments, and stores the present positions of the nodes. */
+/* Allocates the arrays of s, a search for unconstrained fragments, and stores the present positions of the nodes. */
 static void unconstrained_search_begin(struct search *s)
 {
     const int64_t n = s->statics->balance.n;
@@ -412,8 +412,9 @@ static void fragment_candidates_find(struct search *s)
     for (int64_t q = 0; q < s->n; q++) s->candidate[q].radius = sqrt(s->candidate[q].radius / (real)s->candidate[q].n);
 }
 
-/* Updates slid[dim], how far fragments in contact have moved along axes along which contact and supports resist a
- * translation of fragment c by less than SLIDES_MOST of that along another axis [m]. */
+/* Raises slid[d] [m], the largest distance by which fragments in contact have slid along axis d, to the displacement of
+ * fragment c, for those axes along which contact and supports resist a translation of c with less than SLIDES_MOST
+ * times the resistance along another axis. dim: number of axes. */
 static void sliding_update(const struct candidate *c, int dim, real *slid)
 {
     real most = 0;

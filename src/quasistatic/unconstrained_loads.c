@@ -29,7 +29,7 @@ static real unbalanced_share(const struct statics *s, const struct particles *pa
     return most;
 }
 
-/* Returns the sum of the absolute values of all components of the applied forces of `statics` on particles `part`,
+/* Returns the sum of the absolute values of all components of the applied forces (from `statics`) on particles `part`,
  * divided by the square root of `nodes`, the number of nodes of a fragment [N]. It is comparable to *size of
  * unbalanced_share. */
 static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
@@ -41,8 +41,8 @@ static real applied_sum(const struct particles *part, const struct statics *stat
 }
 
 /* Returns how far the forces on fragment f (a piece of the body that nothing holds) with nodes of the mesh are from
- * balance in the state s of the particles p: the largest component of its forces along a free motion, divided by
- * applied_sum; internal forces in equilibrium have none. Returns 0 without such nodes or applied forces. */
+ * balance: the largest component of its forces along a free motion, divided by applied_sum; internal forces in
+ * equilibrium have none. s: unknowns and forces. Returns 0 without such nodes or applied forces. */
 static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
                                       const struct unconstrained_fragment *f)
 {

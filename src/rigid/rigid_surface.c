@@ -254,9 +254,9 @@ static real box_point_nearest(const struct region *shape, int dim, const real *l
     return least;
 }
 
-/* Extends the box low[dim] .. high[dim] [m] if a region lies outside it, so that the box contains the nearest part of
- * the region to a depth of some grid cells. The extension begins at the point of the box that is nearest to the region,
- * and is along the gradient of the level set. longest: longest edge of the box [m]. */
+/* Extends the box low[dim] .. high[dim] [m] if the region `shape` lies outside it, so that the box contains the nearest
+ * part of the region to a depth of some grid cells. The extension begins at the point of the box that is nearest to the
+ * region, and is along the gradient of the level set. longest: longest edge of the box [m]. */
 static void box_extend_to_region(const struct region *shape, int dim, real *low, real *high, real longest)
 {
     real X[DIM_MAX] = {0}, gradient[DIM_MAX];
@@ -303,7 +303,7 @@ static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles 
     }
 }
 
-/* Writes to `to` the opening tag of a VTK data array with the given type, name and number of components. */
+/* Writes to `to` the opening tag of a VTK data array with the given type, name and number of components (`columns`). */
 static void print_array(FILE *to, const char *type, const char *name, int columns)
 {
     fprintf(to, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name,
@@ -362,7 +362,7 @@ static void print_faces(FILE *to, const struct rigid_set *rigid)
     fputs("</DataArray>\n</CellData>\n", to);
 }
 
-/* Prints a VTK PolyData file with the surfaces of all rigid bodies at the time of a frame. */
+/* Prints to `to` a VTK PolyData file with the surfaces of all rigid bodies at the time of `frame`. */
 static void print_file(FILE *to, const struct rigid_set *rigid, const struct frame_entry *frame)
 {
     int64_t points = 0, faces = 0;

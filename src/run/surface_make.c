@@ -16,7 +16,7 @@ static int mirror_between(const struct loads *loads, const real *X, const real *
     return -1;
 }
 
-/* Returns the number of the body whose shape contains the position X [m], among the bodies of scene s joined to body
+/* Returns the number of the body of scene s whose shape contains the position X [m], among the bodies joined to body
  * `body`; joined bodies are bonded to each other and counted as one. Returns `body` if no shape contains X. */
 static int body_made_for(const struct scene *s, const real *X, int body)
 {
@@ -43,7 +43,8 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
 }
 
 /* Returns REFUSED, with the message that the distance of particles i and j along an axis is not a whole number of
- * spacings of scene s. i must be below p->n; j may be the mirror image of a particle in a mirror of `loads`. */
+ * spacings. i must be below p->n; j may be the mirror image of a particle in a mirror of `loads`. s: scene, with
+ * spacing and names. */
 static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
                            int64_t j)
 {

@@ -208,7 +208,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
 
 /* ---- all lists --------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance [spacings] over which particles of the scene interact: the larger of the horizon of bonds and
+/* Returns the distance [spacings] over which particles of the scene s interact: the larger of the horizon of bonds and
  * one cell of the grid, but at least REACH_LEAST. */
 static real fill_lists_reach_of(const struct scene *s)
 {

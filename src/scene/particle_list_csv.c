@@ -219,9 +219,9 @@ static bool line_of_mesh(const char *text)
     return n == 5 && text[strspn(text, " \t\r\n")] == '\0';
 }
 
-/* Reads the column names from the text `names`, which is line number `line` of the file. The current line of c is the
- * first entry of the list; it remains the current line, so that it can be read next. Returns REFUSED, with a message,
- * for invalid names. */
+/* Reads the column names of the list l from the text `names`, which is line number `line` of the file. The current line
+ * of c is the first entry of the list; it remains the current line, so that it can be read next. Returns REFUSED, with
+ * a message, for invalid names. */
 static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
 {
     char entry[CSV_LINE_LENGTH];

@@ -240,7 +240,7 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }
 
-/* Sets the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (whether bonds are
+/* Sets in s the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (whether bonds are
  * normalised by a full family or by the family of each particle). root: tree of the scene, to see which keys are
  * given. */
 static void resolve_surface(struct scene *s, const struct yaml_node *root)
@@ -257,8 +257,8 @@ static bool list_forms_agree(const struct particle_list_form *a, const struct pa
     return !a->columns || strcmp(a->columns, b->columns) == 0;
 }
 
-/* Returns true if the particle list of the body with the index `body` forms a lattice with the spacing of the scene.
- * Returns false for a list that cannot be read, which is reported later. */
+/* Returns true if the particle list of the body with the index `body` in s forms a lattice with the spacing of the
+ * scene. Returns false for a list that cannot be read, which is reported later. */
 static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
@@ -301,7 +301,7 @@ static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 
 /* ---- frame of the grid (mpm.frame) ------------------------------------------------------------------------------- */
 
-/* Returns true if a material of the body with the index `body` of scene s yields (has a yield stress). */
+/* Returns true if a material of the body with the index `body` in s yields (has a yield stress). */
 static bool body_yields(const struct scene *s, int body)
 {
     for (int m = 0; m < s->materials; m++)
@@ -310,7 +310,7 @@ static bool body_yields(const struct scene *s, int body)
 }
 
 /* Returns the reason why a body cannot use the reference frame (a mesh of the undeformed body), as part of a message;
- * NULL if it can. body: index in the scene. */
+ * NULL if it can. body: index in the scene s. */
 const char *scene_why_reference_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
@@ -349,9 +349,9 @@ const char *scene_why_reference_frame_is_no_remedy(const struct scene *s)
     return why;
 }
 
-/* Returns the reason why the scene requires the frame `current`, in which shape functions are evaluated at the present
- * positions of material points: a key that only this frame supports, as part of a message. Returns NULL if the scene
- * gives no such key. */
+/* Returns the reason why the scene s requires the frame `current`, in which shape functions are evaluated at the
+ * present positions of material points: a key that only this frame supports, as part of a message. Returns NULL if the
+ * scene gives no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
@@ -367,10 +367,11 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s)
     return any && scene_is_dynamic(s) && s->method == METHOD_MPM;
 }
 
-/* Chooses the frame of bodies with `frame: auto` that cannot use the reference frame or whose scene gives keys of the
- * current frame: they get `current`, with the reason. If no body then has the frame `auto`, marks the keys mpm.shape,
- * mpm.transfer and interface_damping as given, so that scene_echo.c writes them. While a body has the frame `auto` they
- * must not be written: these keys have a meaning in the current frame only, and a scene that gives them requires it. */
+/* Chooses the frame of bodies of s with `frame: auto` that cannot use the reference frame or whose scene gives keys of
+ * the current frame: they get `current`, with the reason. If no body then has the frame `auto`, marks the keys
+ * mpm.shape, mpm.transfer and interface_damping as given, so that scene_echo.c writes them. While a body has the frame
+ * `auto` they must not be written: these keys have a meaning in the current frame only, and a scene that gives them
+ * requires it. */
 void resolve_automatic_frames_of_bodies(struct scene *s)
 {
     bool open = false;

@@ -84,8 +84,8 @@ static void place_of_item(const struct scene *s, const char *list, int item, cha
 }
 
 /* Writes to place[PLACE_LENGTH] the location, followed by a colon, of the boundary, body, material, probe or growth
- * rule of scene s with whose name, or the crack with whose number, the message `text` begins. Writes nothing if there
- * is none. */
+ * rule with whose name, or the crack with whose number, the message `text` begins. s: scene. Writes nothing if there is
+ * none. */
 static void place_of_name(const struct scene *s, const char *text, char *place)
 {
     int crack;

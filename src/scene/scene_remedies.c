@@ -92,10 +92,10 @@ static int row_of_method(const struct scene *s, enum method method, unsigned has
     return row;
 }
 
-/* Writes to text[capacity], as words of a message, how the scene must be changed to the method and model in row number
- * `row` of the table `combination`. With method mpm, which does not use the key `model`, the key is mentioned only if
- * the scene has plasticity: a scene with plasticity must not name a state-based model. has: features of the scene (bits
- * HAS_...). */
+/* Writes to text[capacity], as words of a message, how the scene s must be changed to the method and model in row
+ * number `row` of the table `combination`. With method mpm, which does not use the key `model`, the key is mentioned
+ * only if the scene has plasticity: a scene with plasticity must not name a state-based model. has: features of the
+ * scene (bits HAS_...). */
 static void write_change(const struct scene *s, int row, unsigned has, char *text, size_t capacity)
 {
     static const char *const methods[] = {

@@ -19,10 +19,10 @@ struct family scene_family(const struct scene *s)
     return f;
 }
 
-/* Returns the critical stretch [1] of bonds that follows from the energy release rate of material m of scene s: in
- * closed form for the influence function for which there is one (bonds in 2D and 3D: 1, ospd: horizon/r), else from the
- * energy of the bonds of a lattice across a plane or, with state-based models, from the energy that separates its two
- * halves. */
+/* Returns the critical stretch [1] of bonds that follows from the energy release rate of material m: in closed form for
+ * the influence function for which there is one (bonds in 2D and 3D: 1, ospd: horizon/r), else from the energy of the
+ * bonds of a lattice across a plane or, with state-based models, from the energy that separates its two halves. s:
+ * scene, with model and horizon. */
 real scene_critical_stretch(const struct scene *s, const struct material *m)
 {
     const bool bond = s->model == MODEL_BOND;
@@ -40,8 +40,8 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     return sqrt(m->energy_release_rate / unit_energy);
 }
 
-/* Returns the elastic energy of the bonds of material m of scene s that cross a plane of the lattice, per area of the
- * plane and divided by the square of the stretch of the bonds [J/m^2]. */
+/* Returns the elastic energy of the bonds of material m that cross a plane of the lattice, per area of the plane and
+ * divided by the square of the stretch of the bonds [J/m^2]. s: scene, with model and horizon. */
 static real energy_over_stretch_squared(const struct scene *s, const struct material *m)
 {
     struct material unit = *m;

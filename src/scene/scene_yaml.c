@@ -111,9 +111,9 @@ static status read_items(struct parse *p, struct yaml_node *list, int depth)
     }
 }
 
-/* Reads a key and its value from p, and appends the entry to `map`; line and column of the entry are those of the key.
- * key_event: event of the key, already read, which is deleted; depth: levels of nesting above the mapping. Returns
- * REFUSED, with a message, for invalid YAML. */
+/* Reads a key and its value from the parser p, and appends the entry to `map`; line and column of the entry are those
+ * of the key. key_event: event of the key, already read, which is deleted; depth: levels of nesting above the mapping.
+ * Returns REFUSED, with a message, for invalid YAML. */
 static status read_entry(struct parse *p, struct yaml_node *map, yaml_event_t *key_event, int depth)
 {
     yaml_event_t event;
@@ -146,8 +146,8 @@ static status read_entries(struct parse *p, struct yaml_node *map, int depth)
     }
 }
 
-/* Reads the node of p that begins with `event` into *out, and deletes the event. depth: levels of nesting above the
- * node. Returns REFUSED, with a message, for invalid YAML and for YAML that a scene may not contain. */
+/* Reads from the parser p the node that begins with `event` into *out, and deletes the event. depth: levels of nesting
+ * above the node. Returns REFUSED, with a message, for invalid YAML and for YAML that a scene may not contain. */
 static status read_value(struct parse *p, yaml_event_t *event, int depth, struct yaml_node **out)
 {
     const char *refusal = event_refusal(event, depth);
@@ -170,8 +170,8 @@ static status read_value(struct parse *p, yaml_event_t *event, int depth, struct
     return OK;
 }
 
-/* Skips one event of p that begins or ends the stream or a document, and stores its type in *type. Returns REFUSED,
- * with a message, if a second document begins. */
+/* Skips one event of the parser p that begins or ends the stream or a document, and stores its type in *type. Returns
+ * REFUSED, with a message, if a second document begins. */
 static status skip_event(struct parse *p, yaml_event_type_t *type)
 {
     yaml_event_t event;

@@ -148,7 +148,7 @@ static double distance_to_face(const struct scene *s, const real *X)
 }
 
 /* Returns the largest spacing [m] that resolves the length of crack c and the distances of its ends from the faces of
- * the first body of scene s; INFINITY in 1D. */
+ * the first body of s; INFINITY in 1D. */
 static double crack_spacing(const struct scene *s, const struct crack *c)
 {
     double squares = 0, least = INFINITY;

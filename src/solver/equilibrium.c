@@ -106,8 +106,8 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
         for (int64_t i = first; i < end; i++) sum[is_held(s->q, i, d)] += s->a->of[d][i] * s->b->of[d][i];
 }
 
-/* Computes the scalar product of the vectors a and b over the nodes of q: over free components in sum[0], over held
- * components (with prescribed displacement) in sum[1]. */
+/* Computes the scalar product of the vectors a and b: over the free components of q in sum[0], over held components
+ * (with prescribed displacement) in sum[1]. */
 static void dots(const struct newton_solver *q, const struct field *a, const struct field *b, real sum[2])
 {
     reproducible_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
@@ -143,8 +143,8 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
     }
 }
 
-/* Returns the scalar product of the vectors a and b over all components of the nodes of q, free and held (with
- * prescribed displacement). */
+/* Returns the scalar product of vectors a and b over all components of q, free and held (with prescribed
+ * displacement). */
 static real dot_all(const struct newton_solver *q, const struct field *a, const struct field *b)
 {
     real sum;
@@ -152,17 +152,17 @@ static real dot_all(const struct newton_solver *q, const struct field *a, const 
     return sum;
 }
 
-/* Returns the size [m] of the region that moves with the largest component of a displacement increment, estimated from
- * the sum of squares of the increment. Bonds at the border of this region rotate by about this component, divided by
- * the size. q: solver; most: the largest component [m]. */
+/* Returns the size [m] of the region that moves with the largest component of the displacement `increment`, estimated
+ * from the sum of squares of the increment. q: solver, with the size of the body. Bonds at the border of this region
+ * rotate by about this component, divided by the size. most: the largest component [m]. */
 static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
-/* Returns the factor [1] by which a displacement increment is multiplied when its product with the stiffness is
- * computed from a difference of forces. With this factor, strains of bonds are at most DIFFERENCE_STRAIN and their
- * rotations about DIFFERENCE_TURN. q: solver; most: largest component of the increment [m]. */
+/* Returns the factor [1] by which the displacement `increment` of q is multiplied when its product with the stiffness
+ * is computed from a difference of forces. With this factor, strains of bonds are at most DIFFERENCE_STRAIN and their
+ * rotations about DIFFERENCE_TURN. most: largest component of the increment [m]. */
 static real difference_step(const struct newton_solver *q, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
@@ -389,7 +389,7 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
     return sum[1];
 }
 
-/* Corrects the work of the loads and the lost energy of q after a step from one equilibrium to the next. The work was
+/* Corrects in q the work of the loads and the lost energy after a step from one equilibrium to the next. The work was
  * summed over straight lines: over the first correction of the displacements with linearly growing loads, over later
  * corrections with full loads. In fact the displacements follow a curve c s + d s^2 while the fraction s of the growth
  * of the loads increases from 0 to 1. Over this curve no energy is lost, and the work is more/6 larger than the mean of

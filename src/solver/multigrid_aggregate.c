@@ -41,9 +41,9 @@ static float *strengths_make(const struct multigrid_level *l)
     return strength;
 }
 
-/* Makes a new aggregate of node i and those of its strongly connected neighbours that belong to no aggregate. An
- * aggregate is a set of nodes that form one node of the coarser level. strength: strengths of the matrix entries, 0 for
- * weak connections. */
+/* Makes a new aggregate of node i of level l and those of its strongly connected neighbours that belong to no
+ * aggregate. An aggregate is a set of nodes that form one node of the coarser level. strength: strengths of the matrix
+ * entries, 0 for weak connections. */
 static void aggregate_found(struct multigrid_level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
@@ -52,8 +52,9 @@ static void aggregate_found(struct multigrid_level *l, const float *strength, in
         if (strength[q] > 0 && l->aggregate[l->column[q]] < 0) l->aggregate[l->column[q]] = name;
 }
 
-/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate, a set of nodes
- * that form one node of the coarser level. strength: strengths of the matrix entries, 0 for weak connections. */
+/* Returns true if node i of level l has strongly connected neighbours and none of them belongs to an aggregate, a set
+ * of nodes that form one node of the coarser level. strength: strengths of the matrix entries, 0 for weak
+ * connections. */
 static bool neighbours_free(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     bool any = false;
@@ -65,9 +66,9 @@ static bool neighbours_free(const struct multigrid_level *l, const float *streng
     return any;
 }
 
-/* Returns the number of the aggregate whose nodes have the largest sum of connection strengths with node i; -1 if no
- * aggregate is connected with it. An aggregate is a set of nodes that form one node of the coarser level. strength:
- * strengths of the matrix entries, 0 for weak connections. */
+/* Returns the number of the aggregate whose nodes have the largest sum of connection strengths with node i of level l;
+ * -1 if no aggregate is connected with it. An aggregate is a set of nodes that form one node of the coarser level.
+ * strength: strengths of the matrix entries, 0 for weak connections. */
 static int32_t aggregate_nearest(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };

@@ -105,9 +105,9 @@ static ALWAYS_INLINE void row_residual(const struct multigrid_level *l, int64_t 
     for (int a = 0; a < w; a++) l->t[i * w + a] = sum[a];
 }
 
-/* Computes row i of a relaxation step: d = keep d + step D^-1 (b - K x), y = x + d, with the diagonal blocks D of the
- * matrix K. zero: true if x and d are 0; w: components per node; single: true for the finest level, whose matrix is in
- * single precision. w and single must be compile-time constants. */
+/* Computes row i (one node of level l) of a relaxation step: d = keep d + step D^-1 (b - K x), y = x + d, with the
+ * diagonal blocks D of the matrix K. zero: true if x and d are 0; w: components per node; single: true for the finest
+ * level, whose matrix is in single precision. w and single must be compile-time constants. */
 static ALWAYS_INLINE void row_relax(const struct multigrid_level *l, int64_t i, real keep, real step, bool zero,
                                     const int w, const bool single)
 {

@@ -49,7 +49,7 @@ static int compare_columns(const void *a, const void *b)
 }
 
 /* Finds the columns of row i of the product of two sparse matrices a and b, given by their patterns: row k of a has the
- * columns a_column[a_first[k]] to a_column[a_first[k + 1] - 1], likewise b with b_first, b_column. where: table of the
+ * columns a_column[a_first[k]] to a_column[a_first[k + 1] - 1], likewise for b (b_first, b_column). where: table of the
  * calling thread, with entry i for a column that has been found; list: receives the columns in ascending order, NULL:
  * they are only counted. Returns the number of columns. */
 static int64_t product_row(const int64_t *a_first, const int32_t *a_column, const int64_t *b_first,
@@ -69,7 +69,7 @@ static int64_t product_row(const int64_t *a_first, const int32_t *a_column, cons
 }
 
 /* Computes *out, the pattern of the product of two sparse matrices a (n rows) and b, given by their patterns: row k of
- * a has the columns a_column[a_first[k]] to a_column[a_first[k + 1] - 1], likewise b with b_first, b_column. The
+ * a has the columns a_column[a_first[k]] to a_column[a_first[k + 1] - 1], likewise for b (b_first, b_column). The
  * columns of a row are ascending. Allocates the arrays of *out. t: a table for each thread, with one entry for each
  * column of b. */
 static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first, const int32_t *a_column,
@@ -184,8 +184,8 @@ static void slab_product(const struct product *p)
         SLABS(6, 6);
 }
 
-/* Returns the largest number of blocks in SLAB consecutive rows of the product A P of matrix and prolongation. As many
- * blocks must fit into the memory for these rows. */
+/* Returns the largest number of blocks in SLAB consecutive rows of the product A P of matrix and prolongation of p. As
+ * many blocks must fit into the memory for these rows. */
 static int64_t slab_largest(const struct product *p)
 {
     int64_t most = 0;

@@ -15,9 +15,9 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
     list[k] = value, ++*n;
 }
 
-/* Stores in list[], ascending, the numbers of the aggregates to which node i and its neighbours belong. An aggregate is
- * a set of nodes that form one node of the coarser level. Returns the number of entries, 0 if node i has no stiffness.
- * list must have room for the node and its neighbours. */
+/* Stores in list[], ascending, the numbers of the aggregates to which node i of level l and its neighbours belong. An
+ * aggregate is a set of nodes that form one node of the coarser level. Returns the number of entries, 0 if node i has
+ * no stiffness. list must have room for the node and its neighbours. */
 static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *list)
 {
     int n = 0;
@@ -48,9 +48,10 @@ static void down_pattern(struct multigrid_level *l)
 
 enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
-/* Computes force[k][w][m]: the product of row i of the matrix with the rigid motions of the aggregate name[k], for k <
- * n. An aggregate is a set of nodes that form one node of the coarser level; its m rigid motions are columns of the
- * prolongation before smoothing. w, m: components per node of this and of the coarser level, compile-time constants. */
+/* Computes force[k][w][m]: the product of row i of the matrix of level l with the rigid motions of the aggregate
+ * name[k], for k < n. An aggregate is a set of nodes that form one node of the coarser level; its m rigid motions are
+ * columns of the prolongation before smoothing. w, m: components per node of this and of the coarser level,
+ * compile-time constants. */
 static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i, const int32_t *name, int n,
                                       real *force, const int w, const int m)
 {

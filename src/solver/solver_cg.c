@@ -13,7 +13,7 @@
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a support or a plane of symmetry constrains component d of particle i of s. */
+/* Returns true if a support or a plane of symmetry constrains component d of particle i (s->held). */
 static bool is_constrained(const struct static_solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
 /* Adds to sum[0] the sum of weight d . K d over the free components of the particles first .. end - 1, with the search
@@ -62,9 +62,9 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* Computes the residual b - K u of `body` from the displacements u of s, with the applied forces b, and stores it in
- * p->f [N]. Unlike the residual that the iteration updates it contains no accumulated round-off. Stores the norm of the
- * reactions on constrained components, then sets these components to 0. */
+/* Computes the residual b - K u of `body` from the displacements u = s->u, with the applied forces b, and stores it in
+ * p->f [N]. Unlike the residual that the iteration updates it contains no accumulated round-off. Stores in s the norm
+ * of the reactions on constrained components, then sets these components to 0. */
 static void true_residual(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -128,8 +128,8 @@ static real solver_cg_advance(struct static_solver *s, real alpha)
     return sum[1];
 }
 
-/* Sets the positions of the particles of `body` to x = X + u, with the reference positions X and the displacements u of
- * s, and computes the bond forces there. Energies and stresses of state-based models follow from these forces. */
+/* Sets the positions of the particles of `body` to x = X + u, with the reference positions X and the displacements u =
+ * s->u, and computes the bond forces there. Energies and stresses of state-based models follow from these forces. */
 static void solver_cg_displace(const struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -138,7 +138,7 @@ static void solver_cg_displace(const struct static_solver *s, const struct stati
     static_body_compute_bond_forces(body);
 }
 
-/* Computes the residual of `body` from the displacements of s, and sets *done to true if it is at most body->tolerance,
+/* Computes the residual of `body` from the displacements in s, and sets *done to true if it is at most body->tolerance,
  * else to false. Restarts the iteration if, by round-off, the residual exceeds twice by_recurrence, the value that the
  * iteration itself has updated [N]. step: number of the iteration. Returns FAILED, with a message, after STALLS_MOST
  * restarts without progress. */

@@ -95,10 +95,9 @@ static void make_weights(struct static_solver *s, const struct static_body *body
     }
 }
 
-/* Returns the number of steps of relaxation in which the supports of `body` are moved to their final positions, given
- * by s; 0 if none moves. The number is the length of the body in spacings plus 1: in a step, motion spreads through the
- * body by one spacing at most, so that supports that move faster would strain the bonds next to them more than the
- * body. */
+/* Returns the number of steps of relaxation in which supports are moved to their final positions; 0 if none of those of
+ * s moves. The number is the length of `body` in spacings plus 1: in a step, motion spreads through the body by one
+ * spacing at most, so that supports that move faster would strain the bonds next to them more than the body. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_component(&s->driven, s->dim, s->n);
@@ -128,7 +127,7 @@ static void make_noise(struct static_solver *s, const struct particles *p)
     s->noise = 10 * sqrt(sum);
 }
 
-/* Returns true if a support or a plane of symmetry in l constrains component d of any particle. */
+/* Returns true if a support or a plane of symmetry of l constrains component d of any particle. */
 static bool component_constrained(const struct loads *l, int d)
 {
     for (int b = 0; b < l->n; b++) {

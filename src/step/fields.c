@@ -172,9 +172,9 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
     return share;
 }
 
-/* Returns for the points `shown`, which represent coarse cells of scene s in frames, the ratio of stress to strength
- * [1], according to the strength surface of the material; 1 on the surface. The array has shown->n values; the caller
- * frees it with memory_free. */
+/* Returns for the points `shown`, which represent coarse cells in frames, the ratio of stress to strength [1],
+ * according to the strength surface of the material (of scene s); 1 on the surface. The array has shown->n values; the
+ * caller frees it with memory_free. */
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);

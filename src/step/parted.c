@@ -28,14 +28,14 @@ const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape)
     return NULL;
 }
 
-/* Returns true if particle i of p is a point on the grid of the current frame and its material, of scene s, yields. */
+/* Returns true if point i is on the grid of the current frame and its material (of scene s) yields. */
 static bool flows_on_grid(const struct particles *p, const struct scene *s, int64_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED) && material_yields(&s->material[p->material[i]]);
 }
 
-/* Lists in *pairs the pairs of neighbouring material points of one body that are on the grid and of materials of scene
- * s that yield. cells: search cells of all particles. */
+/* Lists in *pairs the pairs of neighbouring material points of one body that are on the grid and of materials that
+ * yield. s: materials and spacing; cells: search cells of all particles. */
 static void pairs_make(struct point_pairs *pairs, const struct cells *cells, const struct particles *p,
                        const struct scene *s)
 {

@@ -101,8 +101,8 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
     return s;
 }
 
-/* Returns true if frame number `frames` (from 0) of the whole body is due in scene s after `step` steps. clock: number
- * and length of steps. */
+/* Returns true if frame number `frames` (from 0) of the whole body is due after `step` steps. s: times of frames;
+ * clock: number and length of steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
     return frames <= report_frame_count_of_run(s, clock) && step >= report_step_number_of_frame(s, clock, frames);
@@ -193,7 +193,8 @@ static status write_checkpoint(struct run *e)
 
 /* Returns true if a checkpoint is due after a time step or load step. If the scene gives an interval, the checkpoint is
  * due after this time, and after every load step. Otherwise it is due after CHECKPOINT_SECONDS, or after a load step,
- * but only if checkpoints so far took less than the share CHECKPOINT_SHARE of the run time. */
+ * but only if checkpoints so far took less than the share CHECKPOINT_SHARE of the run time. r: times of earlier
+ * checkpoints; s: scene. */
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
     const bool in_steps = scene_has_load_steps(s);
@@ -203,7 +204,7 @@ static bool checkpoint_due(const struct run_report *r, const struct scene *s)
     return cheap && (in_steps || since > CHECKPOINT_SECONDS);
 }
 
-/* Returns true if the run with the report `report` has to stop because of the wall-clock time that the scene allows:
+/* Returns true if the run with the report `report` has to stop because of the wall-clock time that the scene s allows:
  * the time that remains is less than twice the duration of the longest checkpoint so far, which must still be
  * written. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
@@ -212,7 +213,8 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
 }
 
 /* Adds warnings to `to` and prints them, for frames and profiles that a resumed run should have, but whose files are
- * missing. probes: probes with profiles. Returns FAILED, with a message, if the list of frames cannot be read. */
+ * missing. out: output of the run; probes: probes with profiles. Returns FAILED, with a message, if the list of frames
+ * cannot be read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[2 * PATH_NAME_ROOM + 300];

@@ -46,7 +46,7 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           {"inactive_share", ""}};
 
 /* Returns the mean fraction of the bodies that was at rest in the steps since the previous call [1]; 0 if there was no
- * step. The next call begins a new mean. clock: number of steps; report: the sum so far. */
+ * step. clock: step counter; report: sums over the steps. The next call begins a new mean. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
 {
     const int64_t steps = clock->step - report->sampled.step;
@@ -55,8 +55,8 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
     return share;
 }
 
-/* Returns true if angular momentum must be conserved: no boundary, rigid body or damping acts on the bodies of scene s.
- * Returns false also with coarse cells in `frame`, whose nodes diagnostics_update_angular_momentum does not read. */
+/* Returns true if angular momentum must be conserved: no boundary, rigid body or damping of scene s acts on the bodies.
+ * Returns false also with coarse cells in `frame`, which diagnostics_update_angular_momentum does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
     return s->dim > 1 && scene_is_dynamic(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
@@ -405,15 +405,15 @@ static real power_of_walls(const struct reference_frame *reference)
     return power;
 }
 
-/* Subtracts the forces on nodes of the grid g with prescribed motion (walls) from the reactions of their loads [N]. */
+/* Subtracts the forces on nodes of the grid g with prescribed motion from the reactions of the loads l [N]. */
 static void reactions_add(struct loads *l, const struct grid *g)
 {
     for (int64_t k = 0; k < g->walls; k++)
         l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
 }
 
-/* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads [N], after
- * those on particles. grid: grids of the current frame; NULL: none; frame: its mesh; clock: time step. */
+/* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads in l [N], after
+ * those on particles. grid: grids of the current frame; NULL: no particle is on them. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -483,8 +483,8 @@ void sample_update_probes_of_every_step(struct run *e)
     probes_update_every_step(&e->probing->probes, &o);
 }
 
-/* Adds the warning to `to` that the first bonds of particles with prescribed motion break, with the first boundary
- * condition that drives such particles, and prints it. when: the time, as "at 1 s" or "in load step 1". */
+/* Adds the warning to `to` that the first bonds of particles with prescribed motion break, with the first of `loads`
+ * that drives such particles, and prints it. when: the time, as "at 1 s" or "in load step 1". */
 static void say_torn(struct warnings *to, const struct loads *loads, const struct particles *p, const char *when)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;

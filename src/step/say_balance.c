@@ -25,7 +25,7 @@
 #define DAMPED_DOUBTFUL 0.1
 
 /* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
- * largest energy. s: scene; w: energies of the run; to: list of warnings. */
+ * largest energy. s: scene, for the advice; w: energies of the run; to: list of warnings. */
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];

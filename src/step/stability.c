@@ -154,8 +154,8 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
 
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the advice to choose a smaller time step for scene s to text[capacity]. Returns the length of this text.
- * clock: present time step and critical one. */
+/* Writes the advice to choose a smaller time step to text[capacity]. Returns the length of this text. s: scene, for the
+ * key to change; clock: present time step and critical one. */
 static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t capacity)
 {
     return snprintf(text, capacity, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
@@ -288,9 +288,9 @@ status divergence_check_particles(const struct run *e, bool check_peridynamic, b
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
-/* Returns FAILED, with a message, if a cell of the mesh of `reference` is inverted. p: particles. Tests only every
- * INVERSION_STEPS steps of `clock` and at the end. An inverted cell resists deformation like an intact one, so that
- * neither energy nor speed reveals it. */
+/* Returns FAILED, with a message, if a cell of the mesh of `reference` is inverted. Tests only every INVERSION_STEPS
+ * steps (of `clock`) and at the end. An inverted cell resists deformation like an intact one, so that neither energy
+ * nor speed reveals it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
@@ -309,9 +309,9 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
-/* Returns FAILED, with a message, if the formula of a load in l has a value that is not finite at a particle of p. Such
- * a value makes the impulse of the loads infinite or NaN; only then the formulas are evaluated, at the times of the
- * last steps of `clock`. At the end of the run they are always evaluated once. */
+/* Returns FAILED, with a message, if the formula of a load of l has a value that is not finite. Such a value makes the
+ * impulse of the loads infinite or NaN; only then the formulas are evaluated, at the times of the last steps of
+ * `clock`. At the end of the run they are always evaluated once. */
 static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
     const real *impulse = l->impulse;

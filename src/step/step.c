@@ -27,9 +27,9 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
-/* Returns the quantities that all phases of the next step of `clock` use: the time in its middle, the factors of bulk
- * damping and the duration of the velocity update. The latter is half as long in the first step and is also stored in
- * *transfer. damping: rate c of bulk damping [1/s]. */
+/* Returns the quantities that all phases of the next step use: the time in its middle, the factors of bulk damping and
+ * the duration of the velocity update. The latter is half as long in the first step and is also stored in *transfer.
+ * clock: step number and time step; damping: rate c of bulk damping [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
     const real dt = clock->dt, decay = damping * dt, share = damping_velocity_increment_factor(decay);
@@ -97,10 +97,10 @@ static void damping_begin(struct run *e, const struct step *now)
     damping_store_velocities(e->damping, &e->part, &e->frame->mesh);
 }
 
-/* Returns true if the loop over bonds may also move the particles of a run of scene s, because nothing reads positions
- * between forces and motion, as samples (of `report`), growing cracks and viscosity would. The loop moves each particle
- * when it no longer reads its position (kernels/pd/sweep.h), with bit-identical results. This saves 38 % of a step with
- * 1.7 million particles, which exceed the cache. */
+/* Returns true if the loop over bonds may also move the particles, because nothing reads positions between forces and
+ * motion, as samples (report), growing cracks and viscosity (scene s) would. The loop moves each particle when it no
+ * longer reads its position (kernels/pd/sweep.h), with bit-identical results. This saves 38 % of a step with 1.7
+ * million particles, which exceed the cache. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
 {
     return !report->sampling.due && s->growths == 0 && !scene_has_viscosity(s);
@@ -127,7 +127,7 @@ static void push_bonds(struct run *e, struct step *now)
 }
 
 /* Computes the contact forces of c on particles. Records these forces for output, too, if a frame (a file with the
- * fields of all particles) is due at the end of this step. s, report, clock: for this decision. */
+ * fields of all particles) is due at the end of this step. report, s, clock: determine whether a frame is due. */
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {

@@ -65,7 +65,7 @@ static void put_probes(struct json *j, const struct probes *s, const struct obse
 }
 
 /* Writes the JSON object `uncertainty` with the half-widths of the error bars of figures (scalar results) to j, if a
- * study of this scene has found them. */
+ * study of this scene has stored them in r. */
 static void put_error_bars(struct json *j, const struct run_report *r)
 {
     if (r->bars == 0) return;

@@ -84,9 +84,9 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
-/* Returns the factor on the critical time step of the bonds of scene s for a coupling method [1]. It differs from 1 if
- * the grid moves peridynamic particles: it is larger where the grid does not resolve the shortest waves of the bonds,
- * and smaller where FLIP retains motion that the grid does not resolve. */
+/* Returns the factor on the critical time step of bonds for a coupling method [1]. It differs from 1 if the grid moves
+ * peridynamic particles: it is larger where the grid does not resolve the shortest waves of the bonds, and smaller
+ * where FLIP retains motion that the grid does not resolve. s: scene, with cell size and dimension. */
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
@@ -94,8 +94,9 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
-/* Returns the force function of elastic bonds in `kernels`, with which the critical time step of the bonds of the scene
- * s is computed. It serves yielding bonds, too, which are not stiffer than elastic ones. */
+/* Returns the force function of elastic bonds, with which the critical time step of the bonds of the scene s is
+ * computed. It serves yielding bonds, too, which are not stiffer than elastic ones. kernels: function of the scene's
+ * model, used for state-based ones. */
 static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
@@ -177,7 +178,7 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
  * or ends within a step changes the energy by up to k u^2/2, with the contact stiffness k and the displacement u in the
  * step. The values keep this change to about 0.1 % per collision: bars in 2D changed by 0.3 % at 0.8 and 0.1 % at 0.5;
  * bars in 1D, whose faces meet in a single step, by 1 % at 0.8 and 0.1 % at 0.35. Faces of a crack approach slowly, so
- * their value is 0.7, or INFINITY (no limit) if the safety factor of the scene is above 1. */
+ * their value is 0.7, or INFINITY (no limit) if the safety factor of the scene s is above 1. */
 static real contact_safety(const struct scene *s)
 {
     if (!scene_bodies_can_meet(s)) return s->safety > 1 ? INFINITY : 0.7;
@@ -188,9 +189,9 @@ static real contact_safety(const struct scene *s)
  * (damping.c): c dt <= 0.5. Returns INFINITY without damping. It is a limit of accuracy, not of stability. */
 static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
-/* Returns the stiffness of the repulsive cores of bonds that the time step of `scene` allows, (dt_critical/dt)^2 - 1,
- * from 0 to CORE_STIFFNESS [1]. A core resists strong compression of a bond (kernels/pd/bond_core.h). clock: time step
- * and critical time step. */
+/* Returns the stiffness of the repulsive cores of bonds that the time step allows, (dt_critical/dt)^2 - 1, from 0 to
+ * CORE_STIFFNESS [1]. A core resists strong compression of a bond (kernels/pd/bond_core.h). scene: static ones get
+ * CORE_STIFFNESS; clock: time step and critical time step. */
 static real core_stiffness(const struct scene *scene, const struct run_clock *clock)
 {
     if (!scene_is_dynamic(scene)) return CORE_STIFFNESS;
