@@ -3,7 +3,8 @@
 
 #include "base/busy.h"
 
-/* Returns true if something is said about a load, and checks that it contains the words `words`. */
+/* Returns true if machine_describe_overload_if_any writes a warning about a machine with the load `load` of other
+ * programs, `cores` cores and `threads` threads, and checks that this warning contains the text `words`. */
 static bool said(double load, int cores, int threads, const char *words)
 {
     char text[256] = "";
@@ -13,8 +14,8 @@ static bool said(double load, int cores, int threads, const char *words)
     return busy;
 }
 
-/* Idle machines, and those with a core for every thread, are not spoken of; 3 programs and 2 threads on 2 cores
- * take 2.5 times as long. */
+/* Checks that no warning is written about idle machines and machines with a core for every process and thread, and that
+ * the warning about 3 other programs and 2 threads on 2 cores names the factor 2.5. */
 static void load_is_described(void **state)
 {
     (void)state;

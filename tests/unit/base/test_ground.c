@@ -36,7 +36,8 @@ static void status_keeps_its_message(void **state)
 
 static int ascending_ints(const void *a, const void *b) { return *(const int *)a - *(const int *)b; }
 
-/* Arrays without elements have no memory; copies may overlap. */
+/* Checks that arrays without elements and storage can be copied, filled, compared and sorted, and that source and
+ * target of a copy may overlap. */
 static void arrays_may_be_empty_or_overlap(void **state)
 {
     (void)state;
@@ -67,8 +68,8 @@ static void refusals_have_one_place(void **state)
     assert_string_equal(status_message(), "no particle");
 }
 
-/* Runs `deed` in a child process. Returns its exit status; line: receives what it prints on standard error, truncated
- * to 511 bytes. */
+/* Runs deed(context) in a child process. Returns the exit status of the process; line[512]: receives the first line
+ * that it prints on standard error, truncated to 511 bytes. */
 static int exit_of(void (*deed)(void *), void *context, char line[512])
 {
     int channel[2], result;
@@ -115,7 +116,8 @@ static void out_of_memory_says_so(void **state)
     assert_true(memory_peak_resident_size() > 1000000); /* a process with its libraries is larger than 1 MB */
 }
 
-/* Breaks the same invariant in every thread of a team; returns the number of its line. */
+/* Evaluates one invariant in each of four threads; it is violated in all of them if `broken` is true. Returns the line
+ * number of the invariant in this file. */
 static int break_invariant(bool broken)
 {
 #pragma omp parallel num_threads(4)
@@ -125,7 +127,8 @@ static int break_invariant(bool broken)
 
 static void break_here(void *unused) { (void)unused, break_invariant(true); }
 
-/* Must run before any thread team of this process, which a child would lack. */
+/* Checks that a violated invariant ends the process with exit status 1 and one line, whichever of several threads find
+ * it. Must run before any thread team of this process exists, since a child process would lack the team. */
 static void broken_invariants_leave_one_line(void **state)
 {
     (void)state;
@@ -350,8 +353,8 @@ static void cracks_cut_in_three_dimensions(void **state)
     check_cut(&(struct crack){.n = 2, .corner = corner}, POINT(1, 0, 0), POINT(1, 0, 2), 3, false);
 }
 
-/* A bond and its reverse give the same answer where round-off decides: bonds through the very end of the crack, which
- * has a tolerance of 1e-9 lengths. */
+/* Checks that crack_cuts_bond gives the same answer for a bond and the bond in reverse where round-off decides: for
+ * bonds through the very end of the crack, which has a tolerance of 1e-9 crack lengths. */
 static void cracks_are_symmetric_at_their_tips(void **state)
 {
     (void)state;

@@ -17,7 +17,7 @@ static void check_zero(void)
     memory_free(NULL);
 }
 
-/* Arrays are aligned and zero, also when they reuse a larger block that was freed. */
+/* Checks that new arrays are aligned to a cache line and zero, also when they reuse a larger block that was freed. */
 static void memory_is_aligned_and_zero(void **state)
 {
     (void)state;
@@ -40,7 +40,7 @@ static void memory_resize_keeps_what_fits(void **state)
     memory_free(array);
 }
 
-/* New elements are zero, too, where an array grows within a block that another one has written. */
+/* Checks that the new elements are zero when an array grows within a block that another array has written before. */
 static void memory_resize_clears_reused_blocks(void **state)
 {
     (void)state;

@@ -14,7 +14,8 @@
 #include "scene/fill.h"
 #include "scene/scene_read.h"
 
-/* A staircase with points above it, two equal points, an unstable one and one without a time. */
+/* Points (time, error) for the test of the Pareto front: a staircase with points above it, two equal points, one of an
+ * unstable run (error NAN) and one without a time. */
 static const struct accuracy_dot cloud[] = {{4, 0.001}, {1, 0.1},   {2, 0.02},        {2, 0.03},   {3, 0.02},
                                             {1, 0.1},   {0.5, NAN}, {INFINITY, 1e-5}, {8, 0.0015}, {0.7, 0.3}};
 enum { DOTS = COUNT_OF(cloud) };
@@ -30,8 +31,8 @@ static void front_has_what_nothing_beats(void **state)
     assert_int_equal(accuracy_find_pareto_front(&cloud[6], 2, front), 0);
 }
 
-/* The front of random sets of points agrees with its definition: a point is on the front exactly if no other point is
- * at least as good in both values and better in one. */
+/* Checks accuracy_find_pareto_front for random sets of points by the definition: along the front the time grows and the
+ * error falls, and for every point of the set a point of the front is at least as good in both values. */
 static void front_of_random_clouds(void **state)
 {
     (void)state;
@@ -97,8 +98,8 @@ static real acceleration(const struct motion *m, const real *X, real t, int comp
     return (before[component] - 2 * now[component] + after[component]) / (h * h);
 }
 
-/* Asserts that the residual of the equation of motion with body force f is at most 1e-5 of its largest term, the error
- * of the finite differences. */
+/* Asserts that the residual of the equation of motion of m with the body force f[dim] at the position X and time t is
+ * at most 1e-5 of its largest term, which is the error of the finite differences used. */
 static void assert_moves(const struct motion *m, const real *X, real t, const real *f)
 {
     for (int a = 0; a < m->dim; a++) {
@@ -119,7 +120,8 @@ static void manufactured_motion(const void *context, const real *X, real t, real
     for (int d = 0; d < ((const struct manufactured *)context)->dim; d++) u[d] = v.displacement[d];
 }
 
-/* Computes the sum of the body forces of a scene at X and t, parsed from its text. */
+/* Computes f, the sum of the body forces of the scene text of m at the position X [m] and the time t [s], by reading
+ * the text as a scene. */
 static void force_of_scene(const struct manufactured *m, const real *X, real t, real *f)
 {
     char text[4096];
@@ -192,7 +194,8 @@ static void wave_motion(const void *context, const real *X, real t, real *u)
     for (int d = 0; d < w->dim; d++) u[d] = s.displacement * moved.polarisation[d];
 }
 
-/* Pulses as scenes define them, along and across their direction, solve the equation of motion without body force. */
+/* Checks by finite differences that wave pulses as scenes define them, along and across their direction, solve the
+ * equation of motion without body force. */
 static void pulses_are_solutions(void **state)
 {
     (void)state;
@@ -218,7 +221,8 @@ static void pulses_are_solutions(void **state)
     }
 }
 
-/* Initial stress and velocity of particles agree with the wave: rho c v equals the traction on its plane. */
+/* Checks that initial stress and velocity of particles in a transverse wave pulse agree: rho c v equals the traction on
+ * the plane of the wave. */
 static void particles_start_in_a_transverse_wave(void **state)
 {
     (void)state;
@@ -273,7 +277,7 @@ static const struct accuracy_method *method_named(const char *name)
 enum { COLUMNS = 11, LINE_ROOM = 512 };
 enum { PROBLEM, CASE, METHOD, RESOLUTION, HORIZON, STEP, KEYS = COLUMNS - 1 };
 
-/* Returns true if `keys`, as key=value;key=value, contains this key with this value. */
+/* Returns true if `keys`, a text of the form key=value;key=value, contains the key `key` with the value `value`. */
 static bool keys_have(const char *keys, const char *key, const char *value)
 {
     char pair[LINE_ROOM];
@@ -284,7 +288,8 @@ static bool keys_have(const char *keys, const char *key, const char *value)
     return has;
 }
 
-/* Checks that a line of the table is a run of the plan, with the scene keys of its method. */
+/* Checks that a line of the table, given by the texts of its columns, is a run of the plan of the bench, with the scene
+ * keys of its method. */
 static void line_is_of_the_plan(char *const *column)
 {
     const struct accuracy_problem *q = problem_named(column[PROBLEM]);
@@ -312,8 +317,8 @@ static void line_is_of_the_plan(char *const *column)
     }
 }
 
-/* Every line of bench/accuracy/cost_accuracy.csv is a run of the bench, with the current scene keys of its method;
- * other lines could not be reproduced. */
+/* Checks that every line of bench/accuracy/cost_accuracy.csv is a run of the bench, with the present scene keys of its
+ * method; other lines could not be reproduced. */
 static void the_chart_is_of_these_methods(void **state)
 {
     (void)state;

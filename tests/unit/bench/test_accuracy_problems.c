@@ -11,7 +11,7 @@
 #include "bench/accuracy/accuracy.h"
 #include "bench/accuracy/accuracy_reference.h"
 
-/* All scenes are valid: creating the plan reads them. */
+/* Checks that all scenes of the bench are valid: creating the plan reads each of them. */
 static void scenes_are_sound(void **state)
 {
     (void)state;
@@ -50,8 +50,8 @@ static void hole_is_free_and_edges_are_pulled(void **state)
     assert_true(fabs(s[1] - 3.3601e4) <= 1);
 }
 
-/* The exact field satisfies Hooke's law and equilibrium: stresses follow from the displacement gradient and are free of
- * divergence. */
+/* Checks by finite differences that the exact field around a hole satisfies Hooke's law and equilibrium: the stresses
+ * follow from the displacement gradient and have no divergence. */
 static void hole_is_elastic_and_in_balance(void **state)
 {
     (void)state;
@@ -134,7 +134,8 @@ static void points_are_as_far_off_as_measured(void **state)
     }
 }
 
-/* Finer references are closer to the finest one, as stated in the header. */
+/* Checks that the reference solutions that the bench uses deviate from the finest ones by no more than the header of
+ * the bench states: angles by 0.043 rms, lengths by 2.2 %, start times by 0.9 %, speeds by 1.4 %. */
 static void references_converge(void **state)
 {
     (void)state;

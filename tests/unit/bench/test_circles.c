@@ -12,14 +12,16 @@
 
 #include "bench/circles/circles.h"
 
-/* Returns the verdict on a found value of a case at a spacing [mm]. */
+/* Returns the verdict (a static text) of circle_verdict on the value `found` of the case c at the spacing `spacing`
+ * [mm]. */
 static const char *verdict_on(const struct circle_case *c, double spacing, double found)
 {
     return circle_verdict(&(struct circle_run){.of = c, .spacing = spacing, .found = found});
 }
 
-/* A value on the edge of the tolerance holds, one beyond it and none at all are missed. A notch of 0.5 mm has three
- * horizons up to a spacing of 0.0553 mm; a case with a limit of its own has that one alone: 0.345 l is 0.0501 mm. */
+/* Checks circle_verdict: a value on the edge of the tolerance holds; one beyond it, and none at all, are missed. A
+ * notch of 0.5 mm is three horizons long up to a spacing of 0.0553 mm. A case with a limit of its own has that one
+ * alone: 0.345 l is 0.0501 mm. */
 static void verdicts_follow_the_tolerance(void **state)
 {
     (void)state;
@@ -39,7 +41,7 @@ static void verdicts_follow_the_tolerance(void **state)
     assert_string_equal(verdict_on(&limited, 0.05, 30), "holds");
 }
 
-/* Each of the nine circles has a case, and each case has runs from coarse to fine or a reason for none. */
+/* Checks that each of the nine circles has a case, and each case has runs from coarse to fine or a reason for none. */
 static void each_circle_has_runs_or_a_reason(void **state)
 {
     (void)state;
@@ -61,7 +63,7 @@ static void each_circle_has_runs_or_a_reason(void **state)
 
 /* Writes a specimen as a list of particles on a lattice of the spacing [m] that is turned by `degrees` about `middle`
  * [m], checks that the particles lie on the lattice and that none is on y = 0, and returns the sum of their volumes
- * [m^3]. Stores the sizes of the body in *list. */
+ * [m^3]. Stores the sizes of the body in *list. specimen: the body. */
 static double volume_of_list(const struct circle_specimen *specimen, double spacing, int degrees, double middle,
                              struct circle_list *list)
 {
@@ -85,7 +87,8 @@ static double volume_of_list(const struct circle_specimen *specimen, double spac
     return sum;
 }
 
-/* A turned body has the volume of the body within a spacing round its edge. */
+/* Checks that a body on a turned lattice has the volume of the specimen, within the volume of a layer of one spacing
+ * around its edge. */
 static void turned_bodies_have_their_volume(void **state)
 {
     (void)state;
@@ -102,9 +105,9 @@ static void turned_bodies_have_their_volume(void **state)
         }
 }
 
-/* On a lattice turned by 45 degrees rows are spacing/sqrt(2) apart. Of spacing 0.1 mm, with a gap in the middle, a
- * strip 5 mm wide has 70 of them, 0.99 of its section, and one that is notched by 1 mm has 14 in the notch, 57 before
- * it, and 7 in the loaded layer of 0.5 mm. */
+/* Checks the number of rows in the sections of a body on a lattice turned by 45 degrees, whose rows are spacing/sqrt(2)
+ * apart. For spacing 0.1 mm, with a gap in the middle, a strip 5 mm wide has 70 rows, 0.99 of its section; a strip that
+ * is notched by 1 mm has 14 in the notch, 57 before it, and 7 in the loaded layer of 0.5 mm. */
 static void turned_bodies_tell_their_section(void **state)
 {
     (void)state;

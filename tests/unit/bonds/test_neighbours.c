@@ -146,7 +146,7 @@ static bool case_cut(const struct particle_cloud *c, int64_t i, int64_t j)
     return c->source.cracks > 0 && reference_cut(c->source.crack, a, b, c->p.dim);
 }
 
-/* Returns true if the family of i contains a peridynamic particle. */
+/* Returns true if the family of particle i of c (particles within the cutoff) contains a peridynamic particle. */
 static bool touches_pd(const struct particle_cloud *c, int64_t i)
 {
     for (int64_t j = 0; j < c->p.n; j++)
@@ -172,8 +172,8 @@ static void check_bond(const struct particle_cloud *c, const real *w, const real
     if (c->bonds.row_of[j] >= 0) assert_memory_equal(&w[i * p->n + j], &w[j * p->n + i], sizeof(real));
 }
 
-/* Compares the sums of the row of particle i with sums over all pairs. Tolerance 1e-6: volumes are in single precision,
- * sums have up to 100 terms. */
+/* Compares sums over the row of particle i (its bonds) of c with sums over all pairs of particles. Tolerance 1e-6:
+ * volumes are in single precision, and sums have up to 100 terms. */
 static void check_row(const struct particle_cloud *c, int64_t i)
 {
     const struct particles *p = &c->p;
@@ -192,8 +192,8 @@ static void check_row(const struct particle_cloud *c, int64_t i)
     assert_true(c->bonds.trigger[row] > 0.999 * smallest || c->bonds.trigger[row] == smallest); /* INFINITY: no bonds */
 }
 
-/* Checks that the flags of columns agree with their lanes, that no bond occurs twice in a row, and that padding
- * contributes nothing. */
+/* Checks for all columns of the bonds of c (one bond of each of eight particles) that the flags of a column agree with
+ * its eight lanes, that no bond occurs twice in a row, and that padding contributes nothing. */
 static void check_columns(const struct particle_cloud *c)
 {
     const struct bonds *b = &c->bonds;
@@ -266,7 +266,8 @@ static void test_rows(void **state)
     }
 }
 
-/* Compares the columns of a row block with those of another storage, wherever each stores them. */
+/* Compares `columns` columns of a row block (bonds of eight particles) of b, from column number `column` on, with those
+ * of the bonds `new`, from column number `of` on. */
 static void check_row_block_like_new(const struct bonds *b, int64_t column, const struct bonds *new, int64_t of,
                                      int64_t columns)
 {
@@ -279,8 +280,8 @@ static void check_row_block_like_new(const struct bonds *b, int64_t column, cons
     }
 }
 
-/* Checks that rows agree, except for bonds broken by load, with rows created from scratch. Returns the number of row
- * blocks with as many bonds as before. */
+/* Checks that the rows of c, rebuilt from the bonds `old`, agree with rows created from scratch, except for bonds
+ * broken by load. Returns the number of row blocks (bonds of eight particles) with as many bonds as before. */
 static int64_t check_like_new(struct particle_cloud *c, const struct bonds *old)
 {
     struct bonds *b = &c->bonds;
@@ -306,7 +307,8 @@ static int64_t check_like_new(struct particle_cloud *c, const struct bonds *old)
     return taken;
 }
 
-/* Rows rebuilt after material points became peridynamic: bonds broken by load stay broken. */
+/* Checks rows that are rebuilt after material points became peridynamic against new rows: bonds broken by load stay
+ * broken. */
 static void test_rows_inherit(void **state)
 {
     (void)state;
@@ -340,8 +342,8 @@ static void test_rows_inherit(void **state)
     assert_true(taken > 0);
 }
 
-/* Rows rebuilt repeatedly, each time for one more column of the body: they reuse free storage, and sometimes the
- * storage moves. */
+/* Checks rows that are rebuilt repeatedly, each time for one more column of the body, against new rows: they reuse free
+ * storage, and sometimes the storage moves. */
 static void test_rows_again(void **state)
 {
     (void)state;
@@ -377,8 +379,8 @@ static void test_rows_again(void **state)
     }
 }
 
-/* Rows from the site map of a lattice are bitwise equal to those of the search; bonds that may yield are always
- * searched. */
+/* Checks that rows made from the site map of a lattice are bitwise equal to those of the neighbour search, and that
+ * bonds that may yield are always searched. */
 static void test_rows_of_lattice(void **state)
 {
     (void)state;

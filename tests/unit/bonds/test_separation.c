@@ -36,7 +36,8 @@ static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enu
     cloud_bonds(&b->c);
 }
 
-/* Returns the force on the upper half of the middle column at this opening [N]. */
+/* Displaces the upper half of the body b by `opening` [m] and returns the force that pulls at the upper half of its
+ * middle column [N]. */
 static real pull(struct pulled *b, real opening)
 {
     struct particles *p = &b->c.p;
@@ -47,7 +48,8 @@ static real pull(struct pulled *b, real opening)
     return hold;
 }
 
-/* Returns the work of separation of a column, over the area and the square of the critical stretch [N/m]. */
+/* Returns the work of separation of a column of b, computed in 1000 steps of the opening, divided by the area and by
+ * the square of the critical stretch [N/m]. */
 static real separation(struct pulled *b)
 {
     /* The last bond breaks at r^2/z = 5 spacings. */
@@ -58,8 +60,9 @@ static real separation(struct pulled *b)
     return work / (b->c.source.family.section * CLOUD_SPACING * square(STRETCH));
 }
 
-/* Both state-based models. Tolerance 0.3 % for 1000 steps: a bond acts half a step too long, and with half its force in
- * the step in which it breaks. */
+/* Compares the work of separation of both state-based models with family_fracture_energy_over_stretch_squared.
+ * Tolerance 0.3 % for 1000 steps: a bond acts half a step too long, and with half its force in the step in which it
+ * breaks. */
 static void test_work_of_separation(void **state)
 {
     (void)state;
@@ -83,8 +86,10 @@ static void test_work_of_separation(void **state)
             }
 }
 
-/* Ordinary model: the closed form of Madenci & Oterkus 2014 is for a continuum with omega = delta/r and a complete Q.
- * The lattice at m = 3.015 is within 3 % for every nu, and 5 to 9 % above if Q decreases with the family. */
+/* Compares the energy that separates a lattice of the ordinary state-based model at the critical stretch of Madenci &
+ * Oterkus 2014 with the energy release rate from which that stretch follows. The closed form is for a continuum with
+ * omega = delta/r and a complete weighted volume Q: at a horizon of 3.015 spacings the lattice is within 3 % for every
+ * Poisson's ratio, and 5 to 9 % above if Q decreases with the family. */
 static void test_ordinary(void **state)
 {
     (void)state;
@@ -101,8 +106,8 @@ static void test_ordinary(void **state)
         }
 }
 
-/* The force per area of all bonds across a plane at the critical stretch is 9 E h s^2/(4 pi) in plane stress and E h
- * s^2/3 in 1D (Silling & Askari 2005; h: horizon); a lattice with a horizon of 12 spacings agrees within 5 %. */
+/* Checks the force per area of all bonds across a plane at the critical stretch s: 9 E h s^2/(4 pi) in plane stress and
+ * E h s^2/3 in 1D (Silling & Askari 2005; h: horizon). Tolerance 5 %, for a lattice with a horizon of 12 spacings. */
 static void test_crossing(void **state)
 {
     (void)state;
@@ -122,9 +127,9 @@ static void test_crossing(void **state)
     }
 }
 
-/* A micro-modulus by the continuum integral and one by the sum over a large lattice agree for every influence function.
- * The integral includes the volume of the particle itself, which the sum lacks: of (horizon/r)^2 in 2D about 0.56/40 of
- * a horizon of 40 spacings, of horizon/r in 1D 0.5/40. */
+/* Checks that the micro-modulus by the continuum integral and that by the sum over a large lattice agree for every
+ * influence function. Tolerance: the integral includes the volume of the particle itself, which the sum lacks: of
+ * (horizon/r)^2 in 2D about 0.56/40 at a horizon of 40 spacings, of horizon/r in 1D 0.5/40. */
 static void test_influence(void **state)
 {
     (void)state;
@@ -143,9 +148,9 @@ static void test_influence(void **state)
         }
 }
 
-/* Lattices have the elastic constants of the isotropic material for every influence function, since the two weights by
- * direction, and the calibration, include it; bond-based models, with their Poisson's ratio. Tolerance: round-off of
- * sums over some hundred bonds. */
+/* Checks that lattices have the elastic constants of the isotropic material for every influence function, since the two
+ * weights by direction, and the calibration, include it; bond-based models, with their Poisson's ratio. Tolerance:
+ * round-off of sums over some hundred bonds. */
 static void test_isotropy(void **state)
 {
     (void)state;

@@ -11,7 +11,8 @@
 #include "tests/support/cloud.h"
 #include "kernels/kernels.h"
 
-/* Creates a lattice with exact positions, as fill.c does. */
+/* Creates the body c on a lattice with exact positions, as src/scene/fill.c does, and its bonds. surface: rule of the
+ * weights near faces; modulus: constants of a state-based model, NULL for bond-based. */
 static void exact_cloud(struct particle_cloud *c, int dim, enum surface_rule surface,
                         const struct state_modulus *modulus)
 {
@@ -54,15 +55,16 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* Returns true if the row block is at an end of the body: eight neighbours in a row may begin before the first particle
- * or end after the last, and such row blocks are stored. */
+/* Returns true if row block `row_block` (bonds of eight particles) is at an end of the body c: eight neighbours in a
+ * row may then begin before the first particle or end after the last, and such row blocks store their bonds. */
 static bool at_an_end(const struct particle_cloud *c, int64_t row_block)
 {
     return fmin(apart(&c->p, 0, row_block * LANES), apart(&c->p, c->p.n - 1, row_block * LANES + 7)) <
            c->source.family.cutoff;
 }
 
-/* Lines of 32 particles are four row blocks each, all on the lattice; those in the middle follow a stencil. */
+/* Checks which row blocks (bonds of eight particles) follow a stencil shared by several row blocks: lines of 32
+ * particles are four row blocks each, all on the lattice; those in the middle follow one. */
 static void test_who_follows(void **state)
 {
     (void)state;
@@ -82,7 +84,8 @@ static void test_who_follows(void **state)
         }
 }
 
-/* The bonds agree with all pairs; reading them changes nothing in storage. */
+/* Checks that the bonds agree with those of all pairs of particles, and that reading them changes nothing in
+ * storage. */
 static void test_what_is_stored(void **state)
 {
     (void)state;
@@ -118,8 +121,9 @@ static void make_again(struct particle_cloud *c)
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-/* Data copied from row blocks with equal surroundings agree with data computed for each row block: bonds, triggers,
- * volumes of neighbours and the critical step. A heavier corner, which affects none of these, prevents copying. */
+/* Checks that data copied from row blocks (bonds of eight particles) with equal surroundings agree with data computed
+ * for each row block: bonds, triggers, volumes of neighbours and the critical step. A heavier corner, which affects
+ * none of these, prevents copying. */
 static void test_twins(void **state)
 {
     (void)state;
@@ -174,7 +178,8 @@ static struct made make_all(struct particle_cloud *c, enum pd_model model)
     return m;
 }
 
-/* Returns the number of inner row blocks whose columns need no weights. */
+/* Returns the number of inner row blocks of b (bonds of eight particles) whose columns store no weights, since all
+ * weights are 1. */
 static int64_t count_units(const struct bonds *b)
 {
     int64_t units = 0;
@@ -209,7 +214,7 @@ static void test_same_bits(void **state)
         }
 }
 
-/* A violation of each invariant of bond_storage.h is detected. */
+/* Checks that bonds_describe_first_inconsistency detects a violation of each invariant of bond_storage.h. */
 static void test_fault(void **state)
 {
     (void)state;
@@ -240,7 +245,8 @@ static void test_fault(void **state)
     particle_cloud_free(&c);
 }
 
-/* A bond that changes makes its row block explicit, and no other. */
+/* Checks that a bond that changes makes its row block (bonds of eight particles) store its bonds explicitly, and no
+ * other row block. */
 static void test_who_leaves(void **state)
 {
     (void)state;
@@ -255,7 +261,8 @@ static void test_who_leaves(void **state)
     particle_cloud_free(&c);
 }
 
-/* The row block stays explicit when rows around it are rebuilt, with weights that no stencil has. */
+/* Checks that a row block (bonds of eight particles) with changed weights, which no stencil has, stays explicit when
+ * rows around it are rebuilt. */
 static void test_who_stays_out(void **state)
 {
     (void)state;
@@ -286,7 +293,7 @@ static void test_who_stays_out(void **state)
     particle_cloud_free(&c);
 }
 
-/* Lists the bonds of a row, lane by lane, without padding. Returns their number. */
+/* Lists the bonds of row `row` of b (bonds of one particle) in to[], without padding. Returns their number. */
 static int row_bonds(const struct bonds *b, int64_t row, struct bond *to)
 {
     int n = 0;
@@ -314,7 +321,8 @@ static void assert_rows_equal(const struct bonds *a, const struct bonds *b)
     }
 }
 
-/* Converts a tube of material points to peridynamic particles; its radius grows. */
+/* Converts the material points of c within `radius` of the middle axis to peridynamic particles: a tube, whose radius
+ * grows from call to call. */
 static void convert_tube(struct particle_cloud *c, real radius)
 {
     const struct particles *p = &c->p;
@@ -326,7 +334,8 @@ static void convert_tube(struct particle_cloud *c, real radius)
     particles_rebuild_lists_by_kind(&c->p);
 }
 
-/* Beside material points, too, the site map yields the bonds that a search finds; bonds that may yield are searched. */
+/* Checks that beside material points, too, the site map yields the bonds that a search finds, and that bonds that may
+ * yield are searched. */
 static void test_beside_points(void **state)
 {
     (void)state;

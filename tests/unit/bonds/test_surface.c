@@ -33,7 +33,8 @@ struct plain {
             for (int c = 0; c < (dim); c++)                                                                            \
                 for (int d = 0; d < (dim); d++)
 
-/* Returns x.P.x with P^-1 = 1 + 1000 Q for the faces near particle t, by elimination. */
+/* Returns the scalar x . P x for the faces near particle t of s, with P^-1 = 1 + 1000 Q, by elimination. Q: products of
+ * the tractions that strains cause on these faces; x: one number for each basis strain. */
 static real weighed(const struct plain *s, int64_t t, const real *x)
 {
     real m[STRAINS][STRAINS + 1], sum = 0;
@@ -58,8 +59,9 @@ static real weighed(const struct plain *s, int64_t t, const real *x)
     return sum;
 }
 
-/* Returns sum_k (T:B_k) P (T:B_k) of a difference of fourth moments plus sum_p (n_p.T) P (n_p.T) of one of third
- * moments. */
+/* Returns the functional that the factors of bonds minimise, for particle t of s: sum_k (T:B_k) P (T:B_k) of a
+ * difference T of fourth moments, plus sum_p (n_p.T) P (n_p.T) of a difference of third moments. B_k: basis strains; P:
+ * as in weighed. */
 static real squares(const struct plain *s, int64_t t, real (*fourth)[DIM_MAX][DIM_MAX][DIM_MAX],
                     real (*third)[DIM_MAX][DIM_MAX])
 {
@@ -80,7 +82,7 @@ static real squares(const struct plain *s, int64_t t, real (*fourth)[DIM_MAX][DI
     return sum;
 }
 
-/* Adds a bond with unit factor to both moments. */
+/* Adds the moments of bond number k of s, times `factor`, to the fourth and third moments. */
 static void add_bond(const struct plain *s, int k, real factor, real (*fourth)[DIM_MAX][DIM_MAX][DIM_MAX],
                      real (*third)[DIM_MAX][DIM_MAX])
 {
@@ -167,7 +169,8 @@ static void plain_free(struct plain *s)
     particle_cloud_free(&s->cloud);
 }
 
-/* Returns the derivative of the functional by the factor of one bond, at both of its ends. */
+/* Returns the derivative of the functional of s by the factor of bond number k of particle t, which counts at both of
+ * its ends. */
 static real slope(struct plain *s, int64_t t, int k)
 {
     const int n = s->body.offset.n;
@@ -209,8 +212,8 @@ static void check_least(const struct cloud_plan *plan)
     plain_free(&s);
 }
 
-/* The factors minimise the functional, for bodies so small that no two particles have equal surroundings except in
- * mirrors: the groups of bonds then impose no constraint. */
+/* Checks that the fitted factors minimise the functional, by its slopes, for bodies so small that no two particles have
+ * equal surroundings except in mirrors: the sets of bonds with one factor then impose no constraint. */
 static void factors_are_least(void **state)
 {
     (void)state;
@@ -227,9 +230,9 @@ static void factors_are_least(void **state)
 
 /* ---- faces ------------------------------------------------------------------------------------------------------- */
 
-/* Areas of faces along a row across a plate, far from its other sides: both faces are half a spacing beyond the outer
- * particles. The weight of a flat face is the sum of 1 - r/4 over the bonds of up to two spacings (in a horizon of
- * three), over that of a particle on it, 1 + 2 (3/4 + 1/2), to the third power. */
+/* Checks the areas of faces along a row across a plate, far from its other sides: both faces are half a spacing beyond
+ * the outer particles. Expected weight of a flat face: the sum of 1 - r/4 over the bonds of up to two spacings (in a
+ * horizon of three); of the face of a particle on it: 1 + 2 (3/4 + 1/2), to the third power. */
 static void faces_are_at_their_places(void **state)
 {
     (void)state;
@@ -254,8 +257,9 @@ static void faces_are_at_their_places(void **state)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the energy of pure bending, u = k (x y, -(x^2 + nu y^2 - nu z^2)/2, -nu y z), which leaves all faces free but
- * the ends: E I k^2/2 per length. Two lengths separate it from the energy of the ends. */
+/* Returns the energy [J] of a beam of `length` x `layers` particles in pure bending, u = k (x y, -(x^2 + nu y^2 - nu
+ * z^2)/2, -nu y z), which leaves all faces free but the ends: E I k^2/2 per length. Two lengths separate it from the
+ * energy of the ends. surface: rule of the weights near faces. */
 static real bending_energy(enum space space, enum surface_rule surface, int length, int layers)
 {
     const real curvature = 1e-3;
@@ -310,7 +314,7 @@ static void bending_has_the_energy_of_a_beam(void **state)
 
 static const struct boundary mirror[] = {{.name = "left", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 0, .at = 0}};
 
-/* Half of a body beside a mirror has the factors of the whole body. */
+/* Checks that half of a body beside a mirror has the factors of the whole body. */
 static void half_is_as_the_whole(void **state)
 {
     (void)state;
@@ -340,7 +344,8 @@ static void half_is_as_the_whole(void **state)
     particle_cloud_free(&half);
 }
 
-/* The residual of the solver tells whether it gave up: not with the products that it may use, but with three. */
+/* Checks that the residual of the solver shows whether it gave up: it converges with the number of products that it may
+ * use, but not with three. */
 static void residual_is_told(void **state)
 {
     (void)state;

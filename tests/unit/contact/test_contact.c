@@ -79,7 +79,8 @@ static real length(const struct particles *p, real *const *place, int64_t i, int
     return sqrt(r2);
 }
 
-/* Returns k of a pair of particles [N/m]: 15 c V V/delta, with the harmonic mean for two materials. */
+/* Returns the contact stiffness k of particles i and j [N/m]: 15 c V V/delta, with the micro-modulus c, the volumes V
+ * and the horizon delta; for two materials the harmonic mean. */
 static real plain_stiffness(const struct run *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
@@ -97,8 +98,8 @@ static bool may_meet(const struct run *e, int64_t i, int64_t j)
     return !has_bond(e, i, j);
 }
 
-/* Law `pair`: sums over all pairs of particles without a bond that are closer than a spacing and than in the reference
- * state. f: [dim n]; returns the energy [J]. */
+/* Computes the contact of the law `pair` by sums over all pairs of particles without a bond that are closer than one
+ * spacing and closer than in the reference state. f[dim n]: receives the forces [N]. Returns the energy [J]. */
 static real plain_pairs(const struct run *e, real *f)
 {
     const struct particles *p = &e->part;
@@ -122,7 +123,8 @@ static real plain_pairs(const struct run *e, real *f)
 
 static real wendland(real q) { return q < 1 ? pow(1 - q, 4) * (1 + 4 * q) : 0; }
 
-/* Returns the density at s spacings above a particle of a layer. */
+/* Returns the density of a face at the height s [spacings] above a particle of a layer: the number of particles nearby,
+ * weighted by the kernel of the law. */
 static real above_layer(int dim, real s)
 {
     real sum = 0;
@@ -132,7 +134,8 @@ static real above_layer(int dim, real s)
     return sum;
 }
 
-/* Returns the height above a layer at which the density has this value, by bisection [spacings]. */
+/* Returns the height above a layer at which its density (above_layer) has the value `density`, by bisection
+ * [spacings]. */
 static real height_of(int dim, real density)
 {
     real low = 0, high = 2;
@@ -163,7 +166,8 @@ static real plain_rise(const struct run *e, int64_t i)
 }
 
 /* Returns the height of particle i above the surface of the particles near faces with which it may come into contact,
- * in the current or reference state [spacings]. softest: k of the softest pair [N/m]. */
+ * at the positions place[dim] (current or reference) [spacings]. *softest: receives the stiffness k of the softest pair
+ * [N/m]. */
 static real plain_height(const struct run *e, int64_t i, real *const *place, real *softest)
 {
     const struct contact *c = e->contact;
@@ -179,8 +183,9 @@ static real plain_height(const struct run *e, int64_t i, real *const *place, rea
     return height_of(e->part.dim, density) - (density > 0 ? rise / density : 0);
 }
 
-/* Returns the contact energy of all particles: 1/4 k (zero - height)^2; zero: sum of the rise of its own surface and
- * half a spacing, or less if the reference state is closer. */
+/* Returns the contact energy of all particles by the law `surface` [J]: the sum of 1/4 k (zero - height)^2. zero:
+ * height at which contact begins, the sum of the rise of the own surface and half a spacing, or less if the reference
+ * state is closer. */
 static real plain_faces(const struct run *e)
 {
     real energy = 0, softest;
@@ -194,7 +199,7 @@ static real plain_faces(const struct run *e)
     return energy;
 }
 
-/* Computes the forces of contact only, in part.f. */
+/* Computes the forces of contact alone into e->part.f. */
 static void contact_alone(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
@@ -202,7 +207,8 @@ static void contact_alone(struct run *e)
     contact_compute_forces(e->contact, &e->part, 0);
 }
 
-/* Checks the third law: sums of forces and moments vanish up to the round-off of up to a dozen pairs. */
+/* Checks Newton's third law: sums of forces and moments vanish up to the round-off of the up to a dozen pairs of a
+ * particle. */
 static void check_third_law(const struct run *e)
 {
     const struct particles *p = &e->part;
@@ -222,8 +228,8 @@ static void check_third_law(const struct run *e)
     }
 }
 
-/* Compares with the plain sums. Pairs: forces and energy to round-off. Faces: energy within the error of 1e-6 spacings
- * in the table of heights; forces are its gradient. */
+/* Compares the contact of run e with plain sums over all particles. Law `pair`: forces and energy agree to round-off.
+ * Law `surface`: the energy agrees within the error of the table of heights, 1e-6 spacings. */
 static void check_plain(struct run *e)
 {
     const struct particles *p = &e->part;
@@ -245,8 +251,8 @@ static void check_plain(struct run *e)
     memory_free(f);
 }
 
-/* Compares the force on the particle with the deepest overlap with -dE/dx, by a central difference over 1e-6 of a
- * spacing; pairs that open within it leave (1e-6)^2 k. */
+/* Compares the contact force on the particle with the deepest overlap with -dE/dx, by a central difference over 1e-6 of
+ * a spacing. Tolerance: pairs that open within the difference leave (1e-6)^2 k. */
 static void check_gradient(struct run *e)
 {
     struct particles *p = &e->part;
@@ -266,7 +272,8 @@ static void check_gradient(struct run *e)
     }
 }
 
-/* Runs a collision and compares with the plain sum after every fourth step. */
+/* Runs the collision of the scene `text` with the contact law `law` and compares with the plain sums after every fourth
+ * step. pairs_least: smallest number of pairs that must have been in contact. */
 static void check_collision(const char *text, const char *law, real pairs_least)
 {
     struct scene s;
@@ -307,8 +314,8 @@ static void test_space(void **state)
     check_collision(space, "surface", 20);
 }
 
-/* Compares forces of faces with the energy gradient, without the part that removes energy gained by the time step
- * (contact_balance.c). */
+/* Compares the forces of the law `surface` with the gradient of the energy, without the part that removes energy gained
+ * by the time step (contact_balance.c). */
 static void check_law_gradient(struct run *e)
 {
     struct contact *c = e->contact;
@@ -319,8 +326,9 @@ static void check_law_gradient(struct run *e)
     memory_free(drag);
 }
 
-/* Surfaces far above their particles come into contact out of reach of the density field: no energy without work of a
- * force. With contact off, the energy balance of this run, whose grips start suddenly, is off by at most 0.0081. */
+/* Tests surfaces far above their particles, which come into contact out of reach of the density of the faces: no energy
+ * appears without work of a force. Tolerance: with contact off, the energy balance of this run, whose grips start
+ * suddenly, is off by at most 0.0081. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -340,8 +348,9 @@ static void test_steps(void **state)
     contact_end(e, &s);
 }
 
-/* k of a pair of lattice particles: 5/6 E A/D in 1D (families of 3: E A/D is 6 k1, and k is 15/3.015 k1), and 0.51 E h
- * per column in 2D, to 3 % (shell weights change c). */
+/* Checks the stiffness k of a pair of lattice particles against closed forms: 5/6 E A/D in 1D (families of 3 spacings:
+ * E A/D is 6 k1, and k is 15/3.015 k1), and 0.51 E h per column in 2D. Tolerance 3 %: weights by direction change the
+ * micro-modulus. */
 static void test_stiffness(void **state)
 {
     (void)state;
@@ -354,7 +363,8 @@ static void test_stiffness(void **state)
     contact_end(e, &s);
 }
 
-/* Bodies at rest one spacing apart, and a crack: no force, and bitwise no motion. */
+/* Checks for the contact law `law` that bodies at rest one spacing apart, and the faces of a crack, have no force and
+ * bitwise no motion. */
 static void check_rest(const char *law)
 {
     static const char text[] = "name: rest\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: 100 us\n"
@@ -379,8 +389,9 @@ static void test_rest(void **state)
     check_rest("surface");
 }
 
-/* The account of a row whose gap enters and leaves contact equals the deficit of the work of its force, 1/2 K g_n
- * (g_n+1 - g_n-1)/2 at each step inside: its energy is 0 before and after. */
+/* Checks the account of the energy error of a row (contact of one particle) whose gap enters and leaves contact: it
+ * equals the deficit of the work of the force, 1/2 K g_n (g_n+1 - g_n-1)/2 at each step inside, as the energy is 0
+ * before and after. */
 static void test_account(void **state)
 {
     (void)state;
@@ -399,7 +410,8 @@ static void test_account(void **state)
     }
 }
 
-/* The size of a particle is the edge of a cube of its volume; notches separate particles of one body. */
+/* Checks the contact size of particles, the edge of a cube of the volume of the particle, and the width of a notch,
+ * which separates only particles of one body. */
 static void test_sizes(void **state)
 {
     (void)state;
@@ -435,9 +447,9 @@ static void test_sizes(void **state)
     }
 }
 
-/* Contact with a rigid ball begins at the smallest distance that a particle had at their first contact, and this limit
- * follows a particle that moves outwards, not one that moves inwards. The patch of overlapping particles is the
- * diagonal of their box. */
+/* Checks contact with a rigid ball: it begins at the smallest distance that a particle had at their first contact, and
+ * this limit follows a particle that moves outwards, not one that moves inwards. The patch of overlapping particles has
+ * the diagonal of their box. */
 static void test_beside_a_ball(void **state)
 {
     (void)state;

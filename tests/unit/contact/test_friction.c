@@ -12,8 +12,8 @@
 #include "rigid/rigid_part.h"
 #include "step/sample.h"
 
-/* A spring of 3 kN/m on a face with normal (0, 0.6, 0.8): it sticks up to 0.2 N, then slides with this force; the work
- * of the motion is stored or dissipated, and the stored part vanishes at separation. */
+/* Checks a friction spring of 3 kN/m on a face with the normal (0, 0.6, 0.8): it sticks up to 0.2 N, then slides with
+ * this force; the work of the motion is stored or dissipated, and the stored part vanishes at separation. */
 static void spring_of_coulomb(void **state)
 {
     (void)state;
@@ -36,7 +36,7 @@ static void spring_of_coulomb(void **state)
     assert_close(s.lost, given, 1e-12);
 }
 
-/* The face rotates: the spring keeps its length and lies in the rotated face. */
+/* Checks that a friction spring keeps its length and lies in the rotated face when the face rotates. */
 static void spring_follows_its_face(void **state)
 {
     (void)state;
@@ -162,7 +162,8 @@ static const char blocks[] = "space: plane strain\nthickness: 0.37 m\nduration: 
                              "  - {name: high, shape: {box: {from: [4 mm, 5 mm], to: [14 mm, 9 mm]}}}\n"
                              "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* Bodies that move together have no friction; a sliding body experiences friction times pressure against its motion. */
+/* Checks that bodies that move together have no friction, and that a sliding body experiences the friction coefficient
+ * times the normal force against its motion. */
 static void faces_rub(void **state)
 {
     (void)state;
@@ -196,7 +197,7 @@ static const char barred[] =
     "  - {name: bar, rigid: true, mass: 2 kg, shape: {box: {from: [-3 mm, 6 mm], to: [31 mm, 9 mm]}}}\n"
     "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* Computes the force on the block [N]. */
+/* Computes force[dim], the sum of the forces p->f on the particles of the block [N]. */
 static void block_force(const struct particles *p, real *force)
 {
     force[0] = force[1] = 0;
@@ -204,9 +205,9 @@ static void block_force(const struct particles *p, real *force)
         for (int d = 0; d < 2; d++) force[d] += p->f[d][i];
 }
 
-/* Particles that move and rotate with a rigid body experience no friction. If the body moves faster along its face, it
- * exerts friction times the normal force on them, and the work of sliding is dissipated: 0.3 force 1.6 m/s time. A
- * sample includes this work in the dissipated energy. */
+/* Checks that particles that move and rotate with a rigid body experience no friction. If the body moves faster along
+ * its face, it exerts friction times the normal force on them, and the work of sliding is dissipated: 0.3 force 1.6 m/s
+ * time. A sample includes this work in the dissipated energy. */
 static void rigid_body_rubs(void **state)
 {
     (void)state;
@@ -245,8 +246,8 @@ static void rigid_body_rubs(void **state)
     body_end(e, &s);
 }
 
-/* Faces of particles of different sizes: W = (1 - q)^4 (1 + 4 q) with q = r/(2 D), times D_l/D in 2D. D: mean of both
- * sizes; D_l: size of the other particle. */
+/* Checks the weights of faces of particles of different sizes against the formula: W = (1 - q)^4 (1 + 4 q) with q =
+ * r/(2 D), times D_l/D in 2D. r: distance; D: mean of both sizes; D_l: size of the other particle. */
 static void weights_of_sizes(void **state)
 {
     (void)state;

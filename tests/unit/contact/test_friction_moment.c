@@ -26,7 +26,7 @@ static const char space[] =
     "  - {name: high, material: soft, shape: {box: {from: [2.3 mm, 4.4 mm, 3 mm], to: [7.3 mm, 10.4 mm, 6 mm]}}}\n"
     "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* Rotates v about the unit vector `axis` (Rodrigues). */
+/* Rotates the vector v[3] by `angle` [rad] about the unit vector axis[3] (Rodrigues' formula). */
 static void rotate(const real *axis, real angle, real *v)
 {
     real across[3];
@@ -40,7 +40,8 @@ static void position(const struct particles *p, int64_t i, real *x)
     for (int d = 0; d < 3; d++) x[d] = d < p->dim ? p->x[d][i] : 0;
 }
 
-/* Rotates the particles of a body, or of all bodies (-1), about a point. */
+/* Rotates the particles of p that belong to body `body`, or to all bodies (-1), by `angle` [rad] about the point
+ * `centre` and the unit vector `axis`. */
 static void body_rotate(struct particles *p, int body, const real *centre, const real *axis, real angle)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -59,8 +60,8 @@ static const real *axis_of(int dim)
     return dim == 2 ? across : odd;
 }
 
-/* Searches contacts, then presses the upper block obliquely into the lower one and rotates both by an arbitrary
- * angle. */
+/* Creates the run of the scene `text`, which is read into s, searches contacts, then presses the upper block obliquely
+ * into the lower one and rotates both by an arbitrary angle. Returns the run. */
 static struct run *pressed_begin(struct scene *s, const char *text)
 {
     struct run *e = NEW("test.engine", 1, struct run);
@@ -84,7 +85,8 @@ static void pressed_end(struct run *e, struct scene *s)
     scene_free(s);
 }
 
-/* Computes the forces of contact after a step of dt in part.f. */
+/* Computes the forces of contact into e->part.f, after a step of dt [s], which stretches the friction springs; dt = 0:
+ * without. */
 static void forces_after(struct run *e, real dt)
 {
     struct particles *p = &e->part;
@@ -93,8 +95,8 @@ static void forces_after(struct run *e, real dt)
     contact_compute_forces(e->contact, p, dt);
 }
 
-/* Moves the particles by dt; returns the mean power of friction on the velocities of this step, with the forces before
- * and after it [W]. drag: friction forces [dim n], updated. */
+/* Moves the particles of run e by a step dt [s]. Returns the mean power of friction at the velocities of this step,
+ * with the forces before and after the step [W]. drag[dim n]: friction forces [N], updated. */
 static real slide(struct run *e, real dt, real *drag)
 {
     struct particles *p = &e->part;
@@ -119,7 +121,8 @@ static real slide(struct run *e, real dt, real *drag)
     return power;
 }
 
-/* Checks the sums of forces and of their moments, relative to the sums of their magnitudes. */
+/* Checks that the sums of the forces f[dim n] on the particles p, and of their moments, vanish, relative to the sums of
+ * their magnitudes. */
 static void check_sums(const struct particles *p, const real *f)
 {
     real force[3] = {0}, moment[3] = {0}, size = 0, far = 0;
@@ -143,8 +146,8 @@ static real friction_energy(const struct contact *c)
     return contact_friction_stored_energy(c) + contact_friction_dissipated_energy(c);
 }
 
-/* Sets velocities: the upper block slides and rotates on the lower one, which rotates in the opposite direction; each
- * particle has an additional motion. */
+/* Sets the velocities of p: the upper block slides and rotates on the lower one, which rotates in the opposite
+ * direction; each particle has an additional small motion. */
 static void set_moving(struct particles *p)
 {
     const real *axis = axis_of(p->dim);
@@ -158,8 +161,9 @@ static void set_moving(struct particles *p)
     }
 }
 
-/* Runs `steps` steps over `time` and checks the sums of forces in each. Returns the difference between the work of
- * friction and the energy stored and dissipated by springs, over this energy. */
+/* Runs the scene `text` for `steps` steps over `time` [s] and checks the sums of forces after each (check_sums).
+ * Returns the difference between the work of friction and the energy that springs have stored and dissipated, divided
+ * by this energy. */
 static real work_error(const char *text, real time, int steps)
 {
     struct scene s;
@@ -180,8 +184,9 @@ static real work_error(const char *text, real time, int steps)
     return work / energy - 1;
 }
 
-/* The difference is 1.4e-4 in 2D, where the spring rotates with its face by 1e-3 per step, and 6e-7 in 3D; it decreases
- * in proportion to the step. */
+/* Checks that the work of friction in the scene `text` equals the energy of the springs. Measured difference: 1.4e-4 in
+ * 2D, where the spring rotates with its face by 1e-3 per step, and 6e-7 in 3D; it decreases in proportion to the
+ * step. */
 static void check_sliding(const char *text)
 {
     assert_near(work_error(text, 20e-6, 40), 0, 3e-4);
@@ -191,8 +196,9 @@ static void check_sliding(const char *text)
 static void sliding_in_the_plane(void **state) { (void)state, check_sliding(plane); }
 static void sliding_in_space(void **state) { (void)state, check_sliding(space); }
 
-/* Both bodies rotate together by 0.1 in 100 steps. Chords instead of arcs cause a slip of 1e-9 of the arm per step. A
- * slip relative to the mean velocity of the neighbouring particles, a spacing away, would be 1e-3 of a spacing. */
+/* Checks that two bodies of the scene `text` that rotate together by 0.1 rad in 100 steps have no friction. Tolerance:
+ * chords instead of arcs cause a slip of 1e-9 of the arm per step. (A slip relative to the mean velocity of the
+ * neighbouring particles, a spacing away, would be 1e-3 of a spacing.) */
 static void check_turning(const char *text)
 {
     struct scene s;
@@ -226,9 +232,10 @@ static void turning_together(void **state)
 
 #define H 0.7e-3 /* spacing [m] */
 
-/* A particle at height H above `felt` particles along x, which alternately deviate from the line by `aside`, moves by 1
- * um along axis `along` and sticks. Returns the largest force of the couple on one of them over the friction force;
- * balance: receives the part of the moment of friction that the couple balances. */
+/* Tests a particle at the height H above `felt` particles along x, which alternately deviate from the line by `aside`:
+ * it moves by 1 um along the axis `along` and sticks. Returns the largest force of the couple on one of these
+ * particles, divided by the friction force; *balance: receives the share of the moment of friction that the couple
+ * balances. */
 static real couple_of(int felt, real aside, int along, real *balance)
 {
     struct particles p;
@@ -271,8 +278,8 @@ static real couple_of(int felt, real aside, int along, real *balance)
     return most / sqrt(dot(spring.drag, spring.drag, 3));
 }
 
-/* Along the line particles can balance the moment, across it they cannot; no force exceeds sqrt(10) times the friction
- * force where they almost cannot; away from the line they can again. */
+/* Checks that particles in a line can balance a moment along the line and not one across it, that no force exceeds
+ * sqrt(10) times the friction force where they almost cannot, and that they can again away from the line. */
 static void felt_in_a_line(void **state)
 {
     (void)state;

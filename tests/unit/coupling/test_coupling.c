@@ -22,7 +22,8 @@ struct interface {
     enum coupling coupling;
 };
 
-/* Sets the stress of every material point by Hooke's law; stores its components. */
+/* Sets the stress of every material point of c to that of Hooke's law for the displacement gradient `strain`, and
+ * stores its symmetric components in stress[] [Pa]. */
 static void set_stress(struct particle_cloud *c, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     const struct material *m = &c->material[0];
@@ -39,8 +40,9 @@ static void set_stress(struct particle_cloud *c, const real strain[DIM_MAX][DIM_
             c->p.stress[s][i] = c->p.kind[i] == KIND_MPM ? stress[s] : 0;
 }
 
-/* Returns the largest nodal force, without free edges, per area of a cell's face [Pa], and stores the stress of the
- * points. Peridynamic particles with complete families must have no force in either coupling. */
+/* Returns the largest nodal force, divided by the area of a cell's face [Pa], in a body with the interface k under the
+ * uniform displacement gradient `strain`; nodes at free edges are left out. stress[]: receives the stress of the points
+ * [Pa]. Checks that peridynamic particles with complete families have no force in either coupling. */
 static real interface_residual(const struct interface *k, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     struct patch s = {0};
@@ -65,7 +67,8 @@ static real interface_residual(const struct interface *k, const real strain[DIM_
 
 static const struct cloud_plan bar = {.space = SPACE_LINE, .count = {32}, .horizon = 3};
 
-/* The interface, midway between two particles, is on a node, as in the prototype. */
+/* Checks the residual force at an interface in 1D. The interface, midway between two particles, is on a node, as in the
+ * prototype. */
 static void test_interface_1d(void **state)
 {
     (void)state;
@@ -87,13 +90,14 @@ static void test_interface_1d(void **state)
         }
 }
 
-/* h = 2D, linear shapes. S is sigma_xx (axial: uniaxial strain), C11 strain (biaxial), sigma_xy (shear). Of the
- * prototype's values, 0.50 and 0.63 of handshake coupling are found with the interface on a node; its 0.38 for shear is
- * between the 0.42 found on a node and the 0.33 in the middle of a cell; its 0.017 for shear with partial stress is
- * found in the middle of a cell (0.034 on a node). The residual of partial stress is not an error of the coupling:
- * relative to the points, the lattice transmits 1.1 % more (axial), as much (biaxial) and 3.4 % less (shear), all of it
- * at one node or half at each of two. The prototype's 0.0007 and 0.007 (axial, biaxial) are not found at any position
- * of the interface; 0.0007 is less than half of the error of C11 of this lattice. */
+/* Compares the residual force at an interface in 2D with published values of a prototype. Cells of h = 2 D, linear
+ * shape functions. S, to which residuals are relative, is sigma_xx (axial: uniaxial strain), C11 strain (biaxial),
+ * sigma_xy (shear). Of the prototype's values, 0.50 and 0.63 of handshake coupling are found with the interface on a
+ * node; its 0.38 for shear is between the 0.42 found on a node and the 0.33 in the middle of a cell; its 0.017 for
+ * shear with partial stress is found in the middle of a cell (0.034 on a node). The residual of partial stress is not
+ * an error of the coupling: relative to the points, the lattice transmits 1.1 % more (axial), as much (biaxial) and 3.4
+ * % less (shear), all of it at one node or half at each of two. The prototype's 0.0007 and 0.007 (axial, biaxial) are
+ * not found at any position of the interface; 0.0007 is less than half of the error of C11 of this lattice. */
 static void test_interface_2d(void **state)
 {
     (void)state;
@@ -119,7 +123,7 @@ static void test_interface_2d(void **state)
         }
 }
 
-/* 3D with isotropic weights: no residual for any strain. */
+/* Checks that an interface in 3D, with isotropic weights of bonds, has no residual force for any strain. */
 static void test_interface_3d(void **state)
 {
     (void)state;
@@ -136,8 +140,8 @@ static void test_interface_3d(void **state)
     assert_true(interface_residual(&i, strain, S) / S[0] > 0.2);
 }
 
-/* The part of its stress that a point transfers to the grid: 1/4, 2/3, 11/12 for N = 3, by distance from the
- * interface. */
+/* Checks the share of its stress that a material point transfers to the grid in a bar with families of three spacings:
+ * 1/4, 2/3, 11/12 by distance from the interface, to round-off. */
 static void test_share_given(void **state)
 {
     (void)state;
@@ -159,8 +163,9 @@ static void test_share_given(void **state)
     particle_cloud_free(&c);
 }
 
-/* Computes the partial stress of a bar of 2 x 2 lines, half of it bonds. off: its last particle, which no bond reaches,
- * is off the lattice, so that the tables are not used. */
+/* Creates c, a bar of 24 x 2 x 2 particles, half of it peridynamic, and the partial stresses (stress that bonds carry)
+ * of its points. horizon: of the bonds [spacings]; off: true to move the last particles off the lattice, so that the
+ * tables of bonds on a lattice are not used. */
 static void shares_make(struct particle_cloud *c, struct partial_stress *partial, real horizon, bool off)
 {
     const struct cloud_plan plan = {.space = SPACE_SOLID, .count = {24, 2, 2}, .horizon = horizon};
@@ -173,7 +178,8 @@ static void shares_make(struct particle_cloud *c, struct partial_stress *partial
     partial_stress_make(partial, &c->p, &c->bonds, &c->source, NULL, 0);
 }
 
-/* Tables agree with sums over bonds; for families too large for tables (8: 2108 bonds), none are used. */
+/* Checks that partial stresses from tables of bonds on a lattice agree with sums over the bonds, and that no tables are
+ * used for families too large for them (a horizon of 8 spacings: 2108 bonds). */
 static void test_wide_families(void **state)
 {
     (void)state;
@@ -198,7 +204,8 @@ static void test_wide_families(void **state)
 
 /* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
-/* Returns the energy of bonds, plus 1/2 sigma_given : C^-1 sigma of the points [J]. */
+/* Returns the energy of the bonds of c, plus 1/2 sigma_given : C^-1 sigma summed over the points [J], where sigma_given
+ * is the part of the stress sigma that a point transfers itself. */
 static real energy_of(const struct particle_cloud *c, const struct partial_stress *partial)
 {
     const struct particles *p = &c->p;
@@ -211,8 +218,8 @@ static real energy_of(const struct particle_cloud *c, const struct partial_stres
     return sum;
 }
 
-/* Change of energy of a uniformly strained bar of material points when `block` points in its middle are converted, in
- * units of the energy of a particle. */
+/* Checks the change of energy of a uniformly strained bar of material points when `block` points in its middle are
+ * converted before the run, in units of the energy of a particle. */
 static void test_energy_at_start(void **state)
 {
     (void)state;
@@ -247,8 +254,8 @@ static void test_energy_at_start(void **state)
     }
 }
 
-/* Change of energy during a run: one point is marked and converted with its horizon. Momentum and kinetic energy do not
- * change: velocities are not written. */
+/* Checks the change of energy by a conversion during a run: one point is marked and converted with all points within
+ * its horizon. Momentum and kinetic energy do not change, since velocities are not written. */
 static void test_energy_in_run(void **state)
 {
     (void)state;
@@ -294,7 +301,8 @@ static void test_energy_in_run(void **state)
 
 /* ---- two bodies -------------------------------------------------------------------------------------------------- */
 
-/* A point converts only neighbours of its own body: of a bar, points 12 .. 18 without those of the other body. */
+/* Checks that a point converts only neighbours of its own body: of a bar, the points 12 .. 18 without those that belong
+ * to another body. */
 static void test_block_in_its_body(void **state)
 {
     (void)state;
@@ -310,8 +318,8 @@ static void test_block_in_its_body(void **state)
     particle_cloud_free(&c);
 }
 
-/* A pre-crack converts the points with bonds across it. Two bodies of four rows, the crack in the middle of the lower
- * one: all four rows of that body; there are no bonds to the upper one. */
+/* Checks that a pre-crack converts the points with bonds across it. Of two bodies of four rows each, with the crack in
+ * the middle of the lower one, all four rows of that body convert; there are no bonds to the upper one. */
 static void test_crack_in_its_body(void **state)
 {
     (void)state;
@@ -328,8 +336,9 @@ static void test_crack_in_its_body(void **state)
     particle_cloud_free(&c);
 }
 
-/* Three bodies side by side, and a rigid one below the last: a point is marked if a particle of another body, or the
- * rigid body, is within reach; peridynamic particles are not marked, but their dwell time restarts. */
+/* Checks which points are marked when bodies approach: of three bodies side by side, with a rigid one below the last,
+ * those with a particle of another body, or the rigid body, within reach. Peridynamic particles are not marked, but
+ * their time of low stress restarts. */
 static void test_approach(void **state)
 {
     (void)state;
@@ -364,8 +373,8 @@ static void test_approach(void **state)
     particle_cloud_free(&c);
 }
 
-/* Faces of a notch 0.3 spacings wide become peridynamic where they will close the gap: by their displacement and, if
- * they approach, the displacement ahead. */
+/* Checks that the faces of a notch 0.3 spacings wide become peridynamic where they will close the gap: by their present
+ * displacement and, if they approach each other, by that some time ahead. */
 static void test_faces_meet(void **state)
 {
     (void)state;

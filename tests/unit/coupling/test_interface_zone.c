@@ -7,7 +7,8 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* Creates a body whose left half is peridynamic, with random displacements. */
+/* Creates the body c, whose left half is peridynamic, and its interface zone r (material points near peridynamic
+ * particles). shake: largest random displacement of the particles from the lattice [spacings]. */
 static void half_make(struct particle_cloud *c, struct interface_zone *r, enum space space, real shake)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {40, 0, 0}, {20, 14, 0}, {14, 8, 8}};
@@ -45,8 +46,8 @@ static void sums_of(const struct particles *p, real *sum, real *scale)
         }
 }
 
-/* Random velocities on an irregular body: conserved quantities agree to the round-off of the sums (1e-14 of their
- * terms); the kinetic energy decreases by the recorded loss. */
+/* Checks what interface damping conserves, for random velocities on an irregular body: momentum and angular momentum
+ * agree to the round-off of the sums (1e-14 of their terms), and the kinetic energy decreases by the recorded loss. */
 static void test_kept(void **state)
 {
     (void)state;
@@ -73,7 +74,8 @@ static void test_kept(void **state)
     }
 }
 
-/* Rigid motion: no relative motion along any line between two particles, and thus no damping. */
+/* Checks that rigid motion is not damped, since no two particles move relative to each other along the line between
+ * them. */
 static void test_rigid(void **state)
 {
     (void)state;
@@ -97,8 +99,9 @@ static void test_rigid(void **state)
     }
 }
 
-/* In a bar d_i = v_(i-1) - 2 v_i + v_(i+1). If all neighbours are in the zone, k = 1/16 stops alternating motion in one
- * step, and sin(q i) is damped by (2 - 2 cos q)^2/16. */
+/* Checks the damping of waves in a bar against the closed form, with d_i = v_(i-1) - 2 v_i + v_(i+1). If all neighbours
+ * are in the zone, k = 1/16 stops motion that alternates from point to point in one step, and reduces sin(q i) by (2 -
+ * 2 cos q)^2/16. */
 static void test_waves(void **state)
 {
     (void)state;
@@ -119,8 +122,8 @@ static void test_waves(void **state)
     }
 }
 
-/* A crack across the zone, between two rows: separating faces are not coupled; without the crack they are. There are no
- * pairs across two bodies either. */
+/* Checks that a crack across the zone, between two rows, uncouples its faces when they separate, that they are coupled
+ * without the crack, and that there are no pairs of particles of two bodies. */
 static void test_parted(void **state)
 {
     (void)state;

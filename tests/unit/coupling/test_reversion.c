@@ -30,7 +30,9 @@ static void setting_make(struct setting *s, const struct cloud_plan *plan)
 
 static void know_stress(struct setting *s) { bond_stress_table[s->c.p.dim][PD_BOND](&s->c.bonds, &s->c.p); }
 
-/* Selects twice, a dwell time apart, because the first call only starts the dwell time. */
+/* Selects the particles of s that may revert, at three times; checks that none is selected before the dwell time has
+ * passed, which only starts at the first call. list: receives the indices of the selected particles. Returns their
+ * number at the end of the dwell time. */
 static int64_t choose(struct setting *s, int32_t **list)
 {
     know_stress(s);
@@ -47,7 +49,8 @@ static void setting_never(struct setting *s)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the energy of bonds, plus 1/2 sigma_given C^-1 sigma of the points [J]. */
+/* Returns the energy of the bonds of s, plus 1/2 sigma_given C^-1 sigma summed over the points [J], where sigma_given
+ * is the part of the stress sigma that a point transfers itself. */
 static real energy_of(const struct setting *s, const struct partial_stress *partial)
 {
     const struct particles *p = &s->c.p;
@@ -66,9 +69,9 @@ static real energy_of(const struct setting *s, const struct partial_stress *part
     return sum;
 }
 
-/* A block in the middle of a uniformly strained bar: only the method that carries the stress changes; momentum is
- * bitwise equal. Published energy error: 0. Tolerance: finite strain and round-off for 60 particle energies, as in
- * test_coupling.c. */
+/* Tests the reversion of a block in the middle of a uniformly strained bar: only the method that carries the stress
+ * changes, so that the energy stays equal (published error: 0) and the momentum is bitwise equal. Tolerance: finite
+ * strain and round-off for 60 particle energies, as in test_coupling.c. */
 static void test_bar(void **state)
 {
     (void)state;
@@ -113,9 +116,10 @@ static void test_bar(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* A whole bar reverts during a standing wave of stress E e exp(-(4 X/width)^2): energy is lost by the smoothing of
- * bonds. Published relative loss for a travelling pulse, half of whose energy is kinetic and is kept: -0.09 % at 80
- * spacings, -0.3 % at 40, -1.8 % at 16; measured -0.083, -0.327, -1.86 %. */
+/* Compares the energy that is lost when a whole bar reverts during a standing wave of stress E e exp(-(4 X/width)^2),
+ * by the smoothing of bonds, with published values. Published relative loss for a travelling pulse, half of whose
+ * energy is kinetic and is kept: -0.09 % at 80 spacings, -0.3 % at 40, -1.8 % at 16; measured -0.083, -0.327, -1.86
+ * %. */
 static void test_wave(void **state)
 {
     (void)state;
@@ -144,8 +148,9 @@ static void test_wave(void **state)
     }
 }
 
-/* A whole body reverts: a particle at a corner, with a quarter or an eighth of a family, has the stress of a particle
- * in the middle, and the volume of a uniform F. Tolerance: weights of bonds are in single precision. */
+/* Tests the reversion of a whole body: a particle at a corner, with a quarter or an eighth of a family, gets the stress
+ * of a particle in the middle, and the volume of the uniform deformation gradient. Tolerance: weights of bonds are in
+ * single precision. */
 static void test_surfaces(void **state)
 {
     (void)state;
@@ -192,8 +197,8 @@ static real distance(const struct particles *p, int64_t i, int64_t j)
 
 enum reason { REASON_BREAK, REASON_STRESS, REASON_REGION };
 
-/* A square in which one particle must not revert: the region that it keeps from reverting agrees with a plain
- * definition. */
+/* Checks that the region that one particle of a square, which must not revert, keeps from reverting agrees with a plain
+ * evaluation of its definition. */
 static void test_who_stays(void **state)
 {
     (void)state;
@@ -234,8 +239,8 @@ static void test_who_stays(void **state)
     }
 }
 
-/* Stress that returns before the end of the dwell time restarts it; particles enclosed in a narrow gap do not
- * revert. */
+/* Checks that a stress that returns before the end of the dwell time restarts it, and that particles enclosed in a
+ * narrow gap do not revert. */
 static void test_dwell_and_gap(void **state)
 {
     (void)state;
@@ -283,8 +288,8 @@ static void test_dwell_and_gap(void **state)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Points leave a mesh that moves rigidly with uniform strain, and return: all nodes, also removed ones, have the
- * displacement of that motion again, momentum is conserved, and the change of kinetic energy is recorded. */
+/* Tests points that leave a mesh, which moves rigidly with uniform strain, and return: all nodes, also removed ones,
+ * have the displacement of that motion again, momentum is conserved, and the change of kinetic energy is recorded. */
 static void test_mesh(void **state)
 {
     (void)state;

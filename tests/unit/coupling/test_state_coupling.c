@@ -40,7 +40,7 @@ static void both_make(struct both *b, const struct partners *k)
     c->source.modulus = b->modulus, c->source.rotates = k->model == PD_MOSPD;
 }
 
-/* Sets the stress of Hooke's law in the material points. */
+/* Sets the stress of the material points of c to that of Hooke's law for the displacement gradient `strain`. */
 static void stress_set(struct particle_cloud *c, const real strain[DIM_MAX][DIM_MAX])
 {
     real vector[SYM_MAX] = {0}, stiffness[SYM_MAX * SYM_MAX];
@@ -57,7 +57,8 @@ static void stress_set(struct particle_cloud *c, const real strain[DIM_MAX][DIM_
         }
 }
 
-/* Computes the forces of bonds after the points at their ends have been evaluated. */
+/* Computes the forces of the bonds of b with the model `model`, after the material points with bonds have been
+ * evaluated. */
 static void forces(struct both *b, enum pd_model model)
 {
     struct particle_cloud *c = &b->s.c;
@@ -66,7 +67,8 @@ static void forces(struct both *b, enum pd_model model)
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
 
-/* Returns the largest nodal force over the largest stress times a cell's face. */
+/* Returns the largest nodal force in a body with the interface k under the displacement gradient `strain`, divided by
+ * the largest stress times the area of a cell's face [1]; nodes near other faces of the body are left out. */
 static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MAX])
 {
     struct both b;
@@ -88,11 +90,12 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     return force;
 }
 
-/* Expected residual over S h with the interface on a node, by model, cell size and load (axial, biaxial, shear), after
- * cancellation by symmetry. Model with rotations: zero for forces along the normal of a flat interface; A/2 for the
- * anisotropic part in the depth of its bonds, and in shear half of the part that leaves the line of the bond. Ordinary
- * model: the same with its own A, plus the difference of the lattice's fourth moments, as for bonds. The numbers are
- * from an independent program that sums dense matrices. */
+/* Compares the residual force at a flat interface with expected values, divided by S h (stress times cell edge), with
+ * the interface on a node, by model, cell size and load (axial, biaxial, shear), after cancellation by symmetry. Model
+ * with rotations: zero for forces along the normal of a flat interface; A/2 for the anisotropic part in the depth of
+ * its bonds, and in shear half of the part that leaves the line of the bond. Ordinary model: the same with its own A,
+ * plus the difference of the lattice's fourth moments, as for bonds. The numbers are from an independent program that
+ * sums dense matrices. */
 static void test_flat(void **state)
 {
     (void)state;
@@ -108,8 +111,8 @@ static void test_flat(void **state)
             }
 }
 
-/* Bonds of two spacings end within one cell, in which the residual cancels; 5e-6 is round-off of positions over the
- * strain. */
+/* Checks in 3D that bonds of two spacings, which end within one cell, leave no residual force. Tolerance 5e-6:
+ * round-off of positions over the strain. */
 static void test_flat_solid(void **state)
 {
     (void)state;
@@ -124,8 +127,8 @@ static void test_flat_solid(void **state)
 
 /* ---- torque ------------------------------------------------------------------------------------------------------ */
 
-/* A point at the end of bonds, which see a part of its family, experiences a moment: the torque of its own force states
- * equals the moment on its cell, to round-off over the strain. */
+/* Checks the moment on a material point with bonds, which see only a part of its family: the torque of the force states
+ * of the point equals the moment on its cell, to round-off over the strain. */
 static void test_torque(void **state)
 {
     (void)state;
@@ -167,7 +170,8 @@ static void test_torque(void **state)
 
 /* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
-/* Returns the energy of bonds, plus 1/2 sigma_given : C^-1 sigma of the points [J]. */
+/* Returns the energy of the bonds of b with the model `model`, plus 1/2 sigma_given : C^-1 sigma summed over the points
+ * [J], where sigma_given is the part of the stress sigma that a point transfers itself. */
 static real energy_of(const struct both *b, enum pd_model model)
 {
     const struct particle_cloud *c = &b->s.c;
@@ -186,8 +190,8 @@ static real energy_of(const struct both *b, enum pd_model model)
     return sum;
 }
 
-/* Returns the change of energy when a square block in a uniformly strained plate becomes peridynamic, in units of the
- * energy of a particle. */
+/* Returns the change of energy when a square block of edge x edge particles in a plate under the displacement gradient
+ * `strain` becomes peridynamic, in units of the energy of a particle. */
 static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int edge)
 {
     const struct partners k = {
@@ -233,9 +237,9 @@ static void test_energy(void **state)
         }
 }
 
-/* Bonds between two materials have the same response from both ends, with the moduli of both: B of the law with
- * rotations for a vector, A/D for a mean strain, each end relative to the sum over its family. The cell of a particle
- * has its volume: width from the section in 1D, from the thickness in 2D. */
+/* Checks that bonds between two materials have the same response to strain from both ends, with the moduli of both: B
+ * of the law with rotations for a vector, A/D for a mean strain, each end relative to the sum over its family. Also
+ * checks that the cell of a particle has its volume: width from the section in 1D, from the thickness in 2D. */
 static void test_response(void **state)
 {
     (void)state;
@@ -270,8 +274,8 @@ static void test_response(void **state)
     particle_cloud_free(c);
 }
 
-/* The energies of rows add up to the total, including those of points at the ends of bonds, which rotate with their
- * cells: a plate with one peridynamic half, stretched and rotated by 0.3 rad. */
+/* Checks that the energies of rows add up to the total, including those of points at the ends of bonds, which rotate
+ * with their cells: a plate with one peridynamic half, stretched and rotated by 0.3 rad. */
 static void test_rows(void **state)
 {
     (void)state;
@@ -297,9 +301,9 @@ static void test_rows(void **state)
     patch_free(&b.s);
 }
 
-/* Bonds that are stiffer than the point: the limited part T leaves no negative eigenvalue in the remainder V C - T, and
- * is not reduced where the remainder has positive ones: the product of the remainder and the reduction is 0, as
- * tensors. */
+/* Checks the limit on T, the stiffness that bonds take from a point, where bonds are stiffer than the point: the
+ * remainder V C - T has no negative eigenvalue, and T is not reduced where the remainder has positive ones: the product
+ * of the remainder and the reduction is 0, as tensors. */
 static void test_positive(void **state)
 {
     (void)state;

@@ -39,7 +39,8 @@ static void engine_from(struct run *e, struct scene *s, const char *text)
 
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the position rotated about z and randomly displaced; the plane of a mirror is kept. */
+/* Returns component d of the position X[dim], rotated about z and randomly displaced; coordinates normal to a mirror of
+ * run e are kept. seed: state of the random numbers. */
 static real shaken(const struct run *e, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;
@@ -72,7 +73,8 @@ static real energy_of(struct run *e)
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
 }
 
-/* Compares the force on one component with the derivative of the energy. */
+/* Compares the force *force on one component of a particle or node of run e with the derivative of the energy by its
+ * coordinate *place, by central differences. scale: largest force [N], to which the tolerance refers. */
 static void check_slope(struct run *e, real *place, const real *force, real scale)
 {
     const real step = 1e-5 * e->scene->spacing, was = *place;
@@ -93,7 +95,8 @@ static real largest(const struct run *e)
     return most;
 }
 
-/* Checks every few unknowns of both kinds, without nodes on or beyond a plane of symmetry, which move with others. */
+/* Compares forces with the energy gradient (check_slope) at every few unknowns of both kinds, particles and nodes,
+ * without nodes on or beyond a plane of symmetry, which move with others. */
 static void check_gradient(struct run *e)
 {
     struct particles *p = &e->part;
@@ -114,8 +117,8 @@ static void check_gradient(struct run *e)
     assert_true(particles > 60 && nodes > 50);
 }
 
-/* Tolerance 1e-6 of the largest force: third derivative of the energy times the squared step, and round-off over the
- * step. */
+/* Checks the forces of coupled bodies against the energy gradient. Tolerance 1e-6 of the largest force: third
+ * derivative of the energy times the squared step of the difference, and round-off over the step. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -136,7 +139,8 @@ static void test_gradient(void **state)
 
 /* ---- a point on the grid ----------------------------------------------------------------------------------------- */
 
-/* Checks a point: pressure from the strain of its bonds, the other components from its stress; its rotation. */
+/* Checks the state of the material point of row `row` (its bonds): the pressure follows from the strain of its bonds,
+ * the other components of the strain from its stress; also checks its rotation. */
 static void check_point(const struct run *e, int64_t row)
 {
     const struct bonds *b = &e->bonds;
@@ -198,7 +202,8 @@ static void test_points(void **state)
 
 /* ---- partial stress ---------------------------------------------------------------------------------------------- */
 
-/* Asserts that the partial stress of points from the site map and from searches is bitwise equal. */
+/* Asserts that the partial stresses a (from the site map) and b (from searches) of n points in dim dimensions are
+ * bitwise equal. */
 static void same_partials(const struct partial_stress *a, const struct partial_stress *b, int64_t n, int dim)
 {
     const int symmetric = symmetric_component_count(dim), size = symmetric * symmetric;

@@ -3,7 +3,7 @@
 
 #include "data/derived_fields.h"
 
-/* A tensor is reproduced by its principal values along its axes. */
+/* Checks that a tensor is reproduced by its principal values along its axes. */
 static void principal_values_of_turned_tensors(void **state)
 {
     static const real values[][3] = {{3, 1, -2}, {5, 5, 1}, {2, -1, -1}, {1, 1, 1}, {4e9, 1, -4e9}, {0, 0, 0}};
@@ -32,7 +32,8 @@ static void principal_values_of_turned_tensors(void **state)
         }
 }
 
-/* Von Mises stress of uniaxial stress S: S; of pure shear T: sqrt(3) T; of pressure: 0. */
+/* Checks the von Mises stress against closed forms: S under uniaxial stress S, sqrt(3) T in pure shear T, 0 under
+ * pressure. */
 static void invariants(void **state)
 {
     (void)state;

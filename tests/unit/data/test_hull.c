@@ -12,7 +12,8 @@
 
 static const real pi = 3.14159265358979323846;
 
-/* A surface on a grid of n x m quadrilaterals that is periodic in both directions (torus) or has poles (ball). */
+/* A surface on a grid of n x m quadrilaterals that is periodic in both directions (torus) or has poles (ball): corners
+ * and triangular faces. */
 struct grid_hull {
     int64_t corners, faces;
     real (*corner)[DIM_MAX];
@@ -85,8 +86,8 @@ static void ball_and_torus(void **state)
     }
 }
 
-/* A ball is convex everywhere, a torus on its outer rim, not on its inner one; neither where too many faces are near.
- */
+/* Checks hull_is_convex_within_distance: a ball is convex everywhere, a torus on its outer rim and not on its inner
+ * one; the answer is false where too many faces are near. */
 static void convex_near(void **state)
 {
     (void)state;
@@ -132,8 +133,8 @@ static void turned_and_open(void **state)
     hull_free(&s);
 }
 
-/* A ball of radius 1/2 in a ball: what both enclose is found twice if both have outward normals, but not where the
- * inner one is a cavity. */
+/* Checks the winding numbers of a ball of radius 1/2 inside a ball: the volume that both enclose is found twice if both
+ * have outward normals, but not if the inner one is a cavity. */
 static void ball_in_ball(void **state)
 {
     (void)state;
@@ -159,7 +160,7 @@ static void ball_in_ball(void **state)
     }
 }
 
-/* Of faces given twice one is kept; a pair with opposite orientations is removed. */
+/* Checks that of faces given twice one is kept, and that a pair with opposite orientations is removed. */
 static void doubles(void **state)
 {
     (void)state;
@@ -177,7 +178,7 @@ static void doubles(void **state)
     hull_free(&s);
 }
 
-/* In 2D: a square with a square hole. */
+/* Tests a closed surface in 2D, a square with a square hole: distances, inside and outside. */
 static void plane_ring(void **state)
 {
     (void)state;
@@ -202,7 +203,7 @@ static void plane_ring(void **state)
     hull_free(&s);
 }
 
-/* Points and lines have a distance, but no interior. */
+/* Checks that points and lines, as open surfaces, have a distance, but no interior. */
 static void open_ones(void **state)
 {
     (void)state;

@@ -21,9 +21,9 @@ static struct material made(enum space space, real poisson)
     return m;
 }
 
-/* Tension along x with free sides: E and nu in plane stress and 3D, E/(1 - nu^2) and nu/(1 - nu) in plane strain; shear
- * G = E/(2 (1 + nu)); waves from c11 and G; Rayleigh speed for nu = 1/4 in 3D and plane strain: c_R^2/c_s^2 = 2 -
- * 2/sqrt(3). */
+/* Checks the derived elastic constants against closed forms. Tension along x with free sides: E and nu in plane stress
+ * and 3D, E/(1 - nu^2) and nu/(1 - nu) in plane strain; shear G = E/(2 (1 + nu)); waves from c11 and G; Rayleigh speed
+ * for nu = 1/4 in 3D and plane strain: c_R^2/c_s^2 = 2 - 2/sqrt(3). */
 static void elastic_constants(void **state)
 {
     (void)state;
@@ -45,7 +45,8 @@ static void elastic_constants(void **state)
     }
 }
 
-/* E up to the yield stress, E_t beyond; the plastic modulus H is in series with E. */
+/* Checks the stress under uniaxial loading: slope E up to the yield stress, E_t beyond; the plastic modulus H is in
+ * series with E. */
 static void bilinear_curve(void **state)
 {
     (void)state;
@@ -63,15 +64,16 @@ enum { PIECES = 400 };
 #define HORIZON 0.031
 static const real pi = 3.14159265358979323846;
 
-/* Returns the volume of a shell of radius r per radius [m^2]: on a line of the section, in a plane of the thickness, in
- * space. */
+/* Returns the volume of a shell of radius r, divided by its thickness [m^2]: on a line with the cross-section `section`
+ * [m^2], in a plane of the thickness `section` [m], in space. */
 static real shell(int dim, real r, real section)
 {
     return dim == 1 ? 2 * section : dim == 2 ? 2 * pi * r * section : 4 * pi * r * r;
 }
 
-/* The energy per volume of all bonds under uniform expansion s, 1/2 integral of c s^2 r/2 dV, is that of a material
- * with the Poisson's ratio of bonds: E s^2/2, 2 k2 s^2, 9/2 K s^2. */
+/* Checks the micro-moduli of a continuum and of a discrete family by an integral: the energy per volume of all bonds
+ * under uniform expansion s, 1/2 integral of c s^2 r/2 dV, is that of a material with the Poisson's ratio of bonds: E
+ * s^2/2, 2 k2 s^2, 9/2 K s^2. */
 static void micro_modulus(void **state)
 {
     (void)state;
@@ -90,8 +92,9 @@ static void micro_modulus(void **state)
     }
 }
 
-/* The energy of all bonds across a unit area at the critical stretch, an integral over the height z above it and over
- * bonds of length r within acos(z/r), is G_c = integral 1/2 c s^2 r (share of the shell beyond z) dz dV. */
+/* Checks the critical stretch by quadrature: the energy of all bonds across a unit area at the critical stretch, an
+ * integral over the height z above it and over bonds of length r within acos(z/r), is G_c = integral 1/2 c s^2 r (share
+ * of the shell beyond z) dz dV. */
 static void critical_stretch(void **state)
 {
     (void)state;
@@ -112,7 +115,8 @@ static void critical_stretch(void **state)
     }
 }
 
-/* Ordinary state-based: Madenci & Oterkus 2014, sections 6.2 and 6.3, with their numbers. */
+/* Checks the critical stretch of the ordinary state-based model against the examples of Madenci & Oterkus 2014,
+ * sections 6.2 and 6.3. */
 static void critical_stretch_of_states(void **state)
 {
     (void)state;
@@ -124,7 +128,7 @@ static void critical_stretch_of_states(void **state)
                  sqrt(37 / ((3 * G + 0.31640625 * (K - 5 * G / 3)) * HORIZON)), 1e-8);
 }
 
-/* Influence functions at two distances, and a horizon of a half-integer number of spacings. */
+/* Checks the influence functions at two distances, and a horizon of a half-integer number of spacings. */
 static void families(void **state)
 {
     (void)state;

@@ -7,7 +7,7 @@
 
 enum { EVERYTHING = WITH_EVERYTHING };
 
-/* Every array of the struct is in the table exactly once, with its size. */
+/* Checks that every array of struct particles is in the table of fields exactly once, with its size. */
 static void table_covers_the_struct(void **state)
 {
     (void)state;
@@ -33,8 +33,8 @@ static void table_covers_the_struct(void **state)
         }
 }
 
-/* A lattice of 5 x 4 x 3 with round-off, in permuted order, is sorted row by row; the entries of a particle stay
- * together. */
+/* Checks that a lattice of 5 x 4 x 3 particles with round-off, in permuted order, is sorted row by row, and that the
+ * entries of a particle stay together. */
 static void sort_follows_rows(void **state)
 {
     (void)state;
@@ -94,7 +94,8 @@ static void images_are_added_behind(void **state)
     particles_free(&p);
 }
 
-/* The bounding box of particles includes images only on request; particles are recognised on a lattice. */
+/* Checks that the bounding box of particles includes images only on request, and that particles are recognised as being
+ * on a lattice. */
 static void extent_and_sites(void **state)
 {
     (void)state;

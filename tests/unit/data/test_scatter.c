@@ -13,7 +13,8 @@ static int test_scatter_ascending(const void *a, const void *b)
 
 static real normal_below(real g) { return 0.5 * erfc(-g * M_SQRT1_2); }
 
-/* Phi of the quantile is the probability. Tolerance: seven digits of the formula, times the magnitude, at most 8. */
+/* Checks that the distribution function of the quantile returns the probability. Tolerance: seven digits of the
+ * formula, times the magnitude, at most 8. */
 static void test_quantiles(void **state)
 {
     (void)state;
@@ -26,8 +27,8 @@ static void test_quantiles(void **state)
     assert_exact(normal_distribution_quantile(0.5), 0);
 }
 
-/* Returns the largest distance between the distribution of n numbers and F (Kolmogorov): it exceeds 1.63/sqrt(n) in 1 %
- * of samples. */
+/* Sorts value[n] and returns the largest distance between their distribution and F(value, parameter) (Kolmogorov); it
+ * exceeds 1.63/sqrt(n) in 1 % of samples. */
 static real kolmogorov(real *value, int n, real (*F)(real, real), real parameter)
 {
     real most = 0;
@@ -49,8 +50,8 @@ static real weibull_of_square(real s, real m) { return weibull(s * s, m); }
 
 enum { MANY = 20000 };
 
-/* Distant positions, in every dimension, and particles without a length scale: the distribution is the requested one,
- * in every form of the request. */
+/* Checks by Kolmogorov's distance that strength factors at distant positions, in every dimension, and of particles
+ * without a correlation length, have the requested distribution, in every form of the request. */
 static void test_distributions(void **state)
 {
     (void)state;
@@ -73,8 +74,9 @@ static void test_distributions(void **state)
     free(value);
 }
 
-/* Correlation, mean of g(X) g(X + r) over positions and seeds: exp(-(r/length)^2). Tolerance: four standard deviations
- * of about 1/sqrt(n) for n pairs, and 1e-3 for the truncation by the lattice. */
+/* Checks the correlation of the random field, the mean of g(X) g(X + r) over positions and seeds, against
+ * exp(-(r/length)^2). Tolerance: four standard deviations of about 1/sqrt(n) for n pairs, and 1e-3 for the truncation
+ * by the lattice. */
 static void test_correlation(void **state)
 {
     (void)state;
@@ -96,8 +98,8 @@ static void test_correlation(void **state)
     }
 }
 
-/* The weakest of n links has the mean n^(-1/m) (weakest link, Weibull 1951). Tolerance: three standard deviations, the
- * coefficient of variation of about 1.2/m over the root of the number of chains. */
+/* Checks that the mean strength of the weakest of n links is n^(-1/m) (Weibull 1951). Tolerance: three standard
+ * deviations, the coefficient of variation of about 1.2/m divided by the root of the number of chains. */
 static void test_weakest_link(void **state)
 {
     (void)state;
@@ -118,8 +120,8 @@ static void test_weakest_link(void **state)
         }
 }
 
-/* The field depends on the position only: not on distance, order or number of neighbours; it is smooth, equally far
- * from the origin. */
+/* Checks that the random field depends on the position only, not on distance, order or number of neighbours, and that
+ * it is smooth, equally far from the origin. */
 static void test_by_place(void **state)
 {
     (void)state;

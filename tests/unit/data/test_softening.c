@@ -4,8 +4,9 @@
 
 #include "tests/support/near.h"
 
-/* Areas under the curves: 1/2; 5/18 with the kink at 2/9 and 1/3; (1/5 - exp(-5)/(1 - exp(-5))) within the 0.8 % of the
- * strength by which chords are above an exponential. Each begins at 1 and ends at 0. */
+/* Checks the areas under the softening curves against closed forms: 1/2; 5/18 with the kink at 2/9 and 1/3; (1/5 -
+ * exp(-5)/(1 - exp(-5))) within the 0.8 % of the strength by which chords are above an exponential. Each begins at 1
+ * and ends at 0. */
 static void test_curves(void **state)
 {
     (void)state;
@@ -25,7 +26,8 @@ static void test_curves(void **state)
     assert_near(softening_curve_value(&concrete, 2.0 / 9), 1.0 / 3, 1e-15);
 }
 
-/* A bond spends s_c^2/2 in all; linear: s_f = s_c^2/s_0 and D(k) = s_0 s_f (k - s_0)/(2 (s_f - s_0)). */
+/* Checks the energy that a bond dissipates by softening against closed forms: s_c^2/2 in all; for the linear curve s_f
+ * = s_c^2/s_0 and D(k) = s_0 s_f (k - s_0)/(2 (s_f - s_0)). */
 static void test_energy(void **state)
 {
     (void)state;
@@ -44,9 +46,9 @@ static void test_energy(void **state)
     }
 }
 
-/* Peaks of tension with linear softening, as a quadrature over 1440 (plane) and 2000 (space) directions gives them, in
- * steps of strain of 0.01: three digits. Equal biaxial tension: 1/(1 - nu) in the plane at any kappa; shear at kappa =
- * 1: 1/(1 + nu), at 4: 0.864. */
+/* Compares the strengths of families with linear softening with independent quadratures over 1440 (plane) and 2000
+ * (space) directions in steps of strain of 0.01, to three digits. Closed forms for equal biaxial tension: 1/(1 - nu) in
+ * the plane at any kappa; for shear at kappa = 1: 1/(1 + nu), at 4: 0.864. */
 static void test_strength(void **state)
 {
     (void)state;
@@ -64,8 +66,8 @@ static void test_strength(void **state)
     assert_near(softening_curve_normalised_strengths(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
 }
 
-/* The onset gives the strength: E' s_0 tension(s_c^2/s_0^2) = strength. It is beyond the critical stretch where the
- * strength cannot be reached. */
+/* Checks that the onset stretch gives the strength: E' s_0 tension(s_c^2/s_0^2) = strength, and that it is beyond the
+ * critical stretch where the strength cannot be reached. */
 static void test_onset(void **state)
 {
     (void)state;

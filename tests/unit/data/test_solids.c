@@ -84,7 +84,8 @@ static void examples_make(void)
 
 /* ---- checks of one solid ----------------------------------------------------------------------------------------- */
 
-/* Checks the volume by quasi-random points in a box slightly larger than needed. */
+/* Checks that the volume of the solid s is `volume`, by quasi-random points in a box slightly larger than its bounding
+ * box. */
 static void check_volume(const struct solid *s, int dim, real volume)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
@@ -97,7 +98,8 @@ static void check_volume(const struct solid *s, int dim, real volume)
     assert_float_equal(region_volume_within_box(&r, dim, from, to), volume, 2e-3 * box);
 }
 
-/* Checks the bounds: no point of the solid is outside, and it touches each side. */
+/* Checks the bounding box of the solid s: no point of the solid is outside, and the solid touches each side of the
+ * box. */
 static void check_bounds(const struct solid *s, int dim)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
@@ -118,8 +120,9 @@ static void check_bounds(const struct solid *s, int dim)
     }
 }
 
-/* Checks the signed distance: unit normals; sign agrees with the level; no gradient exceeds 1; from outside, a step
- * back along the normal by the distance leads to the surface. The last two conditions define the distance. */
+/* Checks the signed distance of the solid s by the two conditions that define it: no gradient exceeds 1, and from
+ * outside, a step back along the normal by the distance leads to the surface. Also checks that normals are unit vectors
+ * and that the sign agrees with the level. */
 static void check_distance(const struct solid *s, int dim)
 {
     uint64_t seed = 99;
@@ -150,7 +153,7 @@ static void test_every_kind(void **state)
     }
 }
 
-/* A rotated, mirrored and displaced solid changes only its position. */
+/* Checks for every kind of solid that a rotated, mirrored and displaced solid changes only its position. */
 static void test_every_kind_moved(void **state)
 {
     (void)state;
@@ -174,7 +177,7 @@ static void test_every_kind_moved(void **state)
 
 /* ---- copies ------------------------------------------------------------------------------------------------------ */
 
-/* A box rotated by quarter turns about its corner is bitwise equal to the box with exchanged corners. */
+/* Checks that a box rotated by quarter turns about its corner is bitwise equal to the box with exchanged corners. */
 static void test_quarter_turns(void **state)
 {
     (void)state;
@@ -191,7 +194,7 @@ static void test_quarter_turns(void **state)
     }
 }
 
-/* A wheel of 18 teeth is invariant under rotation by one tooth, and has their area. */
+/* Checks that a wheel of 18 teeth is invariant under rotation by one tooth, and has the area of the teeth. */
 static void test_gear(void **state)
 {
     (void)state;
@@ -222,7 +225,7 @@ static void test_gear(void **state)
     memory_free(s[1].image), memory_free(s[1].motion), box_tree_free(&s[1].tree);
 }
 
-/* A grid of holes equals the list of the holes; a mirror image is at its exact position. */
+/* Checks that a grid of holes equals the list of the holes, and that a mirror image is at its exact position. */
 static void test_grid_and_mirror(void **state)
 {
     (void)state;
@@ -257,7 +260,8 @@ static void test_grid_and_mirror(void **state)
 
 /* ---- index ------------------------------------------------------------------------------------------------------- */
 
-/* Evaluates two regions at random positions, also on surfaces: the results are bitwise equal. */
+/* Evaluates the regions a and b at `places` random positions, also on surfaces, and checks that the results are bitwise
+ * equal. */
 static void check_same(const struct region *a, const struct region *b, int dim, int places)
 {
     uint64_t seed = 13;
@@ -286,8 +290,8 @@ static void many_free(struct solid *list)
     }
 }
 
-/* Solids of all kinds, many of them rotated, in sequences that are added, subtracted and intersected: the index does
- * not change results. */
+/* Checks that search trees do not change results, for solids of all kinds, many of them rotated, in sequences that are
+ * added, subtracted and intersected. */
 static void test_index_of_list(void **state)
 {
     (void)state;
@@ -322,7 +326,7 @@ static void test_index_of_list(void **state)
     }
 }
 
-/* Copies equal a list of the copies, one after another; also of an extrusion. */
+/* Checks that a solid with copies equals a list of the copies, one after another; also an extrusion. */
 static void test_index_of_copies(void **state)
 {
     (void)state;
@@ -350,7 +354,8 @@ static void test_index_of_copies(void **state)
     memory_free(plate[1].image), memory_free(plate[1].motion), box_tree_free(&plate[1].tree);
 }
 
-/* An intersection contains what all its solids contain; it is closed; its bounds are those of the smaller one. */
+/* Checks that an intersection contains what all of its solids contain, that it is closed, and that its bounds are those
+ * of the smaller solid. */
 static void test_intersection(void **state)
 {
     (void)state;
@@ -400,8 +405,9 @@ static void test_polygon_faults(void **state)
 
 /* ---- cracks and planes of symmetry ------------------------------------------------------------------------------- */
 
-/* A crack that crosses a plane keeps its inner part and has an image with its corners in reverse order; a crack farther
- * inside than bonds reach has no image; with two planes a corner has three images. */
+/* Checks the mirror images of cracks: a crack that crosses a plane keeps its inner part and has an image with its
+ * corners in reverse order; a crack farther inside than bonds reach has none; with two planes a crack at their corner
+ * has three images. */
 static void test_mirrored_cracks(void **state)
 {
     (void)state;

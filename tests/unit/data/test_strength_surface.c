@@ -4,8 +4,9 @@
 
 #include "tests/support/near.h"
 
-/* Glass, 40 MPa in tension and 1000 MPa in compression, has 44.4 MPa in shear, 27.0 in equal biaxial and 27.8 in
- * hydrostatic tension (Kamarei et al. 2025, table of the suite, three digits). */
+/* Compares strengths of glass, 40 MPa in tension and 1000 MPa in compression, with published values, to three digits:
+ * 44.4 MPa in shear, 27.0 in equal biaxial and 27.8 in hydrostatic tension (Kamarei et al. 2025, table of the
+ * suite). */
 static void test_glass(void **state)
 {
     (void)state;
@@ -15,7 +16,8 @@ static void test_glass(void **state)
     assert_near(strength_surface_strength_along(&glass, (const real[]){1, 1, 1}), 27.8e6, 5e4);
 }
 
-/* Every surface has the strengths that it was made from, and all three ways give one surface. */
+/* Checks that every strength surface has the strengths from which it was made, and that all three ways of making it
+ * give one surface. */
 static void test_back(void **state)
 {
     (void)state;
@@ -38,7 +40,8 @@ static void test_back(void **state)
     assert_close(strength_surface_strength_along(&blunt, (const real[]){1, 1, 1}), 0.6 * tension, 1e-14);
 }
 
-/* The share of a stress tensor is that of its principal values, in plane strain with the stress across the plane. */
+/* Checks that the ratio of a stress tensor to the strength surface is that of its principal values, in plane strain
+ * with the stress across the plane. */
 static void test_share(void **state)
 {
     (void)state;
@@ -55,9 +58,9 @@ static void test_share(void **state)
                  strength_surface_stress_ratio(&m.surface, one, two, 5e6, 0), 1e-13);
 }
 
-/* The least principal strain is that of equal tension: (1 - nu) sigma_bs/E in plane stress, (1 - 2 nu) sigma_hs/E in a
- * solid, (1 + nu)(1 - 2 nu) sigma_bs/E in plane strain. A surface without a dependence on pressure is reached where
- * nothing is stretched. */
+/* Checks the smallest principal strain on the strength surface against closed forms: that of equal tension, (1 - nu)
+ * sigma_bs/E in plane stress, (1 - 2 nu) sigma_hs/E in a solid, (1 + nu)(1 - 2 nu) sigma_bs/E in plane strain; 0 for a
+ * surface without a dependence on pressure, which is reached where nothing is stretched. */
 static void test_least(void **state)
 {
     (void)state;

@@ -9,7 +9,8 @@
 #include "base/team.h"
 #include "data/transfer_order.h"
 
-/* Scatters points over cells -20 .. 20 around node 0, some of them peridynamic. */
+/* Scatters the points of c over the cells -20 .. 20 around node 0 of the grid g in `dim` dimensions; some of them are
+ * peridynamic. */
 static void scatter_points(struct particle_cloud *c, int dim, struct grid *g)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -29,8 +30,9 @@ static void scatter_points(struct particle_cloud *c, int dim, struct grid *g)
     assert_true(changed);
 }
 
-/* Checks that every node that a point of a block reaches belongs to that block only, among blocks of its colour. The
- * widest support is that of the cubic spline: one node below the point's cell, two above its lower corner. */
+/* Checks that every node that a point of a block (a box of cells) reaches belongs to this block only, among the blocks
+ * of colour `colour`, so that threads can process them at once. The widest support is that of the cubic spline: one
+ * node below the point's cell, two above its lower corner. */
 static void check_colour(const struct transfer_order *o, const struct particles *p, const struct grid *g, int colour)
 {
     int32_t *owner = NEW("test.owner", g->n, int32_t);
@@ -50,7 +52,7 @@ static void check_colour(const struct transfer_order *o, const struct particles 
     memory_free(owner);
 }
 
-/* Checks that cells of blocks are consecutive, that the points of a cell are in the same cell and ascending, and that
+/* Checks that the cells of a block are consecutive, that the points of a cell are in this cell and ascending, and that
  * no two cells are equal. */
 static void check_cells(const struct transfer_order *o, const struct particles *p, const struct grid *g)
 {
@@ -102,7 +104,7 @@ static void test_transfer_order(void **state)
     }
 }
 
-/* A growing grid keeps its nodes, and the order of its points. */
+/* Checks that a growing grid keeps its nodes, and the order of its points. */
 static void test_transfer_order_growth(void **state)
 {
     (void)state;
@@ -131,7 +133,7 @@ static void test_transfer_order_growth(void **state)
     }
 }
 
-/* Each thread sorts a part of the list: the result does not depend on the number of threads. */
+/* Checks that the order does not depend on the number of threads, each of which sorts a part of the list. */
 static void test_transfer_order_threads(void **state)
 {
     (void)state;

@@ -28,7 +28,8 @@ static struct solid ball(real radius)
                           .centre = {0.3 * SPACING, -0.7 * SPACING, 0.4 * SPACING}};
 }
 
-/* Returns the voids of body 3 of these solids. */
+/* Returns the voids of body 3 with the shape *r in `dim` dimensions. shape, body: memory for the pointer to the shape
+ * and the number of the body, which the result refers to. */
 static struct voids voids_of(int dim, struct region *r, const struct region **shape, int *body)
 {
     *shape = r, *body = 3;
@@ -40,7 +41,7 @@ static void place_random(uint64_t *seed, int dim, real most, real *X)
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < dim ? cloud_between(seed, -most, most) * SPACING : 0;
 }
 
-/* Returns the least distance of the line from a to b from the centre of a ball. */
+/* Returns the distance of the line from a[dim] to b[dim] from `centre`, the centre of a ball. */
 static real line_distance(const real *a, const real *b, const real *centre, int dim)
 {
     real along = 0, length2 = 0, r2 = 0;
@@ -50,7 +51,8 @@ static real line_distance(const real *a, const real *b, const real *centre, int 
     return sqrt(r2);
 }
 
-/* A round hole blocks a line if the line passes through the hole, except for lines within 1e-6 radii of its edge. */
+/* Checks that a round hole blocks a line if and only if the line passes through the hole, except for lines within 1e-6
+ * radii of its edge. */
 static void round_holes(void **state)
 {
     (void)state;
@@ -85,7 +87,8 @@ static void round_holes(void **state)
         }
 }
 
-/* A slot a thousandth of a spacing wide blocks all lines through it, and none beside it or beyond its end. */
+/* Checks that a slot a thousandth of a spacing wide blocks all lines through it, and none beside it or beyond its
+ * end. */
 static void thin_slot(void **state)
 {
     (void)state;
@@ -113,8 +116,8 @@ static void thin_slot(void **state)
     assert_true(hidden > 100);
 }
 
-/* Boxes in contact block nothing, whether a line crosses their common face or runs in it; nor does a plane of symmetry
- * inside a body. A slot beside the plane blocks lines to its image. */
+/* Checks that boxes in contact block nothing, whether a line crosses their common face or runs in it; nor does a plane
+ * of symmetry inside a body. A slot beside the plane blocks lines to its image. */
 static void joined_and_mirrored(void **state)
 {
     (void)state;
@@ -147,7 +150,7 @@ static void joined_and_mirrored(void **state)
     assert_true(void_separates_points(&v, 3, before, beyond, NULL));
 }
 
-/* Bits of particles on a lattice around a slot agree with all pairs one by one. */
+/* Checks that the marks of particles on a lattice around a slot agree with tests of all pairs one by one. */
 static void bits_of_particles(void **state)
 {
     (void)state;
@@ -193,8 +196,8 @@ static void bits_of_particles(void **state)
 
 /* ---- slits ------------------------------------------------------------------------------------------------------- */
 
-/* Writes a mesh of 4 x 2 squares, or of 4 x 2 x 2 cubes, with edge 2.5. Nodes of the first two columns are doubled at
- * height 2.5: a slit from x = 0 to 5. */
+/* Writes to `text` a mesh of 4 x 2 squares, or in 3D of 4 x 2 x 2 cubes, with edge 2.5. Nodes of the first two columns
+ * are doubled at the height 2.5, which makes a slit from x = 0 to 5. */
 static void slit_file(char *text, int dim)
 {
     const int layers = dim == 3 ? 2 : 0, columns = 5, slit = 3;
@@ -219,8 +222,8 @@ static void slit_file(char *text, int dim)
     sprintf(text + used, "$EndElements\n");
 }
 
-/* Two collinear edges become one segment of length 5; the four squares of the slit in 3D, eight triangles, one
- * rectangle of 5 x 5. */
+/* Checks the cracks made of doubled nodes: two collinear edges become one segment of length 5; in 3D the four squares
+ * of the slit, eight triangles, become one rectangle of 5 x 5. */
 static void slits_of_doubled_nodes(void **state)
 {
     (void)state;

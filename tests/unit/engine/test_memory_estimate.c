@@ -12,7 +12,9 @@
 #include "step/report.h"
 #include "scene/scene_read.h"
 
-/* Checks a scene. Scenes must be in the order of increasing memory, because the process remembers only its maximum. */
+/* Runs a block with the keys `space`, `box` and `particles` and checks that the peak memory of the process is between
+ * half and 1.1 times the estimate, plus 30 MB for program and libraries. *taken: receives this peak [byte]. Scenes must
+ * be run in the order of increasing memory, because the process remembers only its maximum. */
 static void takes_what_it_says(const char *space, const char *box, const char *particles, double *taken)
 {
     char text[1024];

@@ -31,7 +31,8 @@ static void drop(struct run *e, struct scene *s)
     "boundary: [{mirror: {axis: x, at: 0}}]\ninitial: [{velocity_gradient: [400, 0, 0, 400]}]\n"                       \
     "contact: {between: none}\ntime: {step: 2e-8}\noutput: {frames: 0, samples: 1}\n"
 
-/* Returns the least limit of a row's intact bonds; INFINITY if there is none. */
+/* Returns the smallest critical stretch of the intact bonds of row `row` of run e (bonds of one particle); INFINITY if
+ * there is none. */
 static real least_of(const struct run *e, int64_t row)
 {
     const struct particles *p = &e->part;
@@ -42,7 +43,8 @@ static real least_of(const struct run *e, int64_t row)
     return least;
 }
 
-/* Rows of a lattice share storage but are monitored separately: they are reported just below their least limit. */
+/* Checks that rows of a lattice, which share storage, are monitored separately: each is reported just below the
+ * smallest critical stretch of its bonds. */
 static void test_rows_are_watched(void **state)
 {
     (void)state;
@@ -63,7 +65,8 @@ static int64_t broken_in(const struct run *e)
     return broken;
 }
 
-/* Checks after every step the stretch of the shortest broken bond, and that all others are below their limits. */
+/* Runs the scene `text` and checks after every step the stretch of the shortest broken bond, and that all intact bonds
+ * are below their limits. */
 static void check_breaks(const char *text)
 {
     struct run e = {0};
@@ -97,8 +100,8 @@ static void test_weakest_breaks_first(void **state)
     check_breaks(PLATE("pd") "model: ospd\n");
 }
 
-/* Material points convert by their own strength in both frames: exactly those whose stress exceeds their share of E s_c
- * are marked. */
+/* Checks with the frame `frame` that material points convert by their own random strength: exactly those whose stress
+ * exceeds their share of E s_c are marked. */
 static void check_points(const char *frame)
 {
     struct run e = {0};
@@ -126,8 +129,8 @@ static void test_points_convert_by_their_own(void **state)
     check_points("reference");
 }
 
-/* Points convert at alpha times the stress at the critical stretch, of yielding points that of the hardening line. The
- * interface damping applies for the same number of c/h. */
+/* Checks the stress at which points convert: alpha times the stress at the critical stretch; for yielding points that
+ * stress is on the hardening line. The interface damping applies for the same number of c/h. */
 static void test_triggers(void **state)
 {
     (void)state;

@@ -14,7 +14,7 @@
 
 enum { REACH = 3, PERIOD = 2 * REACH + 1 };
 
-/* Points of a plane, and a crack from (0, 0) to (a, b). */
+/* Points X[n] of a plane, and a crack from (0, 0) to (a, b). */
 struct points {
     int n;
     double (*X)[2];
@@ -46,7 +46,7 @@ static uint64_t key_of_point(const struct points *s, int i)
     return key * PERIOD * PERIOD + (uint64_t)((x % PERIOD + PERIOD) % PERIOD * PERIOD + (y % PERIOD + PERIOD) % PERIOD);
 }
 
-/* Lists all particles with a cut bond, by two plain loops. */
+/* Lists all particles of s with a bond that the crack cuts, by two plain loops. */
 static struct touched touched_of(const struct points *s)
 {
     struct touched t = {0};
@@ -86,8 +86,8 @@ static struct points lattice(int edge, double a, double b, double shake)
     return s;
 }
 
-/* Colours the points; fails unless every near pair is cut if and only if the pair of their colours is cut. Returns the
- * number of colours. */
+/* Colours the points of s (particle types of an export) and fails the test unless every pair of near points is cut by
+ * the crack if and only if the pair of their colours is. Returns the number of colours. */
 static int colours_of(const struct points *s)
 {
     struct touched t = touched_of(s);
@@ -123,8 +123,8 @@ static void cracks_on_a_lattice(void **state)
     for (size_t k = 0; k < COUNT_OF(end); k++) assert_true(colours_with(20, end[k][0], end[k][1], 0) > 0);
 }
 
-/* A straight crack with two ends needs 63 types, counted by hand from the regions of the plate in LAMMPS; a longer one
- * no more. */
+/* Checks that a straight crack with two ends needs 63 types, counted by hand from the regions of the plate in LAMMPS,
+ * and a longer one no more. */
 static void length_does_not_count(void **state)
 {
     (void)state;
@@ -140,7 +140,8 @@ static void scattered_particles(void **state)
     for (int k = 0; k < 20; k++) assert_true(colours_with(20, 6.2 - k, 0.7 * k - 5.1, 0.1 + 0.1 * k) > 0);
 }
 
-/* Two particles of one colour, one cut off from a third and one bonded to it: detected. */
+/* Checks that two particles of one colour, one cut off from a third particle and one bonded to it, are detected as a
+ * fault. */
 static void both_kinds_are_found(void **state)
 {
     int32_t particle[] = {0, 1, 2}, near[] = {2, 2, 0, 1}, colour[] = {0, 0, 1}, own[] = {0, 1, 2};

@@ -34,7 +34,7 @@ static status export_to(const char *path, bool overwrite)
     return export_exodus(&r);
 }
 
-/* Returns the length of a dimension by libnetcdf. */
+/* Returns the length of the dimension `name` of the open file `file`, as libnetcdf reads it. */
 static size_t length_of(int file, const char *name)
 {
     int id;
@@ -68,7 +68,7 @@ static void assert_name(int file, const char *name, size_t k, const char *wanted
     assert_string_equal(text, wanted);
 }
 
-/* Blocks by material, positions, volumes and node sets as libnetcdf reads them. */
+/* Checks the file of an exported scene as libnetcdf reads it: blocks by material, positions, volumes and node sets. */
 static void scene_by_netcdf(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void scene_by_netcdf(void **state)
     unlink("a.exo");
 }
 
-/* The file that an export has written is read as a particle list. */
+/* Checks that the file that an export has written is read back as a particle list. */
 static void scene_by_cleave(void **state)
 {
     (void)state;
@@ -136,8 +136,8 @@ static void scene_by_cleave(void **state)
 /* Removes the folder `out` of a run of 4 frames. */
 static void remove_run(void) { assert_int_equal(system("rm -r out"), 0); }
 
-/* The frames of a run as time steps: the driven particle has moved by its speed times the time, the held ones have not;
- * the last frame equals the end of the run. */
+/* Checks the frames of an exported run, as libnetcdf reads them as time steps: the driven particle has moved by its
+ * speed times the time, the held ones have not, and the last frame equals the end of the run. */
 static void run_by_netcdf(void **state)
 {
     (void)state;
@@ -172,7 +172,7 @@ static void run_by_netcdf(void **state)
     remove_run();
 }
 
-/* Files that are no exports stay, exports are replaced on request only. */
+/* Checks that an export does not replace files that are no exports, and exports only on request. */
 static void files_are_kept(void **state)
 {
     (void)state;

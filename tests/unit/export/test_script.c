@@ -31,7 +31,8 @@ static const char glass[] = "material: {young: 192 GPa, density: 8000, critical_
 static bool bonds_wanted;
 static char *bonds_found;
 
-/* Exports a scene and returns in.lammps, to be freed. */
+/* Exports the scene with the text a, b, c to LAMMPS and returns the text of in.lammps, to be freed. bond_style: true to
+ * export bonds as a bond style, false as a pair style. */
 static char *script_of(const char *a, const char *b, const char *c, bool bond_style)
 {
     static const char *const file[] = {"plate.data", "in.lammps", "README.txt", "scene.yaml", "check.csv"};
@@ -51,7 +52,7 @@ static char *script_of(const char *a, const char *b, const char *c, bool bond_st
     return script;
 }
 
-/* Returns the text after the first occurrence of `words` in the script. */
+/* Returns the part of `script` after the first occurrence of `words`. */
 static const char *behind(const char *script, const char *words)
 {
     const char *at = strstr(script, words);
@@ -149,7 +150,8 @@ static real formula_at(const char *script, const char *name, int step, real mass
 
 /* ---- coefficients ------------------------------------------------------------------------------------------------ */
 
-/* Families: in 3D K and G; in 2D 4 (lambda' + G)/9 and 8 G/15, for which the 3D law equals the 2D law. */
+/* Checks the coefficients of state-based pair styles against closed forms: in 3D K and G; in 2D 4 (lambda' + G)/9 and 8
+ * G/15, for which the 3D law of LAMMPS equals the 2D law. */
 static void coefficients(void **state)
 {
     (void)state;
@@ -168,7 +170,7 @@ static void coefficients(void **state)
     }
 }
 
-/* Bonds between two materials have the harmonic mean of both moduli. */
+/* Checks that bonds between two materials are exported with the harmonic mean of both moduli. */
 static void bonds_of_two(void **state)
 {
     (void)state;
@@ -191,7 +193,8 @@ static void bonds_of_two(void **state)
     memory_free(script);
 }
 
-/* Bond types of three materials: the bonds of plate.data between two materials have the stiffness of both. */
+/* Checks the bond types of three materials: the bonds of plate.data between two materials have the stiffness of
+ * both. */
 static void bonds_of_three(void **state)
 {
     (void)state;
@@ -235,8 +238,9 @@ static void bonds_of_three(void **state)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* A traction normal to a face is its stress over the spacing, per volume, with bond styles its force: as the mean of
- * its function over the velocity update, from step - 1/2 to step + 1/2, from 0 in the first step. */
+/* Checks the forces of an exported traction normal to a face: its stress divided by the spacing, per volume, with bond
+ * styles its force. Its function of time is averaged over the velocity update, from step - 1/2 to step + 1/2, from 0 in
+ * the first step. */
 static void forces(void **state)
 {
     (void)state;
@@ -276,8 +280,8 @@ static void forces(void **state)
         }
 }
 
-/* A constant force is a number. The force on driven particles is replaced such that their velocity follows the function
- * of time in the middle of each step. */
+/* Checks that a constant force is exported as a number, and that the force on driven particles is replaced such that
+ * their velocity follows the function of time in the middle of each step. */
 static void drives(void **state)
 {
     (void)state;

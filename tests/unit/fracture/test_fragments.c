@@ -4,7 +4,8 @@
 #include "tests/support/cloud.h"
 #include "tests/support/near.h"
 
-/* Nine columns, every third particle heavier; cuts after the third and the eighth column. */
+/* Checks number, mass, position and velocity of fragments of nine columns of particles, every third particle heavier,
+ * with cuts after the third and the eighth column. */
 static void test_fragments(void **state)
 {
     (void)state;
@@ -51,7 +52,7 @@ static void test_fragments(void **state)
     particle_cloud_free(&c);
 }
 
-/* Particles without bonds are not fragments; their number and mass are reported. */
+/* Checks that particles without bonds are not fragments, and that their number and mass are reported. */
 static void test_alone(void **state)
 {
     (void)state;

@@ -20,8 +20,8 @@ struct stage {
     bool ruled;
 };
 
-/* Creates an irregular plate of 24 x 24 spacings; the crack starts near its middle and runs obliquely, through no
- * particle. */
+/* Creates s, an irregular plate of 24 x 24 spacings with the bond model `model`; its crack starts near the middle and
+ * runs obliquely, through no particle. local: true if state-based families are normalised by their intact bonds. */
 static void stage_lay(struct stage *s, enum pd_model model, bool local)
 {
     memset(s, 0, sizeof *s);
@@ -67,7 +67,7 @@ static int64_t steps(struct stage *s, int from, int n)
     return released;
 }
 
-/* Displaces every particle randomly: strains of a few percent. */
+/* Displaces every particle of s at random, which causes strains of a few percent. */
 static void disturb(struct stage *s)
 {
     uint64_t seed = 5;
@@ -92,7 +92,8 @@ static real side(const real *a, const real *b, const real *x)
     return (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
 }
 
-/* Returns the crack length at which its tip crosses the segment X-Y [m]; NAN if it does not within `most`. */
+/* Returns the length of the crack of rule r at which its tip crosses the segment from X[2] to Y[2] [m]; NAN if it does
+ * not up to the length `most` [m]. */
 static real crossed_at(const struct growth_rule *r, const real *X, const real *Y, real most)
 {
     const real end[2] = {r->at[0] + r->direction[0], r->at[1] + r->direction[1]};
@@ -104,8 +105,9 @@ static real crossed_at(const struct growth_rule *r, const real *X, const real *Y
     return length > 0 && length <= most ? length : NAN;
 }
 
-/* Compares weights after STEPS steps with the law: a bond is released from the end of the step in which it is
- * crossed. */
+/* Compares the weights of the bonds of s after STEPS steps with the law: a bond loses its weight over the length
+ * `damping` with the exponent `exponent`, from the end of the step in which the tip crosses it. *crossed: increased by
+ * the number of bonds that the tip has crossed. */
 static void check_weights(struct stage *s, real damping, real exponent, int64_t *crossed)
 {
     struct stage whole;
@@ -167,8 +169,8 @@ static real energy_of(struct stage *s, enum pd_model model)
     return k.bond_energy(&s->c.bonds, &s->c.p, NULL);
 }
 
-/* Checks that the forces of all bonds add up to zero, also of partially released ones, and that both entries of a bond
- * have equal weights. */
+/* Checks that the forces of all bonds of s add up to zero, also those of partially released bonds, and that both
+ * entries of a bond have equal weights. */
 static void check_forces(const struct stage *s)
 {
     const struct bonds *b = &s->c.bonds;
@@ -195,8 +197,8 @@ static const struct {
     bool local;
 } laws[] = {{PD_BOND, false}, {PD_OSPD, false}, {PD_OSPD, true}, {PD_MOSPD, false}, {PD_MOSPD, true}};
 
-/* Without motion, the energy lost by the bonds equals the recorded energy, after the last half of the last step is
- * included. */
+/* Checks that without motion the energy lost by fading bonds equals the recorded energy, once the last half of the last
+ * step is included. */
 static void test_energy_of_fading(void **state)
 {
     (void)state;
@@ -223,7 +225,7 @@ static void test_energy_of_fading(void **state)
         }
 }
 
-/* The energy balance also holds if bonds exceed their limit and break at once. */
+/* Checks that the energy balance also holds if bonds exceed their limit and break at once. */
 static void test_energy_of_breaking(void **state)
 {
     (void)state;
@@ -264,8 +266,8 @@ static void test_length(void **state)
     stage_free(&s);
 }
 
-/* A SIF-driven crack stays at rest below its toughness and without factors, and turns once per sample, relative to the
- * frame of the sample. */
+/* Checks the growth rule of a SIF-driven crack: it stays at rest below its toughness and without stress-intensity
+ * factors, and turns once per sample, relative to the frame of the sample. */
 static void test_rule(void **state)
 {
     (void)state;
@@ -289,8 +291,8 @@ static void test_rule(void **state)
     stage_free(&s);
 }
 
-/* A step of 0.3 spacings turns the frame of a crack towards its direction by this fraction of the smoothing length, by
- * default a quarter of a horizon; completely if the length is shorter than the step. */
+/* Checks that a step of 0.3 spacings turns the frame of a crack towards its direction by the ratio of the step to the
+ * smoothing length, by default a quarter of a horizon; completely if this length is shorter than the step. */
 static void test_smoothing(void **state)
 {
     (void)state;
@@ -316,8 +318,9 @@ static void test_smoothing(void **state)
 
 #define TOUGHNESS 1e6 /* [Pa m^(1/2)] */
 
-/* Simulates growth until `end` [s] under K = k(v_seen) K_still(t), with v_seen delayed by `delay` [s]: Freund's law for
- * any body, and the delay of a field at a distance. Returns the largest speed. */
+/* Simulates growth until `end` [s] with the stress-intensity factor K = k(v_seen) still(t), where the speed v_seen is
+ * that of the tip `delay` [s] earlier: Freund's law for any body, and the delay of a field at a distance. Returns the
+ * largest speed [m/s]. */
 static real follow(struct stage *s, real (*still)(real t), real delay, real end)
 {
     real seen = 0, fastest = 0;
@@ -355,7 +358,8 @@ static void stage_follow(struct stage *s)
     s->K.medium = crack_medium_of_material(&s->c.material[0], SPACE_PLANE_STRAIN);
 }
 
-/* k(v) = K_Ic/K_still, whether K is delayed by the time that the law assumes, by nothing, or by twice as much. */
+/* Checks that the speed satisfies k(v) = K_Ic/K_still, whether K is delayed by the time that the law assumes, by
+ * nothing, or by twice as much. */
 static void test_follows(void **state)
 {
     (void)state;
@@ -373,8 +377,8 @@ static void test_follows(void **state)
     }
 }
 
-/* The crack stays at rest while K is too small, stops permanently when K becomes too small, never exceeds its largest
- * speed, and starts when K exceeds K_Ic; while K rises as sqrt(t) it lags only by the smoothing. */
+/* Checks that the crack stays at rest while K is too small, stops permanently when K becomes too small, never exceeds
+ * its largest speed, and starts when K exceeds K_Ic; while K rises as sqrt(t) it lags only by the smoothing. */
 static void test_follows_and_rests(void **state)
 {
     (void)state;
@@ -400,7 +404,7 @@ static void test_follows_and_rests(void **state)
     stage_free(&s);
 }
 
-/* Among material points the crack requests conversion near its tip and waits for it. */
+/* Checks that a crack among material points requests conversion near its tip and waits for it. */
 static void test_points(void **state)
 {
     (void)state;

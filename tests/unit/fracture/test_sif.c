@@ -7,8 +7,8 @@
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the largest difference of two states over the largest entry of the second, separately for gradients and
- * stresses. */
+/* Returns the largest difference of the states a and b, divided by the largest entry of b, separately for gradients and
+ * stresses; the larger of both. */
 static real state_difference(const struct crack_state *a, const struct crack_state *b)
 {
     real d[2] = {0}, size[2] = {0};
@@ -21,8 +21,9 @@ static real state_difference(const struct crack_state *a, const struct crack_sta
     return real_max(d[0] / size[0], d[1] / size[1]);
 }
 
-/* Checks that gradients are those of the displacements, that stresses are in equilibrium and leave the faces free, and
- * that sqrt(2 pi r) sigma = 1 ahead of the tip. */
+/* Checks the crack-tip field of mode `mode` at the tip speed v in the medium m by finite differences: gradients are
+ * those of the displacements, stresses are in equilibrium and leave the faces free, and sqrt(2 pi r) sigma = 1 ahead of
+ * the tip. */
 static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mode, real v)
 {
     const real e = 1e-5;
@@ -68,8 +69,8 @@ static void fields_solve_the_equations_of_motion(void **state)
     }
 }
 
-/* The moving field tends to the static one as (v/c_s)^2; at the transition between both formulas the difference is
- * below 2e-4. */
+/* Checks that the moving field tends to the static one as (v/c_s)^2; at the transition between both formulas the
+ * difference is below 2e-4. */
 static void fields_meet_at_low_speed(void **state)
 {
     (void)state;
@@ -124,7 +125,8 @@ static void constants_of_the_medium(void **state)
     assert_close(thin.modulus, 75.629e9, 1e-15);
 }
 
-/* The hoop stress of the static fields is largest in the direction crack_kink_angle_from_sif, where it is K_eq. */
+/* Checks that the hoop stress of the static fields is largest in the direction crack_kink_angle_from_sif, where it is
+ * K_eq. */
 static void direction_is_that_of_the_largest_hoop_stress(void **state)
 {
     (void)state;
@@ -159,9 +161,9 @@ static const real gauss_place[] = {0.04691007703066800, 0.23076534494715845, 0.5
 static const real gauss_weight[] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
                                     0.11846344252809454};
 
-/* Returns the interaction integral I of two motions: Gauss panels in radius; equidistant points around the tip, which
- * converge exponentially because products of two fields are periodic. The disc inside 1e-3 is left out: the domain term
- * vanishes pointwise. */
+/* Returns the interaction integral I of the motions of two modes, `actual` and `auxiliary`, at `tip` over the contour
+ * c: Gauss panels in radius; equidistant points around the tip, which converge exponentially because products of two
+ * fields are periodic. The disc inside 1e-3 is left out: the domain term vanishes pointwise there. */
 static real integral(const struct sif_tip *tip, const struct contour *c, enum crack_mode actual,
                      enum crack_mode auxiliary)
 {
@@ -182,7 +184,8 @@ static real integral(const struct sif_tip *tip, const struct contour *c, enum cr
     return sum;
 }
 
-/* I times half of E* is A_I and A_II, for every weight and contour; the modes are decoupled. */
+/* Checks that I times half of E* is A_I and A_II (Freund's universal functions), for every weight function and contour,
+ * and that the modes are decoupled. */
 static void exact_fields_return_the_universal_functions(void **state)
 {
     (void)state;

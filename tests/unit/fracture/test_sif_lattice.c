@@ -88,8 +88,8 @@ static void gradients_on_irregular_clouds(void **state)
     }
 }
 
-/* A jump across a crack does not affect the gradient; with diffraction, hidden particles count with the distance around
- * the tip. */
+/* Checks that a jump across a crack does not affect the gradient; with diffraction, hidden particles count with the
+ * distance around the tip. */
 static void cracks_hide_particles(void **state)
 {
     (void)state;
@@ -126,7 +126,8 @@ static void cracks_hide_particles(void **state)
     patch_free(&k);
 }
 
-/* Fewer than six particles, or all on two lines: linear fit; a single particle: zero gradient. */
+/* Checks the gradient with too few neighbours: a linear fit with fewer than six particles, or all on two lines; zero
+ * with a single particle. */
 static void gradients_fall_back(void **state)
 {
     (void)state;
@@ -158,7 +159,7 @@ static void gradients_fall_back(void **state)
     }
 }
 
-/* Returns the cubic spline of Belytschko et al. 1994; r: distance over the radius of the support. */
+/* Returns the cubic spline of Belytschko et al. 1994. r: distance divided by the radius of the support [1]. */
 static real spline_weight(real r)
 {
     return r <= 0.5 ? 2.0 / 3 - 4 * r * r + 4 * r * r * r : r < 1 ? 4.0 / 3 * (1 - r) * (1 - r) * (1 - r) : 0;
@@ -292,7 +293,8 @@ static real sif_error(const struct sif *s, const real K[MODES])
     return real_max(fabs(s->K[0] - K[0]), fabs(s->K[1] - K[1])) / hypot(K[0], K[1]);
 }
 
-/* Returns the error of the midpoint sum with exact gradients, which is due to quadrature. */
+/* Returns the error of K by the sum over particles of l with exact gradients of the field of mode `mode`, which is due
+ * to quadrature; outer: outer radius of the contour, twice the inner one, in the unit of positions. */
 static real exact_gradient_error(const struct site_map *l, real outer, enum crack_mode mode)
 {
     const struct contour c = {0.5 * outer, outer};
@@ -311,8 +313,9 @@ static real exact_gradient_error(const struct site_map *l, real outer, enum crac
     return worst;
 }
 
-/* Quadrature error on a lattice: with the cubic weight 0.35 % at 10 spacings and 0.05 % at 20 for a tip midway between
- * four particles, twice as much elsewhere; a tenth of it with the quintic weight. */
+/* Checks the quadrature error on a lattice against measured bounds: with the cubic weight 0.35 % at 10 spacings and
+ * 0.05 % at 20 for a tip midway between four particles, twice as much elsewhere; a tenth of it with the quintic
+ * weight. */
 static void lattice_sums_of_exact_gradients(void **state)
 {
     (void)state;
@@ -335,8 +338,8 @@ static void lattice_sums_of_exact_gradients(void **state)
     }
 }
 
-/* Single and mixed modes, cracks along the lattice and oblique, between rows of particles and along one: errors of K_I
- * and K_II over |K|, and J E* = |K|^2. */
+/* Checks stress-intensity factors from fitted gradients, for single and mixed modes, cracks along the lattice and
+ * oblique, between rows of particles and along one: errors of K_I and K_II divided by |K|, and J E* = |K|^2. */
 static void lattice_sums_of_fitted_gradients(void **state)
 {
     (void)state;
@@ -408,7 +411,8 @@ static void body_forces_leave_the_factors(void **state)
     }
 }
 
-/* Hooke's law for the particles' own stress, passed in the frame of the body. */
+/* Checks that the stress of particles, by Hooke's law in the frame of the body, is rotated to the frame of the
+ * crack. */
 static void particle_stresses_are_turned(void **state)
 {
     (void)state;
@@ -440,8 +444,8 @@ static void particle_stresses_are_turned(void **state)
     site_map_free(&l);
 }
 
-/* A steadily moving crack, with inertia: K is recovered, and J E* = A_I K_I^2 + A_II K_II^2. The core is left out,
- * because gradients of particles there are not those of the field. */
+/* Checks a steadily moving crack, with inertia: K is recovered, and J E* = A_I K_I^2 + A_II K_II^2. The core is left
+ * out, because gradients of particles there are not those of the field. */
 static void lattice_sums_of_a_moving_crack(void **state)
 {
     (void)state;
@@ -464,9 +468,9 @@ static void lattice_sums_of_a_moving_crack(void **state)
     }
 }
 
-/* If the motion is not that of a steady crack, the domain term does not vanish at the edge of the core. It must not
- * change when the tip passes particles: with accelerations of 20 times the steady ones, a sharp edge changes K_I by 1.6
- * %, a smooth one by less than 0.01 %. */
+/* Checks that K does not change when the tip passes particles, if the motion is not that of a steady crack and the
+ * domain term does not vanish at the edge of the core: with accelerations of 20 times the steady ones, a sharp edge
+ * changes K_I by 1.6 %, a smooth one by less than 0.01 %. */
 static void a_core_does_not_see_single_particles(void **state)
 {
     (void)state;

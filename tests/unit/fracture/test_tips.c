@@ -48,7 +48,8 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     notched_free(&b, &t);
 }
 
-/* Growth by one particle per sample for ten samples of 1/500 s, then rest: 500 m/s, from the second sample on. */
+/* Checks the tip speed for growth by one particle per sample for ten samples of 1/500 s, then rest: 500 m/s, from the
+ * second sample on. */
 static void tip_speed_is_the_slope_of_growth(void **state)
 {
     (void)state;
@@ -76,8 +77,8 @@ static void tip_speed_is_the_slope_of_growth(void **state)
     notched_free(&b, &t);
 }
 
-/* A varying growth rate: the steepest window determines the maximum; the mean is between. Slow growth: a particle every
- * second sample. */
+/* Checks tip speeds of varying growth: the steepest time window determines the maximum, the mean is between. Slow
+ * growth is a particle every second sample. */
 static void tip_speed_takes_the_steepest_window(void **state)
 {
     (void)state;
@@ -124,8 +125,8 @@ static void tip_turns(void **state)
     notched_free(&b, &t);
 }
 
-/* Two rows of damaged particles beside a straight crack are one end, positioned between them; branches that start there
- * are two, and so are the tips of both ends of a crack. */
+/* Checks the number of crack ends: two rows of damaged particles beside a straight crack are one end, positioned
+ * between them; branches that start there are two, and so are the tips of both ends of a crack. */
 static void tips_that_tie(void **state)
 {
     (void)state;
@@ -156,8 +157,8 @@ static void tips_that_tie(void **state)
     notched_free(&b, &t);
 }
 
-/* If the mean of a group is not one of its positions, the nearest of them is used; of several groups the last by x is
- * used. */
+/* Checks the representative position of groups: if the mean of a group is not near one of its positions, the nearest
+ * position is used; of several groups the last by x. */
 static void places_of_groups(void **state)
 {
     (void)state;
@@ -184,8 +185,8 @@ static void places_of_groups(void **state)
     assert_int_equal(positions_count_clusters_and_find_centre(place, 0, 2, 1.5, none, middle), 0);
 }
 
-/* The faces of the pre-crack beside its end are part of the crack, not growth; fixed particles and those of other
- * bodies are not part of it. */
+/* Checks what does not count as growth: the faces of the pre-crack beside its end are part of the crack; fixed
+ * particles and those of other bodies are not part of it. */
 static void tip_growth_leaves_out(void **state)
 {
     (void)state;
@@ -212,7 +213,8 @@ static void tip_growth_leaves_out(void **state)
     notched_free(&b, &t);
 }
 
-/* A crack that starts separately becomes part of the one that reaches it; this jump counts as length, not as speed. */
+/* Checks that a crack that starts separately becomes part of the one that reaches it, and that this jump counts as
+ * length, not as speed. */
 static void tip_joins_a_crack_ahead(void **state)
 {
     (void)state;
@@ -247,7 +249,7 @@ static void tip_joins_a_crack_ahead(void **state)
     notched_free(&b, &t);
 }
 
-/* A crack that only joins others after its first spacing has no mean speed. */
+/* Checks that a crack that only joins others after its first spacing has no mean speed. */
 static void tip_that_only_joins(void **state)
 {
     (void)state;
@@ -267,7 +269,7 @@ static void tip_that_only_joins(void **state)
     }
 }
 
-/* In 3D the whole edge inside the body is one front, wherever along it the crack grows. */
+/* Checks that in 3D the whole edge inside the body is one front, wherever along it the crack grows. */
 static void tip_of_a_front(void **state)
 {
     (void)state;
@@ -289,8 +291,8 @@ static void tip_of_a_front(void **state)
     notched_free(&b, &t);
 }
 
-/* Crack area in 2D: both faces of five spacings from a pre-crack; an oblique path; a separate crack, half of whose
- * particles count; in a plane of symmetry half of the area belongs to the body. */
+/* Checks the crack area in 2D: both faces of five spacings from a pre-crack; an oblique path; a separate crack, half of
+ * whose particles count; in a plane of symmetry half of the area belongs to the body. */
 static void tips_area_in_the_plane(void **state)
 {
     (void)state;
@@ -315,7 +317,8 @@ static void tips_area_in_the_plane(void **state)
     notched_free(&b, &t);
 }
 
-/* A front that has grown by 3 spacings on one half of its width and by one on the other. */
+/* Checks the crack area of a front in 3D that has grown by 3 spacings on one half of its width and by one on the
+ * other. */
 static void tips_area_of_a_front(void **state)
 {
     (void)state;

@@ -11,7 +11,8 @@
 
 enum { NODES_MOST = 27 };
 
-/* The map: a shear by squares, which preserves the volume of the reference element. */
+/* Maps the reference position at[3] to X[3] by a shear by squares, which preserves the volume of the reference
+ * element. */
 static void curve_map(const real *at, real *X)
 {
     X[0] = at[0] + 0.3 * at[1] * at[1], X[1] = at[1] + 0.2 * at[2] * at[2], X[2] = at[2];
@@ -45,7 +46,7 @@ static const struct kind {
     {HEX, 8, 0, "C3D27", "12 23 34 14 56 67 78 58 15 26 37 48 12345678 1234 5678 1256 2367 3478 1458", 1},
 };
 
-/* Computes the positions of all nodes of a kind on the reference element; returns their number. */
+/* Computes at[], the positions of all nodes of an element of kind k on the reference element. Returns their number. */
 static int reference_nodes(const struct kind *k, real (*at)[3])
 {
     int n = k->corners;
@@ -81,8 +82,8 @@ static void write_kind(const char *name, const struct kind *k)
     fclose(file);
 }
 
-/* Computes positions on the sides of the reference element, where one coordinate is 0. Returns false if the position is
- * outside the element. */
+/* Computes at[3], the position with the coordinates u, v on side `side` of the reference element of `shape`, where one
+ * coordinate is 0. Returns false if the position is outside the element. */
 static bool on_side(int shape, int side, real u, real v, real *at)
 {
     const real in[3] = {u, v, 0};
@@ -102,7 +103,8 @@ static bool on_side(int shape, int side, real u, real v, real *at)
     }
 }
 
-/* Tolerance 1 mm: a hundredth of the required distance, the accuracy of chords of curves. */
+/* Checks the surface of curved elements of every kind against the exact map. Tolerance 1 mm: a hundredth of the
+ * required distance, the accuracy of chords of curves. */
 static void every_kind_is_curved(void **state)
 {
     (void)state;
@@ -127,8 +129,9 @@ static void every_kind_is_curved(void **state)
     }
 }
 
-/* A quarter ring of four CPS8, 1 m to 2 m, with nodes on circles; the areas between parabolas and circles of 45 degrees
- * are 3.2e-4 r^2 each. A node set of its outer corners is the outer arc, an element set the inner half with its arc. */
+/* Writes to the file `name` a quarter ring of four elements of `type` (CPS8), from 1 m to 2 m, with nodes on circles;
+ * the areas between parabolas and circles of 45 degrees are 3.2e-4 r^2 each. A node set of its outer corners is the
+ * outer arc, an element set the inner half with its arc. */
 static void write_ring(const char *name, const char *type)
 {
     const bool triangles = strcmp(type, "CPS6") == 0;
@@ -182,8 +185,8 @@ static void a_ring_is_round(void **state)
     remove("r.inp");
 }
 
-/* A curved cube of 20 nodes beside a straight one: their faces coincide without a gap, and so do the edges of the plane
- * faces between them. */
+/* Checks that the faces of a curved cube of 20 nodes and of a straight one beside it coincide without a gap, and so do
+ * the edges of the plane faces between them. */
 static void curved_beside_straight(void **state)
 {
     (void)state;
@@ -214,7 +217,7 @@ static void curved_beside_straight(void **state)
     remove("b.inp");
 }
 
-/* Third-order elements: straight ones are read by their corners, curved ones refused. */
+/* Checks that straight third-order elements are read by their corners, and that curved ones are refused. */
 static void third_order(void **state)
 {
     (void)state;
@@ -240,7 +243,7 @@ static void third_order(void **state)
     remove("c.msh");
 }
 
-/* Refused: elements too coarse for the spacing; more nodes than the type has. */
+/* Checks that elements too coarse for the spacing, and those with more nodes than their type has, are refused. */
 static void refused_curves(void **state)
 {
     (void)state;
@@ -268,7 +271,7 @@ static void refused_curves(void **state)
     remove("r.inp");
 }
 
-/* Damaged files are read or refused; none causes a crash. */
+/* Checks that damaged files are read or refused, and that none causes a crash. */
 static void damaged_curves(void **state)
 {
     (void)state;

@@ -58,7 +58,8 @@ static const struct {
 /* Nodes 21 to 27 of the largest hexahedron: its middle, then sides by the numbers above. */
 static const int hex27[] = {0, 5, 6, 4, 2, 1, 3};
 
-/* Writes one element with all its sides as sets. order 2: with nodes amid edges, 3: also amid sides. */
+/* Writes a file with one element of kind k and all of its sides as side sets. order: 1: corner nodes only, 2: also
+ * nodes amid edges, 3: also amid sides. */
 static void write_element(int k, int order)
 {
     real X[27][DIM_MAX] = {{0}};
@@ -81,9 +82,9 @@ static void write_element(int k, int order)
     NC(nc_close(file));
 }
 
-/* Each element has its volume, straight also where it has more nodes, and each of its sides is where its corners are
- * and away from the other corners. Second-order elements with wrongly ordered nodes would be curved, with another
- * volume. */
+/* Checks that each element type has its volume, straight also where it has more nodes, and that each of its sides is
+ * where its corners are and away from the other corners. Second-order elements with wrongly ordered nodes would be
+ * curved, with another volume. */
 static void each_type(void **state)
 {
     (void)state;
@@ -113,9 +114,9 @@ static void each_type(void **state)
     unlink("a.exo");
 }
 
-/* A hexahedron and a wedge beside three tetrahedra, which share two sides with them that are not plane and that they
- * divide by the diagonals farther from the origin. Only the outer surface remains, a box of 20 x 10 x 8, and the middle
- * of a shared side is as deep below it as half of the height. */
+/* Checks the surface of a hexahedron and a wedge beside three tetrahedra, which share two sides with them that are not
+ * plane and that they divide by the diagonals farther from the origin. Only the outer surface remains, a box of 20 x 10
+ * x 8, and the middle of a shared side is as deep below it as half of the height. */
 static void twisted_sides(void **state)
 {
     (void)state;
@@ -136,7 +137,7 @@ static void twisted_sides(void **state)
     unlink("a.exo");
 }
 
-/* A bulge of edges to the outside adds two thirds of its height times its area, as a parabola does. */
+/* Checks that a bulge of edges to the outside adds two thirds of its height times its area, as a parabola does. */
 static void curved_edges(void **state)
 {
     (void)state;
@@ -154,8 +155,9 @@ static void curved_edges(void **state)
     unlink("a.exo");
 }
 
-/* Two squares of 2 x 3 and 4 x 3 as blocks, the second without a name; sides and nodes, one pair of the same name; a
- * bar, which is left out and counts as an element. */
+/* Writes the file `path` in the format `mode` (flags of nc_create) with `dim` coordinates: two squares of 2 x 3 and 4 x
+ * 3 as blocks, the second without a name; side and node sets, one pair of the same name; a bar, which is left out and
+ * counts as an element. */
 static void write_plate(const char *path, int mode, int dim)
 {
     static const real flat[6][2] = {{0, 0}, {2, 0}, {6, 0}, {0, 3}, {2, 3}, {6, 3}};
@@ -179,7 +181,7 @@ static void write_plate(const char *path, int mode, int dim)
     NC(nc_close(file));
 }
 
-/* Returns the distance of a point of the plane, in units of the file, from the set `name` [units of the file]. */
+/* Returns the distance of the point (x, y) of the plane from the set `name` of g, all in units of the file. */
 static real off(const struct geometry *g, const char *name, real x, real y)
 {
     const struct geometry_set *set = geometry_find_named_part(g, name);
@@ -212,7 +214,8 @@ static void blocks_and_sets(void **state)
     unlink("a.exo");
 }
 
-/* Writes a block of spheres with `attributes` numbers each. */
+/* Writes block number `number` of n spheres at the nodes node[n] to `file`, with `attributes` numbers each, from
+ * attribute[n][attributes]. */
 static void put_spheres(int file, int number, int n, const int *node, int attributes, const real *attribute)
 {
     exodus_put_block(file, number, "SPHERE", n, 1, node);
@@ -224,7 +227,8 @@ static void put_spheres(int file, int number, int n, const int *node, int attrib
     exodus_put_reals(file, "attrib", number, 2, dim, attribute);
 }
 
-/* Spheres are a list of particles: the second of two attributes without names is the volume, blocks are materials. */
+/* Checks that spheres are read as a list of particles: of two attributes without names the second is the volume, and
+ * blocks are materials. */
 static void spheres(void **state)
 {
     (void)state;
@@ -274,7 +278,8 @@ static void refused(const char *message)
     assert_refused(geometry_read(&g, "bad.e", 2, 1, NAN), message);
 }
 
-/* Creates a file of one square that lacks its block. */
+/* Creates the file bad.e of one square that lacks its block, and returns its id. side_sets, node_sets: numbers of sets
+ * to follow. */
 static int begin_bad(int side_sets, int node_sets)
 {
     static const real X[4][2] = {{0, 0}, {2, 0}, {2, 3}, {0, 3}};
@@ -333,7 +338,7 @@ static void bad_files(void **state)
     unlink("bad.e");
 }
 
-/* A file that claims more nodes than it can contain is refused before memory is allocated for them. */
+/* Checks that a file that claims more nodes than it can contain is refused before memory is allocated for them. */
 static void claims(void **state)
 {
     (void)state;
@@ -354,15 +359,15 @@ static void claims(void **state)
     unlink("bad.e");
 }
 
-/* Advances a linear congruential sequence (Knuth's MMIX) and returns its upper bits. */
+/* Advances *seed, a linear congruential sequence (Knuth's MMIX), and returns its upper bits. */
 static uint64_t random_next(uint64_t *seed)
 {
     *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
     return *seed >> 33;
 }
 
-/* Damaged files are read as another mesh or refused, in one line. Of netCDF-4 files HDF5 is the reader, whose crashes
- * over damaged files end the program with a line (crash_message.c). */
+/* Checks that damaged files are read as another mesh or refused, in one line. Files in netCDF-4 are read by HDF5, whose
+ * crashes over damaged files end the program with a line (crash_message.c). */
 static void damaged(void **state)
 {
     (void)state;

@@ -20,7 +20,7 @@ static void write_file(const char *name, const void *bytes, size_t n)
 
 static void write_words(const char *name, const char *text) { write_file(name, text, strlen(text)); }
 
-/* Returns the contents of a file, to be freed. */
+/* Returns the contents of the file `name`, to be freed. *length: receives their length. */
 static char *file_text(const char *name, size_t *length)
 {
     FILE *file = fopen(name, "rb");
@@ -155,7 +155,7 @@ static void check_msh2(const char *name)
     geometry_free(&g);
 }
 
-/* Writes format 2.2 with binary numbers; counts are text. */
+/* Writes the file `name` in Gmsh's format 2.2 with binary numbers; counts are text. */
 static void write_msh2_bytes(const char *name)
 {
     static const real at[12][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0},
@@ -190,7 +190,7 @@ static void check_msh4(const char *name)
     geometry_free(&g);
 }
 
-/* Writes sizes as 8-byte integers; tags and types have 4 bytes. */
+/* Writes value[n] to `file` as 8-byte integers. */
 static void write_sizes(FILE *file, int n, const int64_t *value) { fwrite(value, 8, (size_t)n, file); }
 static void write_ints(FILE *file, int n, const int32_t *value) { fwrite(value, 4, (size_t)n, file); }
 static void write_reals(FILE *file, int n, const real *value) { fwrite(value, 8, (size_t)n, file); }
@@ -235,7 +235,7 @@ static void gmsh_of_both_versions(void **state)
     check_msh4("d.msh");
 }
 
-/* Writes a mesh with `what` in place of `from`. */
+/* Writes to the file `name` the mesh `text` with `what` in place of `from`. */
 static void write_changed(const char *name, const char *text, const char *from, const char *what)
 {
     char changed[4096];
@@ -245,7 +245,7 @@ static void write_changed(const char *name, const char *text, const char *from, 
     write_words(name, changed);
 }
 
-/* A curve and a surface with the same tag belong to their own groups. */
+/* Checks that a curve and a surface with the same tag belong to their own groups. */
 static void gmsh_tags_by_dimension(void **state)
 {
     size_t length;
@@ -258,7 +258,7 @@ static void gmsh_tags_by_dimension(void **state)
     remove("e.msh");
 }
 
-/* The sign of a group in the list of an entity is its orientation; names of one tag differ by dimension. */
+/* Checks that the sign of an entity's group is read as its orientation, and names of a tag differ by dimension. */
 static void gmsh_groups_of_entities(void **state)
 {
     size_t length;
@@ -352,7 +352,7 @@ static void abaqus_decks(void **state)
     geometry_free(&g);
 }
 
-/* Squares in a row, with sets given by first, last and step, where the step may not reach the last. */
+/* Checks sets of squares in a row that are given by first, last and step, where the step may not reach the last. */
 static void abaqus_generates(void **state)
 {
     (void)state;
@@ -383,8 +383,8 @@ static void abaqus_generates(void **state)
     geometry_free(&g);
 }
 
-/* Each kind of solid element, and one with reversed corners: volume, and distance from a position outside and one
- * inside. */
+/* Checks volume and distances (from a position outside and one inside) of each kind of solid element, and of one with
+ * reversed corners. */
 static void abaqus_solids(void **state)
 {
     (void)state;
@@ -452,7 +452,7 @@ static uint64_t random_next(uint64_t *seed)
     return *seed >> 33;
 }
 
-/* Bytes changed, truncated, doubled: every file is read or refused. */
+/* Checks that every file with bytes changed, removed or doubled is read or refused. */
 static void damaged(void **state)
 {
     (void)state;
@@ -488,7 +488,7 @@ static void damaged(void **state)
     }
 }
 
-/* Folder for the files of the tests. */
+/* Folder for the files of these tests. */
 static char folder[] = "/tmp/cleave_geometry_XXXXXX";
 static int enter_folder(void **state)
 {

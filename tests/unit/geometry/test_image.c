@@ -14,11 +14,12 @@
 
 enum { WIDE = 7, HIGH = 5, MOST = 1 << 16 };
 
-/* Returns the grey value of a pixel; row 0 is at the top. */
+/* Returns the grey value of the pixel in row `row` (0 at the top) and column `column` of page `page` of the test
+ * images. */
 static int value_at(int row, int column, int page) { return (37 * row + 11 * column + 50 * page + 3) % 256; }
 
-/* Writes a PNG. kind: colour type; bits: 1, 8 or 16. Colours have three equal values, palettes the value as an
- * entry. */
+/* Writes the PNG file `name`. kind: colour type; bits: 1, 8 or 16 per sample. Colours have three equal values, palettes
+ * the value as an entry. */
 static void write_png(const char *name, int kind, int bits)
 {
     FILE *file = fopen(name, "wb");
@@ -52,7 +53,8 @@ static void write_png(const char *name, int kind, int bits)
     fclose(file);
 }
 
-/* Writes a TIFF. white: grey values count from white. */
+/* Writes the TIFF file `name` of `pages` pages. bits, samples: bits per sample, samples per pixel; compression: as in
+ * libtiff; white: true if grey values count from white. */
 static void write_tiff(const char *name, int pages, int bits, int samples, int compression, bool white)
 {
     TIFF *tiff = TIFFOpen(name, "w");
@@ -138,7 +140,8 @@ struct layout {
     bool tiled, white;
 };
 
-/* Returns a sample. Transparency of 3/8, associated or not, does not affect the value. */
+/* Returns sample c of the pixel in row j and column i of a file with the layout a. Transparency of 3/8, associated or
+ * not, does not affect the value. */
 static int sample_at(const struct layout *a, int j, int i, int c)
 {
     const bool right = a->orientation == ORIENTATION_TOPRIGHT || a->orientation == ORIENTATION_BOTRIGHT;
@@ -150,8 +153,8 @@ static int sample_at(const struct layout *a, int j, int i, int c)
     return a->samples % 2 == 0 && c == a->samples - 1 ? most * 3 / 8 : a->white ? most - value : value;
 }
 
-/* Fills a row of a tile of 16 x 16, or of the image. plane: index of the sample; -1: all samples of a pixel
- * together. */
+/* Fills row[] with row j of a tile of 16 x 16, or of the image, `wide` pixels wide, in the layout a. plane: index of
+ * the sample; -1: all samples of a pixel together. */
 static void fill_row(const struct layout *a, uint8_t *row, int j, int wide, int plane)
 {
     const int n = plane < 0 ? a->samples : 1;
@@ -199,7 +202,7 @@ static void write_layout(const char *name, const struct layout *a)
     TIFFClose(tiff);
 }
 
-/* Bits, transparency, colours, planes, tiles and order of rows do not affect a value. */
+/* Checks that bits, transparency, colours, planes, tiles and order of rows do not affect a value. */
 static void layouts_of_tiff(void **state)
 {
     (void)state;
@@ -216,7 +219,7 @@ static void layouts_of_tiff(void **state)
     }
 }
 
-/* Refused: signed and floating-point samples, other numbers of bits, columns in place of rows. */
+/* Checks that signed and floating-point samples, other numbers of bits, and columns in place of rows are refused. */
 static void samples_refused(void **state)
 {
     (void)state;
@@ -244,7 +247,7 @@ static void samples_refused(void **state)
     }
 }
 
-/* Slices from several files, PNG and TIFF mixed; in 2D there is only one. */
+/* Checks slices from several files, PNG and TIFF mixed; in 2D there is only one slice. */
 static void a_stack_of_files(void **state)
 {
     (void)state;
@@ -294,7 +297,8 @@ static void bad_images(void **state)
     refused(bytes, n, "not a complete PNG: ");
 }
 
-/* Distances of centres from the nearest voxel of the other kind, compared with all pairs; and the sign at positions. */
+/* Compares the distances of voxel centres from the nearest voxel of the other kind with tests of all pairs, and checks
+ * the sign at positions. */
 static void distances(void **state)
 {
     (void)state;
@@ -368,7 +372,7 @@ static int leave_folder(void **state)
     return chdir("/") != 0 || rmdir(folder) != 0;
 }
 
-/* Rec. 709: green has the largest weight, blue the smallest. */
+/* Checks the grey values of colours by Rec. 709: green has the largest weight, blue the smallest. */
 static void colours_have_a_luminance(void **state)
 {
     (void)state;

@@ -18,7 +18,8 @@ static const char msh4[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0
                            "$Elements\n2 2 1 2\n2 9 2 1\n1 1 2 3\n2 9 2 1\n2 1 3 4\n$EndElements\n";
 static const char inp[] = "*Node\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*Element, type=CPS3\n1, 1, 2, 3\n2, 1, 3, 4\n";
 
-/* Writes `text` with `to` in place of `from` to a file, reads it in the plane into *g and returns the status. */
+/* Writes `text` with `to` in place of `from` to the file `name`, reads the file in the plane into *g and returns the
+ * status. */
 static status read_changed(struct geometry *g, const char *name, const char *text, const char *from, const char *to)
 {
     const char *at = strstr(text, from);
@@ -90,7 +91,7 @@ static void nodes_of_elements(void **state)
     geometry_free(&g);
 }
 
-/* Folder for the files of the tests. */
+/* Folder for the files of these tests; a pattern of mkdtemp. */
 static char folder[] = "/tmp/cleave_counts_XXXXXX";
 static int enter_folder(void **state)
 {

@@ -40,7 +40,8 @@ static real energy_now(struct run *e)
     return e->kernels.bond_energy(&e->bonds, &e->part, NULL);
 }
 
-/* Compresses lengths along x to `share`, and displaces each particle by up to 0.05 spacings. */
+/* Compresses the body of run e along x to `share` times its length, and displaces each particle by up to 0.05
+ * spacings. */
 static void squeeze(struct run *e, real share)
 {
     struct particles *p = &e->part;
@@ -49,8 +50,9 @@ static void squeeze(struct run *e, real share)
             p->x[d][i] = (d == 0 ? share : 1) * p->X[d][i] + 0.05 * sin(12.9 * (double)i + 78.2 * d);
 }
 
-/* Checks forces by a central difference over 1e-5 of a spacing. Tolerance: the second derivative, 3 K, jumps where the
- * repulsion begins, 1e-5 K. */
+/* Checks the forces of the model `model` with repulsive cores (stiffening of strongly compressed bonds) against the
+ * energy gradient by a central difference over 1e-5 of a spacing. Tolerance: the second derivative, 3 K, jumps where
+ * the repulsion begins, 1e-5 K. */
 static void check_gradient(const char *model)
 {
     struct scene s;
@@ -83,8 +85,8 @@ static void forces_are_the_gradient(void **state)
     check_gradient("mospd");
 }
 
-/* A chain of nearest neighbours at l times its length: energy 1/2 E A/D (1 - l)^2 per bond, plus 3/2 E A/D (0.7 - l)^2
- * below 0.7, to round-off. */
+/* Checks a chain of nearest neighbours at l times its length against the closed form: energy 1/2 E A/D (1 - l)^2 per
+ * bond, plus 3/2 E A/D (0.7 - l)^2 below 0.7, to round-off. */
 static void chain_has_the_closed_form(void **state)
 {
     (void)state;

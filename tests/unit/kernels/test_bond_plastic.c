@@ -11,7 +11,7 @@
 
 /* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the force of a single bond of two particles at stretch s, over stiffness and weight. */
+/* Returns the force of the single bond of two particles c at the stretch s, divided by stiffness and weight. */
 static real pulled(struct particle_cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
@@ -29,9 +29,10 @@ static void pair_make(struct particle_cloud *c)
     assert_int_equal(c->bonds.columns, 1);
 }
 
-/* Loading to 3 s_y, unloading through 0 to reverse yield, further to -4 s_y, reloading to yield: corners and
- * intermediate positions of the bilinear law with isotropic hardening, with slope E_t/E = H/(1 + H) during yielding.
- * Tolerance 1e-12 of the yield force: stretches of 1e-4 are differences of lengths with round-off 1e-16. */
+/* Checks the force of a yielding bond along a path against the bilinear law with isotropic hardening: loading to 3 s_y,
+ * unloading through 0 to reverse yield, further to -4 s_y, reloading to yield; corners and intermediate positions, with
+ * the slope E_t/E = H/(1 + H) during yielding. Tolerance 1e-12 of the yield force: stretches of 1e-4 are differences of
+ * lengths with round-off 1e-16. */
 static void test_path(void **state)
 {
     (void)state;
@@ -66,9 +67,9 @@ static void test_path(void **state)
     particle_cloud_free(&c);
 }
 
-/* The work done on a bond along this path equals elastic energy plus plastic work. Trapezoidal rule with 40,000 steps:
- * exact for a piecewise linear force; at three corners an error of half the squared step times the change of slope:
- * 1e-9. */
+/* Checks that the work done on a bond along this path equals elastic energy plus plastic work. Trapezoidal rule with
+ * 40,000 steps: exact for a piecewise linear force; at three corners an error of half the squared step times the change
+ * of slope: 1e-9. */
 static void test_work(void **state)
 {
     (void)state;
@@ -90,8 +91,8 @@ static void test_work(void **state)
     particle_cloud_free(&c);
 }
 
-/* A bond that breaks keeps its plastic work in the balance, once: path (s_y + H path/2) times its stiffness and
- * length. */
+/* Checks that a bond that breaks keeps its plastic work in the balance, once: path (s_y + H path/2) times its stiffness
+ * and length. */
 static void test_broken(void **state)
 {
     (void)state;
@@ -142,7 +143,8 @@ static void shake(struct particle_cloud *c, uint64_t *seed)
             c->p.x[d][i] = c->p.X[d][i] + cloud_between(seed, -3e-3, 3e-3) * CLOUD_SPACING;
 }
 
-/* Computes the force on row r from the scalar bonds [N]. */
+/* Computes force[dim], the force on the particle of row r of c by bonds computed one by one with the states of `twin`
+ * [N]. */
 static void twin_row(const struct particle_cloud *c, struct twin *twin, int64_t r, real *force)
 {
     const struct bonds *b = &c->bonds;
@@ -163,7 +165,8 @@ static void twin_row(const struct particle_cloud *c, struct twin *twin, int64_t 
     }
 }
 
-/* Tolerance 1e-11: lengths have round-off 1e-16, stretches of 1e-3 a relative one of 1e-13; ten bonds and twelve
+/* Compares the forces of yielding bonds on irregular bodies with bonds computed one by one, over twelve steps.
+ * Tolerance 1e-11: lengths have round-off 1e-16, stretches of 1e-3 a relative one of 1e-13; ten bonds and twelve
  * steps. */
 static void test_lanes(void **state)
 {
@@ -190,7 +193,7 @@ static void test_lanes(void **state)
     }
 }
 
-/* Both entries of a bond have bitwise equal states, which momentum conservation requires. */
+/* Checks that both entries of a bond have bitwise equal states, which momentum conservation requires. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -221,7 +224,8 @@ static void test_ends(void **state)
 
 /* ---- initialisation from material points ------------------------------------------------------------------------- */
 
-/* Points of a bar that have yielded under uniform stretch become peridynamic: every bond then carries their stress. */
+/* Checks points of a bar that have yielded under uniform stretch and become peridynamic: every bond then carries their
+ * stress. */
 static void test_taken_over(void **state)
 {
     (void)state;
@@ -252,9 +256,9 @@ static void test_taken_over(void **state)
     particle_cloud_free(&c);
 }
 
-/* In 2D, points with different stresses and plastic strains: the plastic stretch of a bond is its stretch minus the
- * mean of both elastic strains along it, by Hooke's law of plane stress; its path is the mean of both plastic
- * strains. */
+/* Checks in 2D the plastic state of bonds between converted points with different stresses and plastic strains: the
+ * plastic stretch of a bond is its stretch minus the mean of both elastic strains along it, by Hooke's law of plane
+ * stress; its path is the mean of both plastic strains. */
 static void test_taken_over_in_the_plane(void **state)
 {
     (void)state;

@@ -14,7 +14,8 @@
 static const struct strength_rate table = {
     .points = 2, .rate = {1, 1000}, .factor = {1, 1.4}, .onset = {1, 1.5}}; /* onsets as if computed */
 
-/* Between points the value is linear in the logarithm of the rate, beyond them it is constant. */
+/* Checks the interpolation in a table of strain rates: linear in the logarithm of the rate between points, constant
+ * beyond. */
 static void test_table(void **state)
 {
     (void)state;
@@ -26,8 +27,9 @@ static void test_table(void **state)
     assert_exact(strength_rate_interpolate_table(&table, table.factor, 1e9), 1.4);
 }
 
-/* At the onsets of the table the peak of uniform tension is the strength times the factor: E s_0 phi(kappa), phi by the
- * quadrature that test_softening.c compares with the sheet. kappa falls below 1 where the strength is too large. */
+/* Checks that at the onsets of the rate table the peak of uniform tension is the strength times the factor: E s_0
+ * phi(kappa), with phi by the quadrature that test_softening.c compares with its reference. kappa falls below 1 where
+ * the strength is too large. */
 static void test_onsets(void **state)
 {
     (void)state;
@@ -62,7 +64,8 @@ static void body_make(struct soft_body *s, enum space space, const struct streng
 
 #define GROWTH (0.004 * ONSET) /* of the strain in a step */
 
-/* Makes a step in which a body is strained along x by `strain`, and by -0.2 of it across, at the rate `rate` [1/s]. */
+/* Makes a step in which the body s is strained along x to `strain`, and across to -0.2 times that, at the rate `rate`
+ * [1/s]. */
 static void pull(struct soft_body *s, real strain, real rate)
 {
     struct particles *p = &s->c.p;
@@ -71,9 +74,9 @@ static void pull(struct soft_body *s, real strain, real rate)
     bond_forces(bond_force_table[p->dim][PD_BOND_SOFT], &s->c.bonds, p, &s->c.source.limit, NULL);
 }
 
-/* Bonds along x begin in the first step in which their stretch is beyond the onset at the rate, by the table: one step
- * after the first beyond the slow one at the earliest. Tolerances: two steps, and the rate within a step of 125. A bond
- * whose energy does not allow the onset begins at kappa = 1.2. */
+/* Checks that bonds along x begin to soften in the first step in which their stretch is beyond the onset at the rate,
+ * by the table: one step after the first beyond the slow onset at the earliest. Tolerances: two steps, and the rate
+ * within a step of 125. A bond whose energy does not allow the onset begins at kappa = 1.2. */
 static void test_begin(void **state)
 {
     (void)state;
@@ -93,8 +96,9 @@ static void test_begin(void **state)
     }
 }
 
-/* The rate is the mean between half the slow onset and the onset, here of 100 and 400 1/s for half of the way each, 160
- * 1/s; a later rate does not change it, rows that are made again keep it, and it is forgotten below half the onset. */
+/* Checks the measured rate: the mean between half the slow onset and the onset, here 160 1/s for 100 and 400 1/s on
+ * half of the way each. A later rate does not change it, rows that are rebuilt keep it, and it is forgotten below half
+ * the onset. */
 static void test_rate(void **state)
 {
     (void)state;

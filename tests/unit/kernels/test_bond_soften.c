@@ -13,7 +13,7 @@
 #define ONSET 1e-3
 #define CRITICAL 2e-3 /* kappa = 4 */
 
-/* One step: bonds begin to soften, forces. Returns the number of bonds broken. */
+/* Makes one step of s: starts the softening of bonds and computes forces. Returns the number of bonds broken. */
 static int64_t soft_forces(struct soft_body *s)
 {
     struct particle_cloud *c = &s->c;
@@ -30,8 +30,8 @@ static void pair_make(struct soft_body *s, enum softening law)
     soft_bonds(s, law, ONSET, CRITICAL);
 }
 
-/* Returns the force of a single bond of two particles at stretch s, over stiffness and weight, after two steps there:
- * a bond begins one step after it has passed its onset. */
+/* Returns the force of the single bond of s at the stretch `stretch`, divided by stiffness and weight, after two steps
+ * there: a bond begins to soften one step after it has passed its onset. */
 static real pulled(struct soft_body *s, real stretch)
 {
     struct particles *p = &s->c.p;
@@ -41,8 +41,9 @@ static real pulled(struct soft_body *s, real stretch)
     return p->f[0][0] / s->c.bonds.stiffness;
 }
 
-/* Returns the force at the largest stretch k by the formulas of the sheet: s_f = s_c^2/s_0; concrete with its kink at
- * (s_0 + 2X/9, s_0/3), X = 9/5 (s_c^2 - s_0^2)/s_0; exponential with 0.8 % for the chords. */
+/* Returns the force of a bond with the softening law `law` at its largest stretch k by independent formulas: s_f =
+ * s_c^2/s_0; concrete with its kink at (s_0 + 2X/9, s_0/3), X = 9/5 (s_c^2 - s_0^2)/s_0; exponential with 0.8 % for the
+ * chords. */
 static real envelope(enum softening law, real k)
 {
     const real decay = 5, reach = (square(CRITICAL) - square(ONSET)) / (2 * ONSET);
@@ -52,9 +53,9 @@ static real envelope(enum softening law, real k)
     return x < 1 ? ONSET * (exp(-decay * x) - exp(-decay)) / (1 - exp(-decay)) : 0;
 }
 
-/* Loading in cycles: elastic up to s_0; then along the envelope, and between along the secant to the origin, slope
- * (1 - d) c; whole stiffness in compression. Tolerance: largest stretches are stored as floats (6e-8); chords deviate
- * from the exponential curve by 0.7 % of its height, and their area by less. */
+/* Checks the force of a bond under cycles of loading: elastic up to s_0; then along the envelope, and between along the
+ * secant to the origin, slope (1 - d) c; whole stiffness in compression. Tolerance: largest stretches are stored as
+ * floats (6e-8); chords deviate from the exponential curve by 0.7 % of its height, and their area by less. */
 static void test_cycles(void **state)
 {
     (void)state;
@@ -77,9 +78,9 @@ static void test_cycles(void **state)
     }
 }
 
-/* The work done along a path with two unloadings equals elastic energy plus what has been dissipated, which only grows;
- * over the whole path up to the end it is s_c^2/2 over stiffness and length, as of a brittle bond. Trapezoids of 2e-4
- * of a path, whose corners and curvature leave 1e-6. */
+/* Checks that the work done along a path with two unloadings equals elastic energy plus dissipated energy, which only
+ * grows, and that over the whole path to the end it is s_c^2/2, divided by stiffness and length, as of a brittle bond.
+ * Trapezoids of 2e-4 of the path, whose corners and curvature leave 1e-6. */
 static void test_work(void **state)
 {
     (void)state;
@@ -113,9 +114,9 @@ static void test_work(void **state)
     }
 }
 
-/* A bond that goes from the stretch s_0 below its onset beyond its end to s_1 in one step breaks without a last force.
- * It loses its energy c s_0^2/2 and the work of the mean force c s_0/2 on s_1 - s_0, together c s_0 s_1/2 per length.
- */
+/* Checks a bond that goes in one step from the stretch s_0, below its onset, beyond its end to s_1: it breaks without a
+ * last force. It loses its energy c s_0^2/2 and the work of the mean force c s_0/2 on s_1 - s_0, together c s_0 s_1/2
+ * per length. */
 static void test_at_once(void **state)
 {
     (void)state;
@@ -146,7 +147,8 @@ static void body_make(struct soft_body *s, enum space space, enum softening law,
     bonds_make(&s->c.bonds, NULL, &s->c.p, &s->c.source);
 }
 
-/* Moves particles at random, with stretches up to 3 s_0 and, in the end, beyond s_f. */
+/* Moves the particles of c at random by up to `size`, which gives stretches up to 3 s_0 and, in the end, beyond s_f.
+ * seed: state of the random numbers. */
 static void shake(struct particle_cloud *c, uint64_t *seed, real size)
 {
     for (int64_t i = 0; i < c->p.n; i++)
@@ -154,8 +156,8 @@ static void shake(struct particle_cloud *c, uint64_t *seed, real size)
             c->p.x[d][i] = c->p.X[d][i] + cloud_between(seed, -size, size) * CLOUD_SPACING;
 }
 
-/* Forces, energy and dissipation of irregular bodies of two materials under random motion equal those of the plain
- * implementation. Tolerance of forces 1e-6 of the onset: states are floats. */
+/* Compares forces, energy and dissipation of irregular bodies of two materials under random motion with the plain
+ * implementation (support/soften_reference.h). Tolerance of forces 1e-6 of the onset: states are floats. */
 static void test_lanes(void **state)
 {
     (void)state;
@@ -199,8 +201,8 @@ static void test_lanes(void **state)
     }
 }
 
-/* Both entries of a bond have bitwise equal states, which momentum conservation requires; rows that are made again keep
- * them. */
+/* Checks that both entries of a bond have bitwise equal states, which momentum conservation requires, and that rows
+ * that are rebuilt keep them. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -239,8 +241,9 @@ static void test_ends(void **state)
 
 #define SMALL 1e-5 /* onset, so that the sum is linear in it */
 
-/* Returns the stress of a full family on a lattice under the strains `axial` (along x) and `lateral`, and in *across
- * the lateral stress, from a sum over its vectors: sigma = 1/2 c sum V f(s) r n n, f by linear softening. */
+/* Returns the stress of a full family f on a lattice under the strains `axial` (along x) and `lateral`, and in *across
+ * the lateral stress, from a sum over its vectors: sigma = 1/2 c sum V f(s) r n n, with f by linear softening. c:
+ * micro-modulus. */
 static real lattice_stress(const struct family *f, real c, real axial, real lateral, real *across)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);
@@ -260,10 +263,10 @@ static real lattice_stress(const struct family *f, real c, real axial, real late
     return sum;
 }
 
-/* Uniaxial tension of a block in small steps, with the lateral strain at which the lattice sum has no lateral stress:
- * the stress of its middle particle equals the sum within 1e-3, and so does its peak, which is E s_0 phi within the
- * anisotropy of a lattice, 5 %: phi(4) = 1.096 in the plane, 1.281 in space (quadrature over directions, the sheet's
- * table). */
+/* Compares the stress of the middle particle of a block in uniaxial tension, in small steps and with the lateral strain
+ * at which the lattice sum has no lateral stress, with this sum, within 1e-3; and its peak with E s_0 phi within the
+ * anisotropy of a lattice, 5 %: phi(4) = 1.096 in the plane, 1.281 in space (independent quadrature over
+ * directions). */
 static void test_family(void **state)
 {
     (void)state;
@@ -303,9 +306,9 @@ static void test_family(void **state)
 
 /* ---- a line torn apart ------------------------------------------------------------------------------------------- */
 
-/* Two halves of a line move apart by w: the bonds across bear E s_0 (1 - w/w_c)^2, w_c = s_f delta, where kappa is
- * large (sheet, section 2). With n bonds of length n spacings the sum differs from the integral by 1/m for a horizon of
- * m spacings: m = 60. */
+/* Checks the force across a line whose halves move apart by w against the closed form E s_0 (1 - w/w_c)^2, w_c = s_f
+ * delta, for large kappa. With n bonds of length n spacings the sum differs from the integral by 1/m for a horizon of m
+ * spacings: m = 60. */
 static void test_line(void **state)
 {
     (void)state;
@@ -330,8 +333,8 @@ static void test_line(void **state)
 
 /* ---- compression ------------------------------------------------------------------------------------------------- */
 
-/* Uniaxial compression to five times the strength stretches lateral bonds beyond their onset, but nothing pulls at
- * them: no bond softens. Equal stretches without the pressure do soften them. */
+/* Checks that no bond softens under uniaxial compression to five times the strength, which stretches lateral bonds
+ * beyond their onset, but without tension across them; equal stretches without the pressure do soften them. */
 static void test_compression(void **state)
 {
     (void)state;

@@ -19,8 +19,8 @@ struct surface_body {
     struct crack crack;
 };
 
-/* Creates a body with random positions within `shake` spacings, and its bonds. means: over families. A crack cuts it
- * beyond its first third if `cracked`. */
+/* Creates the body s with random positions within `shake` spacings of the lattice, and its bonds. means: number of
+ * times that strains are averaged over families; cracked: true to cut it beyond its first third by a crack. */
 static void body_make(struct surface_body *s, enum space space, real shake, int means, bool cracked)
 {
     memset(s, 0, sizeof *s);
@@ -55,7 +55,7 @@ static void soft_forces(struct surface_body *s)
     bond_forces(bond_force_table[c->p.dim][PD_BOND_SOFT], &c->bonds, &c->p, &c->source.limit, NULL);
 }
 
-/* Sets x = Q (1 + strain) X with the rotation Q by `turn` in the plane xy [rad]. */
+/* Sets the positions of s to x = Q (1 + strain) X with the rotation Q by `turn` in the plane xy [rad]. */
 static void strain_and_turn(struct surface_body *s, const real strain[DIM_MAX][DIM_MAX], real turn)
 {
     struct particles *p = &s->c.p;
@@ -66,9 +66,9 @@ static void strain_and_turn(struct surface_body *s, const real strain[DIM_MAX][D
     }
 }
 
-/* The share of a uniform strain is that of its stress by Hooke's law at every particle: inside, at faces, edges and
- * corners, beside a pre-crack, with irregular positions and volumes, turned by a large angle, with and without means.
- * Round-off of stretches of 1e-4: 1e-10. */
+/* Checks the ratio of stress to strength of a uniform strain against that of its stress by Hooke's law, at every
+ * particle: inside, at faces, edges and corners, beside a pre-crack, with irregular positions and volumes, turned by a
+ * large angle, with and without means. Tolerance: round-off of stretches of 1e-4: 1e-10. */
 static void test_uniform(void **state)
 {
     (void)state;
@@ -98,8 +98,8 @@ static void test_uniform(void **state)
         }
 }
 
-/* Computes the strain of particle i in the plane without rotations: sym[sum w u xi (sum w xi xi)^-1] over all particles
- * within the horizon, w = V/r, components xx, yy, xy. */
+/* Computes strain[3], the strain of particle i of s in the plane without rotations: sym[sum w u xi (sum w xi xi)^-1]
+ * over all particles within the horizon, w = V/r, components xx, yy, xy. */
 static void plain_strain(const struct surface_body *s, int64_t i, real *strain)
 {
     const struct particles *p = &s->c.p;
@@ -118,7 +118,7 @@ static void plain_strain(const struct surface_body *s, int64_t i, real *strain)
     strain[2] = 0.5 * (M[0][1] * K[0] - M[0][0] * K[2] + M[1][0] * K[1] - M[1][1] * K[2]) / determinant;
 }
 
-/* Replaces the strains of all particles by their means over families. */
+/* Replaces the strains strain[][3] of all particles of s by their means over families. */
 static void plain_mean(const struct surface_body *s, real (*strain)[3])
 {
     const struct particles *p = &s->c.p;
@@ -136,8 +136,8 @@ static void plain_mean(const struct surface_body *s, real (*strain)[3])
     memory_free(mean);
 }
 
-/* Shares of a strain that differs from particle to particle, after 0, 1 and 2 means, equal those of plain sums. These
- * have no rotation: 1e-3, ten times the strains. */
+/* Compares the stress-to-strength ratios of a strain that differs from particle to particle, after 0, 1 and 2 means,
+ * with plain sums. These have no rotation: tolerance 1e-3, ten times the strains. */
 static void test_means(void **state)
 {
     (void)state;
@@ -169,7 +169,7 @@ static void test_means(void **state)
     }
 }
 
-/* Returns the number of intact bonds that have been started, over all intact ones [1]. */
+/* Returns the fraction of the intact bonds of b that have begun to soften [1]. */
 static real started(const struct bonds *b)
 {
     int64_t begun = 0, all = 0;
@@ -179,9 +179,10 @@ static real started(const struct bonds *b)
     return (real)begun / (real)all;
 }
 
-/* A body is strained in proportion: below the surface no bond begins, beyond it all do. Forces do not change at the
- * start (states are floats: 1e-6), nothing is dissipated; beyond, the force of every bond falls, and what is dissipated
- * grows to the energy of G_c. Strains of tension, equal tension and shear, in the plane and in a solid. */
+/* Checks a body that is strained in proportion: below the strength surface no bond begins to soften, beyond it all do.
+ * Forces do not change at the start (states are floats: 1e-6), and nothing is dissipated; beyond, the force of every
+ * bond falls, and what is dissipated grows to the energy of G_c. Strains of tension, equal tension and shear, in the
+ * plane and in a solid. */
 static void test_start(void **state)
 {
     (void)state;
@@ -227,9 +228,9 @@ static void test_start(void **state)
     }
 }
 
-/* Both entries of a bond have bitwise equal states after local starts, also when rows have been made again between. The
- * end follows from the onset by s_f = s_c^2/s_0, and no started bond has an onset above s_c/sqrt(2) or below 0.3
- * sigma_t/E. */
+/* Checks that both entries of a bond have bitwise equal states after local starts, also when rows have been made again
+ * between. The end follows from the onset by s_f = s_c^2/s_0, and no started bond has an onset above s_c/sqrt(2) or
+ * below 0.3 sigma_t/E. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -268,8 +269,8 @@ static void test_ends(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* If strength scatters, a particle whose random strength factor is f begins to soften at a share f of the strength
- * surface, a particle of factor 1 at the share 1. */
+/* Checks that if strength scatters, the bonds of a particle whose random strength factor is f begin to soften at the
+ * fraction f of the stress on the strength surface, those of a particle of factor 1 at the fraction 1. */
 static void test_scatter(void **state)
 {
     (void)state;
@@ -303,7 +304,8 @@ static void test_scatter(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* A surface that does not depend on pressure is reached under uniaxial compressive strain, which stretches no bond. */
+/* Checks that a strength surface that does not depend on pressure is reached under uniaxial compressive strain, which
+ * stretches no bond. */
 static void test_unstretched(void **state)
 {
     (void)state;

@@ -28,7 +28,7 @@ struct setting {
     struct transfer_data t;
 };
 
-/* Places all points in one cell: its list is longer than one mean extends. */
+/* Places all points of s in one cell, whose list is then longer than a mean dilatation extends over. */
 static void setting_crowd(struct setting *s)
 {
     struct particles *p = &s->c.p;
@@ -82,8 +82,9 @@ static void setting_free(struct setting *s)
     particle_cloud_free(&s->c);
 }
 
-/* Moves the points by the nodal velocities in g->velocity times `sign`, and stores half the difference of both signs
- * in rate[c] of each point: the strain rate [1/s] as components of stress. */
+/* Moves the points of s by the nodal velocities in g->velocity times 1 and -1, and stores half the difference as
+ * rate[c] of each point: the strain rate [1/s], in the components of stress. shape, transfer: shape functions and
+ * scheme. */
 static void strain_rates(struct setting *s, enum shape shape, enum transfer transfer, real *rate[SYM_MAX])
 {
     for (int sign = -1; sign < 2; sign += 2) {
@@ -102,9 +103,10 @@ static void strain_rates(struct setting *s, enum shape shape, enum transfer tran
     }
 }
 
-/* The power of the forces on the nodes is the sum of V sigma : strain rate over the points, for any motion of the
- * nodes: forces and strain are adjoint, and the stress does the work that the strain energy gains. Returns the power
- * over the sum of magnitudes. */
+/* Checks that forces and strains are adjoint, so that the stress does the work that the strain energy gains: for a
+ * random motion of the nodes, the power of the nodal forces equals the sum of V sigma : strain rate over the points, to
+ * 1e-12 of the sum of magnitudes. crowded: true to place all points in one cell. Returns this power, divided by the sum
+ * of magnitudes. */
 static real adjoint(int dim, enum shape shape, enum transfer transfer, bool crowded)
 {
     struct setting s;
@@ -143,8 +145,8 @@ static void test_adjoint(void **state)
                     assert_true(fabs(adjoint(dim, (enum shape)shape, (enum transfer)transfer, crowded)) > 1e-4);
 }
 
-/* Points of bodies without stress that move with a linear velocity have the strain rate of this velocity, as without
- * means. */
+/* Checks that points of bodies without stress that move with a linear velocity have the strain rate of this velocity,
+ * as without means of cells. */
 static void test_uniform(void **state)
 {
     (void)state;
@@ -175,8 +177,9 @@ static void test_uniform(void **state)
 }
 
 /* Computes the force along x on every node if every second point has a pressure of 1 Pa and the others have none.
- * mixed: the points under pressure are 0: of the same body and material, 1: of another body, 2: of another material.
- * averaged: with the mean dilatation of cells. Returns the number of nodes; *force is to be freed by the caller. */
+ * mixed: the points under pressure are 0: of the same body and material, 1: of another body, 2: of another material;
+ * averaged: true for the mean dilatation of cells. Returns the number of nodes; *force receives the forces, to be freed
+ * by the caller. */
 static int64_t press(int mixed, bool averaged, real **force)
 {
     struct setting s;
@@ -197,7 +200,7 @@ static int64_t press(int mixed, bool averaged, real **force)
     return n;
 }
 
-/* Points of one body and material share their pressure; those of several do not. */
+/* Checks that points of one body and material share their pressure, and that those of several do not. */
 static void test_several(void **state)
 {
     (void)state;
@@ -211,7 +214,8 @@ static void test_several(void **state)
     }
 }
 
-/* Stores in mean[i], for each point, the mean of the rates of dilatation of the points of its cell, by volume [1/s]. */
+/* Computes mean[i], for each point i of s, the mean of the rates of dilatation of the points of its cell, weighted by
+ * volume [1/s]. */
 static void means_of_cells(const struct setting *s, real *mean)
 {
     const struct particles *p = &s->c.p;
@@ -227,7 +231,8 @@ static void means_of_cells(const struct setting *s, real *mean)
     }
 }
 
-/* Points that enter other cells replace half of the dilatation of the old cell by half of that of the new one. */
+/* Checks that points that enter other cells replace half of the dilatation of the old cell by half of that of the new
+ * one. */
 static void test_cells_change(void **state)
 {
     (void)state;

@@ -25,7 +25,8 @@ static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {45}, {12, 9}, {6, 5, 5}
 
 enum { REGULAR = 0, SHAKEN = 1, MIXED = 2, WAYS = 4 };
 
-/* Creates a strained, irregular body of two materials. MIXED: two of three particles are material points. */
+/* Creates c, a strained, irregular body of two materials. way: flags of the case; with MIXED two of three particles are
+ * material points. */
 static void body_make(struct particle_cloud *c, int dim, int way)
 {
     struct cloud_plan plan = {.space = space_of[dim],
@@ -69,8 +70,9 @@ static void check_force(const struct particle_cloud *c, const struct particles *
     memory_free(got);
 }
 
-/* Checks every bond of row i: broken if and only if stretched beyond its limit; recorded energy of the row. Returns the
- * number of broken bonds. */
+/* Checks every bond of row i of c: it is broken if and only if stretched beyond its limit; also checks the recorded
+ * energy of the row. w, after: weights of the bonds before and after the step (reference_table). Returns the number of
+ * broken bonds. */
 static int64_t check_breaking(const struct particle_cloud *c, const real *w, const real *after, int64_t i)
 {
     const struct particles *p = &c->p;
@@ -97,8 +99,9 @@ static int64_t check_breaking(const struct particle_cloud *c, const real *w, con
     return broken;
 }
 
-/* First call: a bond that breaks in it acts with half its force, which makes breaking second order in time; second
- * call: without it. */
+/* Compares forces, energy, stress and breaking of the kernel `bond_force` with the plain reference, for a body of `dim`
+ * dimensions and the flags `way`. First call: a bond that breaks in it acts with half its force, which makes breaking
+ * second order in time; second call: without it. */
 static void force_case(bond_force_fn *bond_force, int dim, int way)
 {
     struct particle_cloud c;
@@ -135,7 +138,8 @@ static void test_bond_force(void **state)
             for (int way = 0; way < WAYS; way++) force_case(bond_force_table[dim][model], dim, way);
 }
 
-/* A bond at exactly its limit is kept, one slightly beyond is not. Powers of two make the stretch exact. */
+/* Checks that a bond at exactly its limit is kept and one slightly beyond is not. Powers of two make the stretch
+ * exact. */
 static void test_equality_keeps(void **state)
 {
     (void)state;
@@ -150,7 +154,7 @@ static void test_equality_keeps(void **state)
     }
 }
 
-/* The forces of a body and their moments add up to zero. */
+/* Checks that the forces of a body and their moments add up to zero. */
 static void test_bond_momentum(void **state)
 {
     (void)state;
@@ -176,7 +180,8 @@ static void test_bond_momentum(void **state)
 
 /* ---- common data of columns -------------------------------------------------------------------------------------- */
 
-/* Creates a displaced lattice of one material; some bonds are broken by load, one is partially released. */
+/* Creates c, a displaced lattice of one material; some bonds are broken by load, one is partially released. state: true
+ * for a state-based model. */
 static void site_map_make_if_on_lattice(struct particle_cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
@@ -197,8 +202,9 @@ static void site_map_make_if_on_lattice(struct particle_cloud *c, int dim, bool 
     bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
 }
 
-/* Computes the forces, then again after `alike` and then `lattice` are cleared in all columns: [3][dim n]. kinds:
- * receives which kinds of columns exist. */
+/* Returns the forces of the kernel `force`, then again after the flags `alike` and then `lattice` are cleared in all
+ * columns (one bond of each of eight particles): [3][dim n], to be freed. kinds[3]: receive which kinds of columns
+ * exist. */
 static real *forces_by_kind(struct particle_cloud *c, bond_force_fn *force, bool kinds[3])
 {
     const int64_t all = c->p.dim * c->p.n;
@@ -218,8 +224,8 @@ static real *forces_by_kind(struct particle_cloud *c, bond_force_fn *force, bool
     return f;
 }
 
-/* Forces are equal for all kinds of columns: bitwise, except if lengths are mere factors in state-based models; those
- * differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a family. */
+/* Checks that forces are equal for all kinds of columns: bitwise, except if lengths are mere factors in state-based
+ * models; those differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a family. */
 static void test_column_kinds(void **unused)
 {
     (void)unused;
@@ -346,8 +352,8 @@ static void test_bond_threads(void **state)
 
 /* ---- partial stress ---------------------------------------------------------------------------------------------- */
 
-/* Returns the least eigenvalue of (1 - M) C, the stiffness that a point keeps, with M over symmetric components of
- * stress [Pa]. */
+/* Returns the smallest eigenvalue of (1 - M) C, the stiffness that a point of material m keeps [Pa], with the matrix
+ * M[n][n] over symmetric components of stress. */
 static real least_kept(const struct material *m, int dim, const real *M)
 {
     const int n = symmetric_component_count(dim);
@@ -365,8 +371,8 @@ static real least_kept(const struct material *m, int dim, const real *M)
     return least;
 }
 
-/* Compares the matrix of point q with T : C^-1 sigma for unit stresses. Returns false if bonds would carry more than
- * the whole stress. */
+/* Compares the matrix M of point q with the plain reference, T : C^-1 sigma for unit stresses. w: weights of the bonds
+ * (reference_table). Returns false if bonds would carry more than the whole stress. */
 static bool check_partial(const struct particle_cloud *c, const struct partial_stress *partial, const real *w,
                           int64_t q)
 {
@@ -402,7 +408,8 @@ static void check_partials(const struct particle_cloud *c, const struct partial_
     memory_free(w);
 }
 
-/* Partial stress of all points at once, and updated after more particles became peridynamic. */
+/* Compares partial stresses (stress that bonds carry) with the plain reference, computed for all points at once and
+ * updated after more particles became peridynamic. */
 static void test_partial_stress(void **state)
 {
     (void)state;
@@ -435,7 +442,8 @@ static void test_partial_stress(void **state)
     assert_true(whole[false] > 10 && whole[true] > 100);
 }
 
-/* One peridynamic particle in a corner, which has an eighth of a complete family. */
+/* Compares partial stresses (stress that bonds carry) with the plain reference for a single peridynamic particle in a
+ * corner, which has an eighth of a complete family. */
 static void test_partial_stress_corner(void **state)
 {
     (void)state;

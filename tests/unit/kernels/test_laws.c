@@ -18,7 +18,8 @@ static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_
 
 /* ---- functions --------------------------------------------------------------------------------------------------- */
 
-/* Errors of logarithm, exponential and power: a few roundings of 1.1e-16, of powers times |b log a|. */
+/* Compares logarithm, exponential and power of the vector unit with the C library. Tolerance: a few roundings of
+ * 1.1e-16, of powers times |b log a|. */
 static void test_functions(void **state)
 {
     (void)state;
@@ -36,7 +37,8 @@ static void test_functions(void **state)
     assert_exact(lanes_power(lanes_broadcast(0), 0.1)[0], 0);
 }
 
-/* Stress, slope (central difference), work (Simpson's rule) and reach of each law at random strains. */
+/* Checks stress, slope (by a central difference), work (by Simpson's rule) and bound of the plastic strain of each flow
+ * law at random strains. */
 static void test_flow_laws(void **state)
 {
     (void)state;
@@ -65,7 +67,8 @@ static void test_flow_laws(void **state)
 
 /* ---- one step against the slow twin ------------------------------------------------------------------------------ */
 
-/* Fills a random trial state of a size [Pa]; components that the space does not have are 0. */
+/* Returns a random trial state of a size near the yield stress of m [Pa]; components that the space does not have are
+ * 0. seed: state of the random numbers. */
 static struct reference_point random_trial(uint64_t *seed, enum space space, const struct law *m)
 {
     struct reference_point p = {.a = cloud_between(seed, 0, 1) < 0.3 ? 0 : exp(cloud_between(seed, -9, -1))};
@@ -83,8 +86,8 @@ static struct reference_point random_trial(uint64_t *seed, enum space space, con
     return p;
 }
 
-/* Compares a load step with bisection, or an explicit step of a duration [s], in the spaces that have a twin; explicit
- * steps up to an error of `within` of the plastic strain. */
+/* Compares a load step (duration 0) with bisection, or an explicit step of `duration` [s], for the law m in the space
+ * `space`; explicit steps up to an error of `within` of the plastic strain. seed: state of the random numbers. */
 static void compare(const struct law *m, enum space space, uint64_t *seed, real duration, real within)
 {
     struct reference_point p = random_trial(seed, space, m);
@@ -132,7 +135,8 @@ static void test_load_steps(void **state)
     }
 }
 
-/* Powers with the exponent 0.1 are the steepest: their first step from a = 0 has the root far from both bounds. */
+/* Tests powers with the exponent 0.1, the steepest laws: the first step from a = 0 has its root far from both
+ * bounds. */
 static void test_steep_power(void **state)
 {
     (void)state;
@@ -142,9 +146,9 @@ static void test_steep_power(void **state)
     for (int k = 0; k < 2000; k++) compare(&m, SPACE_SOLID, &seed, 0, 0);
 }
 
-/* Explicit steps at rates from the reference rate to a million times that, and back from a stress beyond it: the yield
- * stress is that of the plastic strain rate of the step. With n = 1 the law is linear in the plastic strain, so that
- * only the tangent of the rate is approximate. */
+/* Checks explicit steps at rates from the reference rate to a million times that, and back from a stress beyond it: the
+ * yield stress is that of the plastic strain rate of the step. With n = 1 the law is linear in the plastic strain, so
+ * that only the tangent of the rate is approximate. */
 static void test_rate(void **state)
 {
     (void)state;
@@ -165,8 +169,8 @@ static void test_rate(void **state)
 
 /* ---- single elements of `cleave bench laws` ---------------------------------------------------------------------- */
 
-/* Computes the direction of flow of one point of p, that of its relative stress, as a unit tensor. lane: of the point.
- */
+/* Computes direction[6], the direction of flow of the point in lane `lane` of p, that of its relative stress, as a unit
+ * tensor. */
 static void flow_direction(const struct law_points *p, int lane, real *direction)
 {
     const real mean = (p->s[0][lane] + p->s[1][lane] + p->s[2][lane]) / 3;
@@ -219,11 +223,12 @@ static real path_integral(const struct law *m, const struct law_points *start, c
     return sum / (3 * PARTS);
 }
 
-/* Takes six load steps at random, from 30 % of the yield strain to 30 of them, and compares the work of each along the
- * path of proportional growth with elastic energy and plastic work. Tolerance: Simpson's rule at the kink of the first
- * yield, measured up to 2e-7 of the energies. With recall the direction of flow turns within a step, but for bars. The
- * plastic work counts the back stress, at most |X| + C/gamma, along the direction at the end, of which the others have
- * a share of 1 - `turned` at least. */
+/* Takes six load steps at random, from 30 % of the yield strain to 30 times that, with the law m in the space `space`,
+ * and compares the work of each along the path of proportional growth with elastic energy and plastic work. Returns the
+ * largest error. Tolerance: Simpson's rule at the kink of the first yield, measured up to 2e-7 of the energies. With
+ * recall the direction of flow turns within a step, but for bars. The plastic work counts the back stress, at most |X|
+ * + C/gamma, along the direction at the end, of which the others have a share of 1 - `turned` at least. seed: start of
+ * the random numbers. */
 static real path_energy(const struct law *m, enum space space, uint64_t seed)
 {
     struct law_points p = laws_points_at_rest();
@@ -244,7 +249,8 @@ static real path_energy(const struct law *m, enum space space, uint64_t seed)
     return p.a[0];
 }
 
-/* Work, energy and plastic work of load steps, each law and space with random numbers of its own. */
+/* Compares work, energy and plastic work of load steps (path_energy), for each law and space with random numbers of its
+ * own. */
 static void test_path_energy(void **state)
 {
     (void)state;
@@ -261,8 +267,8 @@ static void test_path_energy(void **state)
             }
 }
 
-/* Strains at random, to and fro, in explicit steps: the work of leap-frog steps is elastic energy and plastic work, to
- * a few roundings of the work that goes in and out. */
+/* Checks that the work of leap-frog steps under random strains, to and fro, is elastic energy and plastic work, to a
+ * few roundings of the work that goes in and out. */
 static void test_energy(void **state)
 {
     (void)state;
@@ -275,7 +281,7 @@ static void test_energy(void **state)
             }
 }
 
-/* Metal that flows until it melts, in large steps: its temperature ends at T_melt, where it has no strength. */
+/* Checks metal that flows until it melts, in large steps: its temperature ends at T_melt, where it has no strength. */
 static void test_melting(void **state)
 {
     (void)state;
@@ -296,9 +302,9 @@ static void test_melting(void **state)
         }
 }
 
-/* Closed forms. The reasons of the tolerances: the digits of the expected values; explicit steps of 1e-6 over 1/gamma;
- * the direction of flow in plane strain changes by 1e-5/1e-3 over a step; Johnson-Cook: steps of 1e-4, at which the
- * temperature is that of the start. */
+/* Checks single elements against closed forms. Tolerances: the digits of the expected values; explicit steps of 1e-6
+ * over 1/gamma; the direction of flow in plane strain changes by 1e-5/1e-3 over a step; Johnson-Cook: steps of 1e-4, at
+ * which the temperature is that of the start. */
 static void test_elements(void **state)
 {
     int checked = 0;

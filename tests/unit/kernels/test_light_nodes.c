@@ -12,8 +12,8 @@
 
 enum { BORDER = 4 };
 
-/* Returns the mass of node I of a body that ends at node BORDER along the first two axes, where nodes have a share of
- * 1e-7; none beyond. */
+/* Returns the mass of node I of g in a body that ends at node BORDER along the first two axes, where nodes have 1e-7 of
+ * the usual mass; 0 beyond. seed: state of the random numbers, by which masses vary. */
 static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
 {
     real mass = cloud_between(seed, 0.5, 1);
@@ -25,9 +25,9 @@ static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
     return mass;
 }
 
-/* Accelerations by a force on one node: sum m a is that force and has its moment; the response is symmetric (a_i by a
- * force at j equals a_j by one at i); and a light node, with 1e-7 of the mass, has no larger response than its
- * neighbours. */
+/* Checks the accelerations by a force on one node: sum m a is that force and has its moment; the response is symmetric
+ * (a_i by a force at j equals a_j by one at i); and a light node, with 1e-7 of the mass, has no larger response than
+ * its neighbours. */
 static void test_light_nodes(void **state)
 {
     (void)state;

@@ -27,7 +27,7 @@ struct metal {
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
-/* Returns a material with E = 1 and hardening modulus H. */
+/* Returns a material of the space `space` with E = 1, Poisson's ratio `poisson` and hardening modulus `hardening`. */
 static struct material material(enum space space, real poisson, real hardening)
 {
     struct material m = {.young = 1,
@@ -55,7 +55,8 @@ static struct metal steel(enum space space, real hardening)
     return constants(&m, space);
 }
 
-/* Performs a step of strain L dt, as in g2p.h. Returns the increment of plastic strain. */
+/* Performs a step of the strain increment L[dim][dim] (with rotation) on the point p, as in g2p.h. Returns the
+ * increment of plastic strain. */
 static real step(struct point *p, const struct metal *metal, const real *L)
 {
     const struct elastic *m = &metal->elastic;
@@ -72,7 +73,7 @@ static real step(struct point *p, const struct metal *metal, const real *L)
     return law_step(&metal->law, m->space, before, p->s, &p->a, &p->work, &p->zz);
 }
 
-/* Computes the six components of a point's stress in any space. */
+/* Computes s[6], all components of the stress of point p in any space (xx yy zz xy yz zx). */
 static void whole_stress(const struct point *p, const struct metal *m, real *s)
 {
     memset(s, 0, SYM_MAX * sizeof *s);
@@ -85,7 +86,8 @@ static void whole_stress(const struct point *p, const struct metal *m, real *s)
     if (m->elastic.space == SPACE_PLANE_STRAIN) s[2] = m->elastic.poisson * (s[0] + s[1]) + p->zz;
 }
 
-/* Returns the von Mises stress sqrt(((xx - yy)^2 + (yy - zz)^2 + (zz - xx)^2)/2 + 3 (xy^2 + yz^2 + zx^2)). */
+/* Returns the von Mises stress of s[6] (xx yy zz xy yz zx): sqrt(((xx - yy)^2 + (yy - zz)^2 + (zz - xx)^2)/2 + 3 (xy^2
+ * + yz^2 + zx^2)). */
 static real equivalent(const real *s)
 {
     return sqrt(0.5 * (square(s[0] - s[1]) + square(s[1] - s[2]) + square(s[2] - s[0])) +
@@ -99,7 +101,7 @@ static real equivalent_of(const struct point *p, const struct metal *m)
     return equivalent(s);
 }
 
-/* Computes the strain of a stress by Hooke's law in 3D, E = 1. */
+/* Computes strain[6], the strain of the stress s[6] by Hooke's law in 3D, E = 1. */
 static void strain_of(const real *s, real poisson, real *strain)
 {
     const real trace = s[0] + s[1] + s[2];
@@ -108,9 +110,9 @@ static void strain_of(const real *s, real poisson, real *strain)
 
 /* ---- the conditions ---------------------------------------------------------------------------------------------- */
 
-/* Checks the conditions: the result is on the yield surface, reached along its normal there, with non-negative plastic
- * strain; only trial stresses beyond the surface change. The strain removed from the trial stress is da dq/dsigma. In
- * plane strain eps_zz is unchanged. */
+/* Checks the conditions of a return mapping from the state `trial` to p: the result is on the yield surface, reached
+ * along its normal there, with the non-negative plastic strain increment `more`; only trial stresses beyond the surface
+ * change. The strain removed from the trial stress is da dq/dsigma. In plane strain eps_zz is unchanged. */
 static void check_return(const struct metal *m, const struct point *trial, const struct point *p, real more)
 {
     real before[SYM_MAX], after[SYM_MAX], strain[SYM_MAX];
@@ -139,7 +141,8 @@ static void check_return(const struct metal *m, const struct point *trial, const
     if (m->elastic.space == SPACE_PLANE_STRAIN) assert_near(strain[2], more * 1.5 * (after[2] - mean) / q, slack);
 }
 
-/* Trial stresses from inside the surface to a million times its size, with weak and strong hardening. */
+/* Checks the return mapping (check_return) for trial stresses from inside the surface to a million times its size, with
+ * weak and strong hardening. */
 static void test_conditions(void **state)
 {
     (void)state;
@@ -161,7 +164,7 @@ static void test_conditions(void **state)
         }
 }
 
-/* After yielding, an unloading step is bitwise elastic for any spin. */
+/* Checks that after yielding, an unloading step is bitwise elastic for any spin. */
 static void test_unloading(void **state)
 {
     (void)state;
@@ -185,7 +188,8 @@ static void test_unloading(void **state)
     }
 }
 
-/* Rotation of a stress on the yield surface without strain: it stays there, and plastic flow is round-off. */
+/* Checks that a stress on the yield surface that rotates without strain stays there, and that its plastic flow is
+ * round-off. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -213,7 +217,8 @@ static void test_rotation(void **state)
     }
 }
 
-/* Compares rotations by power series with R s R^T by sine and cosine, about any axis, up to and beyond SPIN_SERIES. */
+/* Compares rotations of a stress by power series with R s R^T by sine and cosine, about any axis, up to and beyond
+ * SPIN_SERIES. */
 static void test_rotation_by_series(void **state)
 {
     (void)state;
@@ -240,7 +245,7 @@ static void test_rotation_by_series(void **state)
 
 /* ---- one space against another ----------------------------------------------------------------------------------- */
 
-/* Plane strain agrees with eps_zz = 0 in 3D, along an irregular path with spin. */
+/* Checks that plane strain agrees with eps_zz = 0 in 3D, along an irregular path with spin. */
 static void test_plane_strain_is_solid(void **state)
 {
     (void)state;
@@ -261,7 +266,7 @@ static void test_plane_strain_is_solid(void **state)
     assert_true(p.a > 10 * YIELD);
 }
 
-/* Performs a 3D step with eps_zz such that sigma_zz = 0, by bisection. */
+/* Performs a step of the strain increment L of the point q in 3D with eps_zz such that sigma_zz = 0, by bisection. */
 static void step_free(struct point *q, const struct metal *m, const real *L)
 {
     real low = -1, high = 1;
@@ -296,7 +301,7 @@ static void test_plane_stress_is_solid(void **state)
 
 /* ---- closed forms ------------------------------------------------------------------------------------------------ */
 
-/* A bar under cyclic load: slope E_t during yielding, slope E elsewhere, reverse yield at the largest previous
+/* Checks a bar under cyclic load: slope E_t during yielding, slope E elsewhere, reverse yield at the largest previous
  * |sigma|. */
 static void test_bilinear_law(void **state)
 {
@@ -317,7 +322,8 @@ static void test_bilinear_law(void **state)
     assert_near(p.a, 4 * YIELD, CLOSE * YIELD); /* H a = |sigma| - sigma_y */
 }
 
-/* Pure shear: yields at sigma_y/sqrt(3), then d tau = G H/(3 G + H) d gamma; in the three spaces with shear. */
+/* Checks pure shear against the closed form in the three spaces with shear: it yields at sigma_y/sqrt(3), then d tau =
+ * G H/(3 G + H) d gamma. */
 static void test_pure_shear(void **state)
 {
     (void)state;
@@ -338,7 +344,8 @@ static void test_pure_shear(void **state)
     }
 }
 
-/* Uniaxial strain e: q = 2 G e - 3 G a and sigma_xx = K e + 2 q/3: slope K + 4 G/3, then K without hardening. */
+/* Checks uniaxial strain e against the closed form: q = 2 G e - 3 G a and sigma_xx = K e + 2 q/3: slope K + 4 G/3, then
+ * K without hardening. */
 static void test_uniaxial_strain(void **state)
 {
     (void)state;
@@ -360,7 +367,7 @@ static void test_uniaxial_strain(void **state)
         }
 }
 
-/* A thin sheet under equibiaxial strain: q = sigma, sigma = E/(1 - nu) (e - a/2). */
+/* Checks a thin sheet under equibiaxial strain against the closed form: q = sigma, sigma = E/(1 - nu) (e - a/2). */
 static void test_biaxial(void **state)
 {
     (void)state;
@@ -377,7 +384,7 @@ static void test_biaxial(void **state)
     assert_true(p.a > YIELD);
 }
 
-/* A thin sheet with free sides agrees with the bar: sigma = sigma_y + E_t (e - sigma_y/E). */
+/* Checks that a thin sheet with free sides agrees with the bar: sigma = sigma_y + E_t (e - sigma_y/E). */
 static void test_uniaxial_stress(void **state)
 {
     (void)state;
@@ -399,7 +406,8 @@ static void test_uniaxial_stress(void **state)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Returns the energies of the balance for one particle of unit volume with the state of p. */
+/* Returns the energy that the balance has for one particle of unit volume with the state of p: strain energy plus
+ * plastic work. m: material; partial: partial stress of the particle. */
 static real balance_energy(const struct point *p, const struct material *m, enum space space,
                            const struct partial_stress *partial)
 {
@@ -414,9 +422,9 @@ static real balance_energy(const struct point *p, const struct material *m, enum
     return energy;
 }
 
-/* The work of the stress along a path equals strain energy plus plastic work in the balance. Loading and half-way
- * unloading in other proportions; the mean of the stress before and after a step leaves an error of second order: below
- * 1e-5 with 2e3 steps. */
+/* Checks that the work of the stress along a path equals strain energy plus plastic work in the balance. Loading and
+ * half-way unloading in other proportions; the mean of the stress before and after a step leaves an error of second
+ * order: below 1e-5 with 2e3 steps. */
 static void test_work_is_booked(void **state)
 {
     (void)state;

@@ -35,7 +35,8 @@ static void points_make(struct points *s, int dim)
     particles_rebuild_lists_by_kind(&s->p);
 }
 
-/* Places points between -4 and 4, every fourth on a node or in the middle of a cell, with widths of up to two cells. */
+/* Places the points of s between -4 and 4, every fourth on a node or in the middle of a cell, with widths of up to two
+ * cells. seed: state of the random numbers. */
 static void points_place(struct points *s, uint64_t *seed)
 {
     for (int64_t i = 0; i < POINTS; i++)
@@ -54,7 +55,8 @@ static void points_free(struct points *s)
     particles_free(&s->p);
 }
 
-/* Returns the sum over the nodes of a field times 1 (axis -1) or times the position of the node [m]. */
+/* Returns the sum over the nodes of g of `field` times 1 (axis -1) or times the position of the node along `axis`
+ * [m]. */
 static real moment(const struct grid *g, const real *field, int axis)
 {
     real sum = 0;
@@ -63,8 +65,8 @@ static real moment(const struct grid *g, const real *field, int axis)
     return sum;
 }
 
-/* Checks sum N = 1 and sum N x_I = x by scattering a single value. Tolerance 1e-14: sums of up to 64 terms of at most
- * 10. */
+/* Checks sum N = 1 and sum N x_I = x for the shape functions `shape` at the points of s, by scattering a single value.
+ * Tolerance 1e-14: sums of up to 64 terms of at most 10. */
 static void check_weights(struct points *s, enum shape shape)
 {
     const int dim = s->p.dim;
@@ -78,8 +80,9 @@ static void check_weights(struct points *s, enum shape shape)
     memory_free(field);
 }
 
-/* Checks sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0, by the forces of a point of unit volume under unit
- * stress of component `c`. Slopes are means over at least a twentieth of a cell: round-off 20 times larger. */
+/* Checks sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0, by the nodal forces of a point of unit volume under
+ * unit stress of each component. Tolerance: slopes are means over at least a twentieth of a cell: round-off 20 times
+ * larger. */
 static void check_slopes(struct points *s, enum shape shape, enum transfer transfer)
 {
     static const int component[DIM_MAX + 1][DIM_MAX][DIM_MAX] = {

@@ -57,7 +57,7 @@ static void strain_of(enum patch_load load, int dim, real strain[DIM_MAX][DIM_MA
     if (load == SHEAR) strain[0][1] = STRAIN; /* simple shear: half of it is rotation */
 }
 
-/* Returns the classical energy per volume. */
+/* Returns the classical energy per volume of material m under the unit strain of `load` in `dim` dimensions. */
 static real classical(const struct material *m, enum patch_load load, int dim)
 {
     switch (load) {
@@ -70,7 +70,8 @@ static real classical(const struct material *m, enum patch_load load, int dim)
     }
 }
 
-/* Returns true if particle i is farther than `reach` from every face. */
+/* Returns true if particle i of p is farther than `reach` spacings from every face of the lattice of count[dim]
+ * particles. */
 static bool inside(const struct particles *p, int64_t i, const int *count, real reach)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -80,8 +81,8 @@ static bool inside(const struct particles *p, int64_t i, const int *count, real 
     return true;
 }
 
-/* Returns the energy of an inner particle over the classical one, from its row; checks that the largest inner force is
- * round-off. */
+/* Returns the energy of an inner particle of b under the strain of `load`, divided by the classical one, from its row;
+ * checks that the largest force on inner particles is round-off. */
 static real patch_ratio(struct body *b, const int *count, enum patch_load load, enum space space)
 {
     struct particles *p = &b->c.p;
@@ -107,8 +108,8 @@ static real patch_ratio(struct body *b, const int *count, enum patch_load load, 
     return ratio;
 }
 
-/* Rotates a stretched body by a quarter turn about z: sigma_xx becomes sigma_yy, and sigma_xx is round-off of
- * STRAIN. */
+/* Rotates the stretched body b by a quarter turn about z and checks that sigma_xx becomes sigma_yy, and that sigma_xx
+ * is round-off of STRAIN. */
 static void check_quarter_turn(struct body *b)
 {
     struct particles *p = &b->c.p;
@@ -136,8 +137,8 @@ static void check_quarter_turn(struct body *b)
     memory_free(before);
 }
 
-/* Silling et al. 2007 on a lattice in plane stress, nu = 0.3: dilatation exact, shear by the lattice's fourth moments.
- * Expected values have three decimals. */
+/* Compares energies of the ordinary model (Silling et al. 2007) on a lattice in plane stress, nu = 0.3, with expected
+ * values of three decimals: dilatation exact, shear by the fourth moments of the lattice. */
 static void test_ospd_plane_stress(void **state)
 {
     (void)state;
@@ -164,8 +165,9 @@ static void test_ospd_plane_stress(void **state)
         }
 }
 
-/* With effective displacements only second moments contribute: exact on every lattice, for every influence function,
- * Poisson's ratio and space. Tolerance 1e-5: squares of the strain and single precision of weights. */
+/* Checks that the model with rotations, in which only second moments contribute (effective displacements), is exact on
+ * every lattice, for every influence function, Poisson's ratio and space. Tolerance 1e-5: squares of the strain and
+ * single precision of weights. */
 static void test_mospd_exact(void **state)
 {
     (void)state;
@@ -206,9 +208,9 @@ static void test_turned_stress(void **state)
         }
 }
 
-/* Returns the energy of the ordinary model over the classical one from the sums of its definition over a full family of
- * the lattice with unit weights: W = D^2 (lambda' - G) S^2/2 + D (D + 2) G sum e^2/(2 q), S = sum r e/q, q = sum r^2
- * (Silling et al. 2007). */
+/* Returns the energy of the ordinary model under `load` in `dim` dimensions, divided by the classical one, from the
+ * sums of its definition over a full family of the lattice with unit weights: W = D^2 (lambda' - G) S^2/2 + D (D + 2) G
+ * sum e^2/(2 q), S = sum r e/q, q = sum r^2 (Silling et al. 2007). m: material. */
 static real lattice_ratio(const struct material *m, enum patch_load load, int dim)
 {
     const int reach = 3, top = dim == 3 ? reach : 0;
@@ -229,8 +231,9 @@ static real lattice_ratio(const struct material *m, enum patch_load load, int di
            classical(m, load, dim);
 }
 
-/* Every space, Poisson's ratio and load compared with these sums (1e-5 as above), and the sums with published values:
- * dilatation exact; plane stress at nu = 0.3: uniaxial strain 1.012, shear 0.965; 3D: 0.93-0.95 and 1.09-1.11. */
+/* Compares energies of the ordinary model in every space, for every Poisson's ratio and load, with these sums (1e-5 as
+ * above), and the sums with published values: dilatation exact; plane stress at nu = 0.3: uniaxial strain 1.012, shear
+ * 0.965; 3D: 0.93-0.95 and 1.09-1.11. */
 static void test_ospd_spaces(void **state)
 {
     (void)state;
@@ -286,9 +289,10 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             b->c.p.x[d][i] = b->c.p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
 }
 
-/* f = -dE/dx by central differences with step 1e-6 of a spacing. Tolerance 1e-6 of the largest force: truncation error
- * (1e-6)^2 over strains of 0.02, and round-off 1e-16 E/(1e-6). Momentum and angular momentum of the forces are
- * round-off. */
+/* Checks f = -dE/dx by central differences with step 1e-6 of a spacing, for the model `model` in the space `space`;
+ * local: true if families are normalised by their intact bonds. Tolerance 1e-6 of the largest force: truncation error
+ * (1e-6)^2 over strains of 0.02, and round-off 1e-16 E/(1e-6). Also checks that momentum and angular momentum of the
+ * forces are round-off. */
 static void gradient_case(enum space space, enum pd_model model, bool local)
 {
     struct body b;
@@ -339,7 +343,7 @@ static void test_gradient(void **state)
         }
 }
 
-/* A rigid rotation of any size causes no force: 1e-12 of the force of a strain of 1. */
+/* Checks that a rigid rotation of any size causes no force: 1e-12 of the force of a strain of 1. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -365,9 +369,9 @@ static void test_rotation(void **state)
             }
 }
 
-/* A particle whose volume differs from that of its cell, inside a lattice: Q of a full family is the sum over its
- * bonds, up to the single precision of weights. Without the local normalisation a particle at a corner has the same
- * Q. */
+/* Checks the weighted volume Q inside a lattice with a particle whose volume differs from that of its cell: Q of a full
+ * family is the sum over its bonds, up to the single precision of weights. Without the local normalisation a particle
+ * at a corner has the same Q. */
 static void test_volumes(void **state)
 {
     (void)state;
@@ -396,7 +400,8 @@ static void test_volumes(void **state)
     }
 }
 
-/* Q agrees with these sums at corners, too, where weights are those of classes of particles near faces. */
+/* Checks that the weighted volume Q agrees with these sums at corners, too, where weights are those of classes of
+ * particles near faces. */
 static void test_volumes_at_faces(void **state)
 {
     (void)state;
@@ -419,9 +424,10 @@ static void test_volumes_at_faces(void **state)
 
 /* ---- critical step ----------------------------------------------------------------------------------------------- */
 
-/* Plane stress, m = 3.015, nu = 0.3: 1.79 D/c for OSPD and 1.94 D/c for MOSPD in large plates; free surfaces of a block
- * change them by some percent, and two percent are subtracted. Bond-based: 2.00 D/c, nu = 1/3. The step scales with the
- * root of the density over all magnitudes: powers of the high frequencies of a light or fine body must not overflow. */
+/* Compares critical time steps with published values in plane stress, m = 3.015, nu = 0.3: 1.79 D/c for OSPD and 1.94
+ * D/c for MOSPD in large plates; free surfaces of a block change them by some percent, and two percent are subtracted.
+ * Bond-based: 2.00 D/c, nu = 1/3. Also checks that the step scales with the root of the density over all magnitudes:
+ * powers of the high frequencies of a light or fine body must not overflow. */
 static void test_critical_step(void **state)
 {
     (void)state;

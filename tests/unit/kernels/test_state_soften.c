@@ -46,7 +46,8 @@ static int64_t forces(struct state_body *a)
     return bond_forces(state_force_table[c->p.dim][a->model], &c->bonds, &c->p, &c->source.limit, NULL);
 }
 
-/* Moves particles at random by up to `size` spacings, on top of a uniform dilatation. */
+/* Moves the particles of c at random by up to `size` spacings, on top of the uniform expansion by `dilatation` along
+ * each axis. seed: state of the random numbers. */
 static void shake(struct particle_cloud *c, uint64_t *seed, real size, real dilatation)
 {
     for (int64_t i = 0; i < c->p.n; i++)
@@ -56,7 +57,8 @@ static void shake(struct particle_cloud *c, uint64_t *seed, real size, real dila
 
 /* ---- potential --------------------------------------------------------------------------------------------------- */
 
-/* Weights of all bonds without damage, [i n + j]; 0: no bond. */
+/* Returns the weights of all bonds of b without damage as an array of n x n, with the bond from particle i to j at [i n
+ * + j]; 0: no bond. To be freed. */
 static real *weights_of(const struct bonds *b, int64_t n)
 {
     real *w = NEW("test.w", n * n, real);
@@ -66,7 +68,8 @@ static real *weights_of(const struct bonds *b, int64_t n)
     return w;
 }
 
-/* Returns 1 - d of bond k of a row by linear softening, from its largest stretch; 0 if it has ended. */
+/* Returns 1 - d, the fraction of stiffness that `bond` of row `row` keeps by linear softening, from its largest
+ * stretch; 0 if it has ended. */
 static real kept_of(const struct bonds *b, int64_t row, const struct bond *bond)
 {
     const int64_t q = bond->entry;
@@ -76,8 +79,8 @@ static real kept_of(const struct bonds *b, int64_t row, const struct bond *bond)
     return onset * (end - k) / ((end - onset) * k);
 }
 
-/* Returns the potential of the sheet for the family of a row at the present positions, written from the formulas of
- * state_soften.c [J]. w: weights without damage. */
+/* Returns the potential of the family of row `row` (bonds of one particle) at the present positions [J], written from
+ * the formulas of state_soften.c. w: weights without damage (weights_of). */
 static real row_potential(const struct state_body *a, const real *w, int64_t row)
 {
     const struct bonds *b = &a->s.c.bonds;
@@ -116,9 +119,9 @@ static real potential(const struct state_body *a, const real *w)
     return sum;
 }
 
-/* Forces on irregular bodies with damage and ended bonds are minus the gradient of the potential at this damage:
- * central differences over 1e-6 spacings, whose error is round-off, 1e-10 of the largest force; weights are floats,
- * 1e-7. */
+/* Checks that forces on irregular bodies with damage and ended bonds are minus the gradient of the potential at this
+ * damage. Central differences over 1e-6 spacings, whose error is round-off, 1e-10 of the largest force; weights are
+ * floats, 1e-7. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -158,8 +161,8 @@ static void test_gradient(void **state)
     }
 }
 
-/* Both entries of a bond have bitwise equal states and weights, which momentum conservation requires; rows that are
- * made again keep them, and so does the potential. */
+/* Checks that both entries of a bond have bitwise equal states and weights, which momentum conservation requires, and
+ * that rows that are rebuilt keep them, and so does the potential. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -204,9 +207,10 @@ static void test_ends(void **state)
 #define SMALL 1e-5 /* onset, so that sums are linear in it */
 enum { SIDE = 13 };
 
-/* Uniaxial tension of a block in small steps, with the lateral strain that the middle particle has without lateral
- * stress (secant iteration on its stress): the peak is E s_0 phi within the anisotropy
- * of a lattice, 5 %. SIDE: particles along an edge; families of all in the middle one's family are complete. */
+/* Compares the peak stress of a block in uniaxial tension, in small steps and with the lateral strain at which the
+ * middle particle has no lateral stress (secant iteration on its stress), with E s_0 phi, within the anisotropy of a
+ * lattice, 5 %. SIDE: particles along an edge; families of all particles in the family of the middle one are
+ * complete. */
 static void test_strength(void **state)
 {
     (void)state;
@@ -238,9 +242,9 @@ static void test_strength(void **state)
     }
 }
 
-/* Two halves of a lattice move apart: the work of the forces on the upper half of its middle column per area is that of
- * family_fracture_energy_of_softening_bonds within 2e-3 (steps of the opening), and equals the energy that its rows
- * have dissipated within 1 % (both ends share what a bond dissipates). */
+/* Compares the work of the forces on the upper half of the middle column, per area, while two halves of a lattice move
+ * apart, with family_fracture_energy_of_softening_bonds, within 2e-3 (steps of the opening), and with the energy that
+ * the rows of this column have dissipated, within 1 % (both ends share what a bond dissipates). */
 static void test_separation(void **state)
 {
     (void)state;
@@ -273,8 +277,8 @@ static void test_separation(void **state)
     }
 }
 
-/* Families under pressure of which bonds are stretched: damage sets no energy free there, and does not grow; fracture
- * energy never falls, up to the second order of a step. */
+/* Checks families under pressure of which bonds are stretched: damage sets no energy free there, and does not grow; the
+ * fracture energy never falls, up to the second order of a step. */
 static void test_pressure(void **state)
 {
     (void)state;

@@ -24,8 +24,8 @@ struct body {
     uint8_t *loaded;
 };
 
-/* Deactivates every third row block except the first: its particles have no new forces, do not move, and keep the
- * states of their families. */
+/* Deactivates every third row block of b (bonds of eight particles of p) except the first: its particles have no new
+ * forces, do not move, and keep the states of their families in the model `model`. */
 static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model model)
 {
     if (model >= PD_OSPD) state_precompute_table[p->dim][model](b, p);
@@ -68,13 +68,15 @@ static void body_free(struct body *b)
     particle_cloud_free(&b->c);
 }
 
-/* Returns the motion after the step, in which dt v is some hundredths of a spacing. */
+/* Returns the parameters of the motion of b after the sweep: dt v is some hundredths of a spacing. way: flags of the
+ * case, LOADED: some particles have loads; fastest: speed above which a particle counts as diverged [m/s]. */
 static struct pd_motion motion_of(const struct body *b, int way, real fastest)
 {
     return (struct pd_motion){2e-6, 1e-6, fastest, way & LOADED ? b->loaded : NULL, false};
 }
 
-/* Computes all forces, then moves all particles that the sweep would move. */
+/* Computes all forces of b by the kernel `force`, then moves all particles that the sweep would move, and stores the
+ * result in *motion. way: flags of the case. Returns the number of broken bonds. */
 static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way, struct pd_motion *motion)
 {
     struct particles *p = &b->c.p;
@@ -110,7 +112,9 @@ static void plain_make(struct plain *plain, bond_force_fn *force, int dim, enum 
     assert_int_equal(plain->diverged, fastest_of(way) < 1);
 }
 
-/* Compares with a sweep on a given number of threads. One thread creates the body, which is faster than a team. */
+/* Compares `plain` (forces, then motion) with a sweep by the kernel `force` on `threads` threads, bit by bit. One
+ * thread creates the body, which is faster than a team. dim, model, way: dimensions, bond model and flags of the
+ * case. */
 static void check_sweep(const struct plain *plain, bond_force_fn *force, int dim, enum pd_model model, int way,
                         int threads)
 {
@@ -147,7 +151,8 @@ static void test_sweep(void **state)
             if (dim > 1 || model < PD_OSPD) check_sweeps(dim, model);
 }
 
-/* The reach of a row is not less than the farthest row that it reads, and not the whole body. */
+/* Checks that the reach stored for a row is not less than the distance to the farthest row that it reads, and not the
+ * whole body. */
 static void test_reach(void **state)
 {
     (void)state;

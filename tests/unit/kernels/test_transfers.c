@@ -56,7 +56,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
     particles_rebuild_lists_by_kind(p);
 }
 
-/* Gives every second point a random partial stress, which it leaves to bonds. */
+/* Gives every second point of s a random partial stress, which it leaves to bonds, from the seed *seed. */
 static void random_partial(struct scene *s, uint64_t *seed)
 {
     const int64_t size = square(symmetric_component_count(s->dim));
@@ -80,7 +80,7 @@ static void scene_grid(struct scene *s)
     assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
 }
 
-/* Places every fifth point so close to the end of its cell in one direction that it enters the next cell in the
+/* Places every fifth point of s so close to the end of its cell in one direction that it enters the next cell in the
  * step. */
 static void scene_crossers(struct scene *s)
 {
@@ -91,8 +91,8 @@ static void scene_crossers(struct scene *s)
     }
 }
 
-/* Creates a scene. spin: difference of neighbours' velocities [m/s]; 2 m/s rotate a point by less than 1e-3 rad in the
- * step. */
+/* Creates s, points and grid of the case k. spin: difference of the velocities of neighbours [m/s]; 2 m/s rotate a
+ * point by less than 1e-3 rad in the step. */
 static void scene_make(struct scene *s, const struct choice *k, real spin)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -132,7 +132,7 @@ static void scene_free(struct scene *s)
     particle_cloud_free(&s->c);
 }
 
-/* Performs a step of the kernels, as the time loop does. */
+/* Performs a step of the kernels of case k on s; returns what g2p() does. impulse[dim] [N s], *work [J]: of walls. */
 static int64_t scene_step(struct scene *s, const struct choice *k, real *impulse, real *work)
 {
     struct kernels kernel;
@@ -161,7 +161,8 @@ static void check_fields(real *const *got, real *const *expected, int dim, int64
     for (int d = 0; d < dim; d++) assert_true(cloud_difference(got[d], expected[d], n) <= CLOSE);
 }
 
-/* Compares m v of nodes: the velocity of a node that a point only touches has the relative error of its tiny mass. */
+/* Compares m v of the nodes of s, as velocities got[dim] have the relative error of a node's mass, which may be tiny.
+ */
 static void check_motion(const struct scene *s, real *const *got, real *const *expected)
 {
     real *a = NEW("test.a", s->g.n, real), *b = NEW("test.b", s->g.n, real);
@@ -189,8 +190,8 @@ static void check_particles(const struct scene *s, const struct particles *expec
     }
 }
 
-/* Checks the marks of points whose principal stress exceeds the trigger; returns how many points entered another
- * cell. */
+/* Checks the marks of points of s whose principal stress exceeds the trigger; returns how many points entered another
+ * cell since `before`. */
 static int64_t marks(const struct scene *s, struct particles *expected, const struct particles *before)
 {
     int64_t entered = 0;
@@ -210,7 +211,7 @@ static int64_t marks(const struct scene *s, struct particles *expected, const st
     return entered;
 }
 
-/* averaged: bit m: points of material m have the mean dilatation of their cell. */
+/* Compares a step with the plain one; bit m of averaged: points of material m have the mean dilatation of a cell. */
 static void step_case(const struct choice *k, real spin, real smallest_mass, bool partial, int averaged)
 {
     struct scene s;
@@ -303,9 +304,9 @@ static struct total total_of(const struct particles *p)
     return t;
 }
 
-/* Mass and momentum of nodes are those of points; after the step the points have gained dt f and the impulse of
- * walls. The work of walls is their impulse times the mean velocity before and after, which is the change of kinetic
- * energy. */
+/* Checks case k: mass and momentum of nodes are those of points; after the step the points have gained dt f and the
+ * impulse of walls. The work of walls is their impulse times the mean velocity before and after, which is the change of
+ * kinetic energy. */
 static void conserved(const struct choice *k)
 {
     for (int walls = 0; walls < 2; walls++) {
@@ -357,8 +358,8 @@ static void conserved(const struct choice *k)
 
 static void test_conserved(void **state) { (void)state, for_all(conserved); }
 
-/* A body in uniform motion and deformation keeps its velocity: with APIC the nodes have the exact linear field, and
- * points recover it. */
+/* Checks that a body in uniform motion and deformation keeps its velocity: with APIC the nodes have the exact linear
+ * field, and points recover it. */
 static void linear_field(const struct choice *k)
 {
     static const real gradient[DIM_MAX][DIM_MAX] = {{3, -7, 2}, {5, 1, -4}, {-6, 8, 9}};
@@ -390,8 +391,8 @@ static void linear_field(const struct choice *k)
 
 static void test_linear_field(void **state) { (void)state, for_all(linear_field); }
 
-/* The stress of a purely rotating body rotates with it, to second order in the angle w below 1e-3 rad, exactly above,
- * and causes no strain: displacements of the step W + W W/2, W its spin. */
+/* Checks that the stress of a purely rotating body rotates with it, to second order in the angle w below 1e-3 rad,
+ * exactly above, and causes no strain: displacements of the step W + W W/2, W its spin. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -453,8 +454,8 @@ static void test_spread(void **state) { (void)state, for_all(spread_case); }
 
 /* ---- yielding ---------------------------------------------------------------------------------------------------- */
 
-/* Compares a point that has yielded with the return of the stress of an elastic step, strain: its plastic strain before
- * the step. Returns true if it has yielded. */
+/* Compares point i of s after a step with the return of the stress of an elastic step. strain: its plastic strain
+ * before. Returns true if it has yielded. */
 static bool check_yielded(const struct scene *s, const struct particles *elastic, int64_t i, real strain)
 {
     const struct particles *p = &s->c.p;
@@ -471,7 +472,7 @@ static bool check_yielded(const struct scene *s, const struct particles *elastic
     return more > 0;
 }
 
-/* Points of one of two materials yield by its law, and are marked by the stress that remains. */
+/* Checks that points of one of two materials yield by its law, and are marked by the stress that remains. */
 static void yields_case(const struct choice *k)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};

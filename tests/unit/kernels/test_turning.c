@@ -23,7 +23,8 @@ struct scene {
     int dim, shape;
 };
 
-/* Creates irregular points of two bodies, every fifth of them peridynamic; the second body has few points. */
+/* Creates s, irregular points of two bodies in `dim` dimensions, every fifth of them peridynamic; the second body has
+ * few points. shape: shape functions. */
 static void scene_make(struct scene *s, int dim, int shape)
 {
     static const int count[DIM_MAX + 1][DIM_MAX] = {{0}, {0}, {15, 11}, {9, 8, 7}};
@@ -77,7 +78,8 @@ static void node_place(const struct grid *g, int64_t I, real *x)
     for (int d = 0; d < 3; d++) x[d] = d < g->dim ? grid_node_position(g, d, I / g->stride[d] % g->count[d]) : 0;
 }
 
-/* Adds m a and m x x a to six sums; size[2]: sums of their magnitudes. */
+/* Adds the vector m a and its moment m x x a to sum[6], and their magnitudes to size[2]. m: mass; x, a: position and
+ * vector of the point. */
 static void moments_add(real m, const real *x, const real *a, real *sum, real *size)
 {
     for (int c = 0; c < 3; c++) {
@@ -97,7 +99,7 @@ static void points_moments(const struct particles *p, real *const *v, real *sum,
     }
 }
 
-/* Applies a given change of nodal velocities to the points. */
+/* Applies the given change of nodal velocities of s to the points. */
 static void gather(struct scene *s)
 {
     for (int64_t I = 0; I < s->g.n; I++)
@@ -107,7 +109,8 @@ static void gather(struct scene *s)
     rotation_groups_restore_angular_momentum(&s->turning, &s->c.p);
 }
 
-/* Computes the nodal velocities of the second map for unchanged points, in flight with new nodal masses. */
+/* Computes the nodal velocities of the second map of s for unchanged points; in flight (weights ahead of the positions)
+ * with new nodal masses. */
 static void scatter(struct scene *s)
 {
     rotation_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
@@ -118,7 +121,7 @@ static void scatter(struct scene *s)
         for (int64_t I = 0; I < s->g.n; I++) s->g.momentum[d][I] /= s->g.mass[I] > 0 ? s->g.mass[I] : 1;
 }
 
-/* The points gain the momentum and angular momentum of the change of the nodes. */
+/* Checks that the points of s gain the momentum and angular momentum of the change of the nodes. */
 static void keeps_moments(struct scene *s)
 {
     real given[6] = {0}, before[6] = {0}, after[6] = {0}, size[2] = {0}, none[2];
@@ -134,7 +137,8 @@ static void keeps_moments(struct scene *s)
     for (int c = 0; c < 6; c++) assert_true(fabs(after[c] - before[c] - given[c]) <= CLOSE * size[c / 3]);
 }
 
-/* Nodes of a rotating and translating body have the velocity of their position, in flight that behind it. */
+/* Checks that nodes of a rotating and translating body have the velocity of the body at their position, in flight that
+ * of the position behind it. */
 static void turns_rigidly(struct scene *s)
 {
     struct particles *p = &s->c.p;
@@ -158,7 +162,8 @@ static void turns_rigidly(struct scene *s)
     }
 }
 
-/* In flight, with weights of points ahead of their positions, too; the nodes then have all mass of the points. */
+/* Checks a rigidly moving body in flight, with weights of points ahead of their positions, and that the nodes then have
+ * all mass of the points. */
 static void flies_rigidly(struct scene *s)
 {
     real points = 0, nodes = 0;
@@ -169,8 +174,8 @@ static void flies_rigidly(struct scene *s)
     assert_true(fabs(nodes - points) <= CLOSE * points);
 }
 
-/* Both halves are adjoint in the mass metric: the energy gained by points along their velocity equals that gained by
- * nodes along theirs. */
+/* Checks that both maps of s are adjoint in the mass metric: the energy gained by points along their velocity equals
+ * that gained by nodes along theirs. */
 static void keeps_energy(struct scene *s)
 {
     struct particles *p = &s->c.p;
@@ -211,7 +216,8 @@ static void test_rigid(void **state) { (void)state, for_all(turns_rigidly); }
 static void test_flight(void **state) { (void)state, for_all(flies_rigidly); }
 static void test_energy(void **state) { (void)state, for_all(keeps_energy); }
 
-/* Points of a constrained body are unchanged; small groups are merged; a single point gains nothing. */
+/* Checks that points of a constrained body are unchanged, that small groups are merged, and that a single point gains
+ * nothing. */
 static void test_groups(void **state)
 {
     struct scene s;
@@ -233,7 +239,7 @@ static void test_groups(void **state)
     scene_free(&s);
 }
 
-/* Groups on both sides of the middle are neighbours; a constrained body is unchanged. */
+/* Checks that groups on both sides of the middle are neighbours, and that a constrained body is unchanged. */
 static void test_held(void **state)
 {
     struct scene s;

@@ -18,8 +18,8 @@ static const char bonds[] = "method: pd", cells[] = "method: mpm\nmpm: {frame: r
 
 /* ---- velocity update --------------------------------------------------------------------------------------------- */
 
-/* m (v+ - v-)/dt = f - k (v- + v+)/2 at every particle of the face, with k of its material for bonds, and the force
- * alone at the others. */
+/* Checks m (v+ - v-)/dt = f - k (v- + v+)/2 at every particle of an absorbing face, with the dashpot coefficient k of
+ * its material for bonds, and the force alone at the others. */
 static void test_kick(void **state)
 {
     (void)state;
@@ -105,9 +105,9 @@ static struct left run_text(const char *text)
     return m;
 }
 
-/* A pulse 32 spacings wide leaves a bar through its end. The remaining energy is the square of the reflected amplitude
- * (cleave bench absorbing), up to 2.3 %; FLIP points keep some noise. Energy balance: second order for FLIP; APIC
- * dissipates 1 % on the way; bonds and cells have the round-off of positions. */
+/* Checks that a pulse 32 spacings wide leaves a bar through its absorbing end. The remaining energy is the square of
+ * the reflected amplitude (cleave bench absorbing), up to 2.3 %; FLIP points keep some noise. Energy balance: second
+ * order for FLIP; APIC dissipates 1 % on the way; bonds and cells have the round-off of positions. */
 static void test_bar(void **state)
 {
     (void)state;
@@ -135,8 +135,9 @@ static void test_bar(void **state)
     }
 }
 
-/* A block that is hit in its middle, with all faces absorbing, 1e5 steps: it loses its energy, never has more than the
- * initial energy, and the balance closes: for bonds and cells to second order of their strains, 1e-3, in the step. */
+/* Tests a block that is hit in its middle, with all faces absorbing, over 1e5 steps: it loses its energy, never has
+ * more than the initial energy, and the balance closes: for bonds and cells to second order of their strains, 1e-3, in
+ * the step. */
 static void test_long(void **state)
 {
     (void)state;
@@ -165,8 +166,9 @@ static void test_long(void **state)
 
 /* ---- with mirrors, supports, conversion -------------------------------------------------------------------------- */
 
-/* Half a plate at a mirror that intersects absorbing faces absorbs half of what the whole plate does: mirror on a row
- * of nodes of the mesh, and midway between two. APIC points dissipate slightly differently at mirrors. */
+/* Checks that half a plate at a mirror that intersects absorbing faces absorbs half of what the whole plate does:
+ * mirror on a row of nodes of the mesh, and midway between two. APIC points dissipate slightly differently at
+ * mirrors. */
 static void test_mirror_faces(void **state)
 {
     (void)state;
@@ -198,7 +200,7 @@ static void test_mirror_faces(void **state)
     }
 }
 
-/* A bar fixed at its absorbing end: fixed components have no dashpots, and the whole pulse is reflected. */
+/* Checks a bar fixed at its absorbing end: fixed components have no dashpots, and the whole pulse is reflected. */
 static void test_held(void **state)
 {
     (void)state;
@@ -219,7 +221,7 @@ static void test_held(void **state)
     }
 }
 
-/* An adaptive plate whose points convert up to the absorbing faces, which then act on bonds. Conversion in motion
+/* Tests an adaptive plate whose points convert up to the absorbing faces, which then act on bonds. Conversion in motion
  * dissipates energy (15 % in so small a plate), and the faces change this by at most 1 %. */
 static void test_conversion_at_face(void **state)
 {

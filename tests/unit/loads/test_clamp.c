@@ -46,7 +46,7 @@ struct body {
     struct run e;
 };
 
-/* Creates a scene with the overrides `key=value`, terminated by NULL. */
+/* Creates in a the run of the scene `text` with the overrides with[], texts `key=value`, terminated by NULL. */
 static void body_make(struct body *a, const char *text, const char *const *with)
 {
     enum { MOST = 8 };
@@ -70,7 +70,7 @@ static void body_free(struct body *a)
     scene_free(&a->s);
 }
 
-/* Computes the forces by the calls of a time step, without breaking. */
+/* Computes the forces of run e by the calls of a time step, without breaking bonds. */
 static void forces(struct run *e)
 {
     loads_update_mirror_images(&e->loads, &e->part);
@@ -85,7 +85,7 @@ static real energy(struct run *e)
 
 /* ---- the operator ------------------------------------------------------------------------------------------------ */
 
-/* Returns -df/dx at the reference positions, n x n, allocated. */
+/* Returns the stiffness matrix -df/dx of run e at the reference positions, n x n for n components, to be freed. */
 static real *stiffness_of(struct run *e)
 {
     struct particles *p = &e->part;
@@ -124,7 +124,8 @@ static void check_operator(struct run *e, const char *name)
     memory_free(K);
 }
 
-/* Far from the reference positions, the energy of rows changes along random motions by the work of the forces. */
+/* Checks far from the reference positions that the energy of the rows of run e changes along random motions by the work
+ * of the forces. name: of the case, for messages. */
 static void check_gradient(struct run *e, const char *name)
 {
     struct particles *p = &e->part;
@@ -200,9 +201,10 @@ static void test_energy(void **state)
     }
 }
 
-/* Bonds that have yielded, each by an amount that depends on the position of its middle: the force is that of the
- * elastic stretch, both from the sweep and from the images at clamped planes. A bond across the plane of symmetry y = 0
- * and its image have equal plastic stretch. The yield stress is too high for further yielding. */
+/* Tests bonds that have yielded, each by an amount that depends on the position of its middle: the force is that of the
+ * elastic stretch, both from the sweep and from the images at clamped planes (which prevent all motion). A bond across
+ * the plane of symmetry y = 0 and its image have equal plastic stretch. The yield stress is too high for further
+ * yielding. */
 static void test_yielded(void **state)
 {
     (void)state;
@@ -259,7 +261,7 @@ static void test_threads(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs to the end; returns the largest error of the energy balance. */
+/* Runs e to the end; returns the largest error of the energy balance. */
 static real run(struct run *e)
 {
     real most = 0;
@@ -278,9 +280,9 @@ static real run(struct run *e)
     "body: {box: {from: [0, 0], to: [20 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
 
-/* A beam released from a deflected state: 25,000 steps and more. The energy balance closes to 6e-8 (also for four times
- * the length). Without the energy of clamps the first three would stop after 3e3 to 3e4 steps and the last would gain 5
- * % in 1e5. */
+/* Checks a beam released from a deflected state over 25,000 steps and more: the energy balance closes to 6e-8 (also for
+ * four times the length). Without the energy of clamps the first three would stop after 3e3 to 3e4 steps and the last
+ * would gain 5 % in 1e5. */
 static void test_long(void **state)
 {
     (void)state;
@@ -324,7 +326,7 @@ static void test_coupled(void **state)
     }
 }
 
-/* A clamp through particles: these do not move, and the energy and momentum balances close. */
+/* Checks a clamp through particles: these do not move, and the energy and momentum balances close. */
 static void test_in_plane(void **state)
 {
     (void)state;
@@ -352,7 +354,8 @@ static void test_in_plane(void **state)
     "  - {mirror: {axis: y, at: 0, tangential: free}}\n  - {mirror: {axis: y, at: 4 mm, tangential: free}}\n"          \
     "  - traction: [1 MPa, 0]\n    face: x+\n    time: {pulse: {from: 0, until: 4 us}}\n"
 
-/* A plane wave is reflected from a clamp as from a plane of symmetry, because it has no motion along the plane. */
+/* Checks that a plane wave is reflected from a clamp as from a plane of symmetry, because it has no motion along the
+ * plane. */
 static void test_reflection(void **state)
 {
     (void)state;
@@ -381,7 +384,7 @@ static void test_reflection(void **state)
     "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "initial: [{velocity: [50, 20]}]\n"
 
-/* A body that tears off its clamp: bonds break only at their images, which act until then, with a share of their
+/* Tests a body that tears off its clamp: bonds break only at their images, which act until then, with a share of their
  * reaction in that step. Final error of the balance: 6e-5 to 4.3e-4 measured with half the critical step, 1.5e-5 to
  * 7e-5 with an eighth; with half of all last forces 5e-3 and up to 4.5e-4. */
 static void test_torn(void **state)
@@ -412,8 +415,8 @@ static void test_torn(void **state)
     "body: {box: {from: [0, 0], to: [50 mm, 10 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT               \
     "  - body_force: [0, 1e4]\n"
 
-/* Tip displacement of a cantilever under its own weight b: b L^4/(8 E h^2/12) + b L^2/(2 G 5/6) (Timoshenko 1921),
- * within 2 % for ten layers of each model; the clamp carries the weight. */
+/* Compares the tip displacement of a cantilever under its own weight b with b L^4/(8 E h^2/12) + b L^2/(2 G 5/6)
+ * (Timoshenko 1921), within 2 % for ten layers of each model; the clamp carries the weight. */
 static void test_cantilever(void **state)
 {
     (void)state;

@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* Sets the expression x^2/(1 m) or, with time, x t/(1 s) [m, or m/s]. */
+/* Makes the expression *e x^2/(1 m) or, with time, x t/(1 s) [m, or m/s]. */
 static void by_x(struct expression *e, bool with_time)
 {
     const struct expression_step step[] = {
@@ -37,7 +37,8 @@ static void displaced_free(struct displaced *m)
     particle_cloud_free(&m->c);
 }
 
-/* A free component is 0 whatever its value; numbers and formulas are multiplied by the function of time. */
+/* Checks prescribed motion: a free component is 0 whatever its value; numbers and formulas are multiplied by the
+ * function of time. */
 static void test_values(void **state)
 {
     (void)state;
@@ -68,8 +69,8 @@ static void test_values(void **state)
     expression_free(&b.formula[0]);
 }
 
-/* Rotation about an oblique axis in 3D: Rodrigues' formula for the component of the arm along the axis and across
- * it. */
+/* Checks the rotation about an oblique axis in 3D against Rodrigues' formula, for the component of the arm along the
+ * axis and across it. */
 static void test_turn_in_space(void **state)
 {
     (void)state;
@@ -101,7 +102,7 @@ static void test_turn_in_space(void **state)
     assert_near(dot(way, axis, 3), 0, 1e-14);
 }
 
-/* A quarter turn about (1, 2) spacings, at a linearly increasing rate. */
+/* Checks a quarter turn about the point (1, 2) spacings at a linearly increasing rate. */
 static void test_turn(void **state)
 {
     (void)state;
@@ -126,8 +127,8 @@ static void test_turn(void **state)
     displaced_free(&m);
 }
 
-/* Formulas of t: a displacement is its current value; a velocity has no integral; in a static problem the value at the
- * end applies. */
+/* Checks formulas of t: a displacement is its current value; a velocity has no integral; in a static problem the value
+ * at the end applies. */
 static void test_formula_of_time(void **state)
 {
     (void)state;
@@ -153,7 +154,8 @@ static void test_formula_of_time(void **state)
     expression_free(&b.formula[0]);
 }
 
-/* The largest slope of a function of time, compared with finite differences; infinite at a jump, 0 before the start. */
+/* Compares the largest slope of a function of time with finite differences; it is infinite at a jump, 0 before the
+ * start. */
 static void test_steepest(void **state)
 {
     (void)state;
@@ -178,8 +180,8 @@ static void test_steepest(void **state)
                 isinf(time_function_largest_slope_until(&step, 1.1)));
 }
 
-/* Static problem: displacements at the end, per particle; half the support forces times the displacements is the
- * work. */
+/* Checks a static problem: displacements at the end, per particle; the work is half the support forces times the
+ * displacements. */
 static void test_static(void **state)
 {
     (void)state;

@@ -25,7 +25,8 @@ struct sample {
     struct loads l;
 };
 
-/* Creates a body with one traction; the loads must be valid, or refused with the message `refusal`. */
+/* Creates in *a a body with one traction; the loads must be valid or, if `refusal` is not NULL, refused with this
+ * message. space, body, more, traction: texts of the keys of the scene. */
 static void sample_try(struct sample *a, const char *space, const char *body, const char *more, const char *traction,
                        const char *refusal)
 {
@@ -63,7 +64,7 @@ static void sample_free(struct sample *a)
     scene_free(&a->s);
 }
 
-/* Returns the sum of a load's shares along d [m^2]. */
+/* Returns the sum of the shares of the load of a along axis d [m^2]. */
 static real area(const struct sample *a, int d)
 {
     real sum = 0;
@@ -71,7 +72,7 @@ static real area(const struct sample *a, int d)
     return sum;
 }
 
-/* Returns the share of the particle nearest to a position. */
+/* Returns the share along axis d of the particle of a nearest to the position (x, y) [m^2]. */
 static real share_at(const struct sample *a, int d, real x, real y)
 {
     for (int64_t k = 0; k < a->l.load[0].n; k++) {
@@ -81,7 +82,8 @@ static real share_at(const struct sample *a, int d, real x, real y)
     return 0;
 }
 
-/* Returns the number of columns of a lattice along an axis: particles without another one in front of them. */
+/* Returns the number of columns of a lattice along the axis `face`: particles of p without another one in front of
+ * them. */
 static int64_t lattice_columns(const struct particles *p, int face)
 {
     int64_t n = 0;
@@ -109,7 +111,8 @@ static const char corner[] = "body: [" BOX(0, 0, 30, 10) ", " BOX(0, 10, 8, 25) 
 static const char overhang[] = "body: [" BOX(0, 0, 30, 30) ", " CUT(10, 10, 31, 20) "]\n";
 static const char holed[] = "body: [" BOX(0, 0, 30, 30) ", {subtract: " DISC(15, 15, 6) "}]\n";
 
-/* Projected area of a solid along x and y (and z) [m, m^2], and its change for a layer of one spacing all around. */
+/* Solids with their projected area along x and y (and z) [m, m^2], and the change of this area for a layer of one
+ * spacing all around. */
 static const struct solid_shown {
     const char *name, *space, *body;
     real shows[DIM_MAX], spacing[DIM_MAX];
@@ -141,7 +144,8 @@ static const struct solid_shown {
      {1e-9}},
 };
 
-/* Irregularity of less than half a spacing does not change the columns of a lattice. */
+/* Checks the loaded area of the solid q on its side `side` (-1 or 1) along the axis `face`. Irregularity of less than
+ * half a spacing does not change the columns of a lattice. */
 static void check_shape(const struct solid_shown *q, int face, int side)
 {
     static const char *const shaken[] = {"", ", irregularity: 0.5", ", irregularity: 0.8, seed: 3"};
@@ -175,8 +179,8 @@ static void test_shapes(void **state)
 
 /* ---- loaded particles -------------------------------------------------------------------------------------------- */
 
-/* Steps are loaded; surfaces hidden by an overhang and the bottom of a hole are not. A region without the hiding
- * particles loads the hidden ones, only over their own width. */
+/* Checks that steps are loaded, and that surfaces hidden by an overhang and the bottom of a hole are not. A region
+ * without the hiding particles loads the hidden ones, only over their own width. */
 static void test_hidden(void **state)
 {
     (void)state;
@@ -225,8 +229,8 @@ static void test_refused(void **state)
     sample_free(&a);
 }
 
-/* Bodies hide each other if the traction acts on all of them, also for different lattices; a named body is considered
- * alone. */
+/* Checks that bodies hide each other if the traction acts on all of them, also for different lattices; a named body is
+ * considered alone. */
 static void test_bodies(void **state)
 {
     (void)state;
@@ -250,8 +254,8 @@ static void test_bodies(void **state)
         }
 }
 
-/* The tangential component on a stepped face acts half a spacing outside of every column's first particle: its moment
- * is that of the steps. In a column with a single particle it acts on this particle. */
+/* Checks that the tangential component on a stepped face acts half a spacing outside the first particle of every
+ * column: its moment is that of the steps. In a column with a single particle it acts on this particle. */
 static void test_along(void **state)
 {
     (void)state;
@@ -334,7 +338,7 @@ static void test_lists(void **state)
     remove(list_name);
 }
 
-/* In 3D: balls of radius 8 from an irregular close packing, with volumes that differ by a half. */
+/* Checks loaded areas in 3D: balls of radius 8 from an irregular close packing, with volumes that differ by a half. */
 static void test_packed(void **state)
 {
     (void)state;
@@ -367,8 +371,9 @@ static void test_packed(void **state)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* A free body has the momentum t A T after a time T with every method; the sum of momenta is checked, not the impulse
- * reported by the loads. */
+/* Checks that a free body q has the momentum t A T after a time T with the method `method` and the further keys `more`,
+ * for the traction t on the area A of `columns` columns; the sum of momenta is checked, not the impulse reported by the
+ * loads. */
 static void check_impulse(const struct solid_shown *q, int64_t columns, const char *method, const char *more)
 {
     enum { STEPS = 12 };

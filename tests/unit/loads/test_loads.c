@@ -10,8 +10,8 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* A sine along (3, 4)/5 with its origin inside, acting in x and y. The profile refers to reference positions:
- * displacements have no effect. */
+/* Checks a sine profile along (3, 4)/5 with its origin inside, acting in x and y. The profile refers to reference
+ * positions: displacements have no effect. */
 static void test_sine(void **state)
 {
     (void)state;
@@ -55,9 +55,10 @@ static void test_sine(void **state)
     particle_cloud_free(&c);
 }
 
-/* Loads of the same particles are combined, with terms of equal shares as one; results equal the sum of separate loads
- * on any number of threads. Two loads with one profile, one with another, one on a part of the body, one whose region
- * contains every particle in another notation, and a traction. */
+/* Checks that loads of the same particles are combined, with terms of equal shares as one, and that results equal the
+ * sum of separate loads on any number of threads. Two loads with one profile, one with another, one on a part of the
+ * body, one whose region contains every particle in another notation, and a traction. together: false for separate
+ * loads; impulse, *work, f: receive the results. */
 static void check_together(int threads, bool together, real *impulse, real *work, real *f)
 {
     const real length = 5 * CLOUD_SPACING, dt = 1e-6;
@@ -124,8 +125,9 @@ static void test_together(void **state)
     team_set_thread_count(2);
 }
 
-/* Leap-frog integration: half a velocity update, then full ones, each centred at the time of its forces. The impulse of
- * a force is its integral in time: exact if it is linear or switches at a whole step, else of second order. */
+/* Checks leap-frog integration of loads: half a velocity update, then full ones, each centred at the time of its
+ * forces. The impulse of a force is its integral in time: exact if it is linear or switches at a whole step, else of
+ * second order. */
 static void test_kicks(void **state)
 {
     (void)state;
@@ -156,15 +158,15 @@ static void test_kicks(void **state)
     }
 }
 
-/* Sets the volume of every particle to that of its cell, as in a filled body. */
+/* Sets the volume of every particle of p to that of its cell, as in a filled body. */
 static void even_volumes(struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) p->volume0[i] = square(CLOUD_SPACING) * 2e-3;
 }
 
-/* The force of a traction is t A and its moment that of a force on the face, half a spacing outside the particles, for
- * any direction and irregularity (shifts of 0.3 spacings: a layer 0.6 thick); the moment of the tangential component is
- * exact on the lattice, where the depths of layers are known. */
+/* Checks that the force of a traction is t A and its moment that of a force on the face, half a spacing outside the
+ * particles, for any direction and irregularity (shifts of 0.3 spacings: a layer 0.6 thick); the moment of the
+ * tangential component is exact on the lattice, where the depths of layers are known. */
 static void test_traction(void **state)
 {
     (void)state;
@@ -200,8 +202,8 @@ static void test_traction(void **state)
         }
 }
 
-/* The displacement of a load is the mean weighted by the shares of its particles, as in its work; the plain mean if the
- * shares add up to zero. */
+/* Checks that the displacement of a load is the mean weighted by the shares of its particles, as in its work, and the
+ * plain mean if the shares add up to zero. */
 static void test_mean_displacement(void **state)
 {
     (void)state;
@@ -231,7 +233,7 @@ static void test_mean_displacement(void **state)
     particle_cloud_free(&c);
 }
 
-/* Force of a load at a time: its value, function and formula of time, times the volume of the particle. */
+/* Checks the force of a load at a time: its value, function and formula of time, times the volume of the particle. */
 static void test_force_at(void **state)
 {
     (void)state;
@@ -259,7 +261,8 @@ static void test_force_at(void **state)
     expression_free(&push.formula[0]);
 }
 
-/* The resultant of loads on a free body is balanced by its inertia: no moment remains, and no force is added. */
+/* Checks that the resultant of loads on a free body is balanced by its inertia: no moment remains, and no force is
+ * added. */
 static void test_relief(void **state)
 {
     (void)state;

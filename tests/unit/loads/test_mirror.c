@@ -29,7 +29,8 @@ static const struct boundary mirror[] = {
     {.name = "below", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 0},
 };
 
-/* Sets a deformation and kinds of particles that are symmetric about the mirrors. */
+/* Sets a deformation and kinds of the particles p that are symmetric about the mirrors. pd_radius: radius around the
+ * middle within which particles are peridynamic [spacings]. */
 static void deform(struct particles *p, real pd_radius)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -94,7 +95,8 @@ static void quarter_free(struct quarter *q)
     particle_cloud_free(&q->part);
 }
 
-/* Returns the largest difference between a field of the quarter and of the whole. */
+/* Returns the largest difference between a field of the quarter, part[], and of the whole body, whole[], at
+ * corresponding particles of q. */
 static real deviation(const struct quarter *q, const real *part, const real *whole)
 {
     real *twin = NEW("test.field", q->part.p.n, real);
@@ -175,7 +177,8 @@ static void test_mirror(void **state)
 
 enum { LOOKS_MOST = 4096 }; /* more than the number of particles in a quarter */
 
-/* Counts how often each particle is listed; a list must not hold a particle twice. */
+/* Callback that counts in `context` how often each particle list[n] is listed; fails if a list holds a particle
+ * twice. */
 static void count_looks(void *context, const int32_t *list, int64_t n)
 {
     int *looks = context, before[LOOKS_MOST];
@@ -186,9 +189,9 @@ static void count_looks(void *context, const int32_t *list, int64_t n)
     }
 }
 
-/* A point beside a mirror is converted with its horizon: its images and their neighbours behave as in the whole body,
- * where all four symmetric points are marked. The bonds are updated for each converted particle and its family, once
- * each. */
+/* Tests a point beside a mirror that is converted with its horizon: its images and their neighbours behave as in the
+ * whole body, where all four symmetric points are marked. The bonds are updated for each converted particle and its
+ * family, once each. */
 static void test_mirror_convert(void **state)
 {
     (void)state;
@@ -223,7 +226,8 @@ static void test_mirror_convert(void **state)
 
 /* ---- bonds that break -------------------------------------------------------------------------------------------- */
 
-/* Creates families with Poisson's ratio 0.2 for the models that allow it. */
+/* Creates the families of q with Poisson's ratio 0.2 for the models that allow it. modulus: receives the constants of
+ * state-based models. */
 static void quarter_families(struct quarter *q, enum space space, enum pd_model model, struct state_modulus *modulus)
 {
     static const int axis[] = {0, 1};
@@ -238,8 +242,8 @@ static void quarter_families(struct quarter *q, enum space space, enum pd_model 
         }
 }
 
-/* All bonds beyond a stretch of 1.2 %, many of which were below one step ago, break in one sweep: the quarter agrees
- * with the whole in number and last forces. */
+/* Tests a sweep in which all bonds beyond a stretch of 1.2 %, many of which were below it one step ago, break with the
+ * model `model`: the quarter agrees with the whole body in number and last forces. */
 static void breaks_case(enum space space, enum pd_model model)
 {
     const int dim = space_dim(space);
@@ -294,8 +298,8 @@ struct points {
 
 static const struct elastic steel = {.c11 = 2e11, .c12 = 7e10, .shear = 6.5e10, .trigger = INFINITY};
 
-/* Sets a motion and stresses that are symmetric about the mirrors, in a body deformed such that points are at arbitrary
- * positions in cells. */
+/* Sets a motion and stresses of the points p that are symmetric about the mirrors, in a body deformed such that points
+ * are at arbitrary positions in cells. */
 static void points_state(struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -316,7 +320,8 @@ static void points_state(struct particles *p)
     particles_rebuild_lists_by_kind(p);
 }
 
-/* Creates the body. offset: of the planes from a node [node distances]. */
+/* Creates s, the points p on a grid with the boundaries b[n]. offset: distance of the planes from a node [node
+ * distances]. */
 static void points_make(struct points *s, struct particles *p, const struct boundary *b, int n, real offset)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -379,8 +384,8 @@ static void points_compare(const struct quarter *q)
         assert_true(deviation(q, part->stress[c], whole->stress[c]) <= CLOSE);
 }
 
-/* The quarter moves as the whole does for all shapes that extend beyond the planes; the impulse of the planes is the
- * change of its momentum. */
+/* Checks that the quarter moves as the whole body does for shape functions that extend beyond the planes; the impulse
+ * of the planes is the change of its momentum. offset: as in points_make. */
 static void points_case(enum space space, enum shape shape, enum transfer transfer, real offset)
 {
     const int n[2] = {6, 5};
@@ -429,9 +434,9 @@ static void test_mirror_points(void **state)
             }
 }
 
-/* A strip between two mirrors, far from the origin of one and near that of the other, displaced by less than a bond can
- * resolve: the distance from i to the image of j is bitwise equal to that from j to the image of i, so that no force
- * along the mirrors remains. */
+/* Checks a strip between two mirrors, far from the origin of one and near that of the other, displaced by less than a
+ * bond can resolve: the distance from particle i to the image of j is bitwise equal to that from j to the image of i,
+ * so that no force along the mirrors remains. */
 static void test_mirror_places(void **state)
 {
     (void)state;

@@ -9,11 +9,11 @@ enum { FLOWED = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_PLASTIC_CORRECTION };
 enum { STATES = 3 + 2 * SYM_MAX };
 static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
-/* Returns true if the points of a cell have one dilatation in a space. */
+/* Returns true if all points of a cell have one dilatation in the space `space`. */
 static bool averages(enum space space) { return space == SPACE_PLANE_STRAIN || space == SPACE_SOLID; }
 
-/* Creates a block whose points yield at this fraction of the shear modulus, material 1 with hardening; 0: no
- * yielding. */
+/* Creates the block b, whose points yield at `yield` times the shear modulus, material 1 with hardening; 0: no
+ * yielding. optional: optional arrays of particles (WITH_*). */
 static void flow_block_make(struct block *b, enum space space, real yield, int optional)
 {
     block_make_with(b, space, true, false, FLOWED | optional);
@@ -29,8 +29,8 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
     }
 }
 
-/* Creates a block whose material 1 has linear hardening and material 0 Voce's law and a back stress in place of it,
- * with recall, if given. mode: of the law; explicit steps have laws alone. */
+/* Creates the block b, whose material 1 has linear hardening and material 0 Voce's law and a back stress in place of
+ * it, with recall if `recall` > 0. mode: of the law; explicit steps have laws alone. */
 static void law_block_make(struct block *b, enum space space, real recall, enum law_mode mode)
 {
     flow_block_make(b, space, 0.05, WITH_BACK_STRESS | (mode == LAW_EXPLICIT ? WITH_MESH_STRESS : 0));
@@ -42,7 +42,7 @@ static void law_block_make(struct block *b, enum space space, real recall, enum 
     }
 }
 
-/* Lists the arrays of the plastic state of a block. */
+/* Lists the arrays of the plastic state of the block b in array[]. Returns their number. */
 static int states_of(const struct block *b, real *array[STATES])
 {
     int n = 0;
@@ -64,7 +64,8 @@ static void states_copy(const struct block *b, real *kept, bool back)
         memcpy(back ? array[k] : kept + k * n, back ? kept + k * n : array[k], (size_t)n * sizeof(real));
 }
 
-/* Returns the incremental energy of the block from the state `kept`, without constants, and updates the state [J]. */
+/* Returns the incremental energy of the block b from the state `kept` [J], without constants, and updates the state.
+ * finite: true for finite strain. */
 static real incremental_energy(struct block *b, real *kept, bool finite)
 {
     real sum = 0;
@@ -83,8 +84,9 @@ static int64_t flowed(const struct block *b)
     return n;
 }
 
-/* f = -dW/du by central differences at some nodes, from a plastic state left by another path. Where a point starts to
- * yield within the step its second derivative jumps, which adds 1e-6 of the largest force. */
+/* Checks f = -dW/du by central differences at some nodes, from a plastic state left by another path. finite: true for
+ * finite strain; law: true for the laws of law_block_make. Where a point starts to yield within the step its second
+ * derivative jumps, which adds 1e-6 of the largest force. */
 static void flow_gradient_of(enum space space, bool finite, bool law)
 {
     struct block b;
@@ -128,8 +130,8 @@ static void test_flow_gradient(void **state)
             for (int law = 0; law < 2; law++) flow_gradient_of(flow_spaces[s], finite, law);
 }
 
-/* Points that never reach their yield stress have the forces and energies of the closed forms used for elastic
- * cells. */
+/* Checks that points that never reach their yield stress have the forces and energies of the closed forms used for
+ * elastic cells. */
 static void test_flow_elastic(void **state)
 {
     (void)state;
@@ -152,7 +154,7 @@ static void test_flow_elastic(void **state)
         }
 }
 
-/* A loading path and its repetition: the second time all points are on the yield surface without further flow;
+/* Tests a loading path and its repetition: the second time all points are on the yield surface without further flow;
  * unloading is elastic, and leaves stresses and unchanged plastic work. */
 static void test_flow_state(void **state)
 {
@@ -176,8 +178,9 @@ static void test_flow_state(void **state)
     block_free(&b);
 }
 
-/* Explicit steps of random motion, to and fro: the mean forces of a step times its displacements are strain energy and
- * plastic work. Finite strains have them along straight paths of the nodes, where the rotation is not linear. */
+/* Checks explicit steps of random motion, to and fro: the mean forces of a step times its displacements are strain
+ * energy and plastic work. Finite strains have them along straight paths of the nodes, where the rotation is not
+ * linear. */
 static void test_flow_energy(void **state)
 {
     (void)state;

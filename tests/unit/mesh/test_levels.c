@@ -23,7 +23,7 @@ struct plate {
     int64_t step;
 };
 
-/* Marks the cells that must be of level 0: the band (`bend`), or only one end. */
+/* Marks in demand[] the cells of b that must be of level 0 (the finest): a band (`bend`), or only one end. */
 static void demand_mark(const struct plate *b, uint8_t *demand, bool bend)
 {
     const struct grid *g = &b->mesh.grid;
@@ -50,7 +50,8 @@ static void levels_set(struct plate *b, bool bend)
     memory_free(demand);
 }
 
-/* Creates a plate. parted: the second material beyond the middle of the cells along x. */
+/* Creates the plate b. levels: coarse levels; length: cells along x; parted: true for a second material beyond the
+ * middle. */
 static void plate_make_of(struct plate *b, enum space space, int levels, int length, bool parted)
 {
     const int dim = space_dim(space), across = dim == 3 ? 40 : 48;
@@ -92,7 +93,7 @@ static void plate_free(struct plate *b)
     particle_cloud_free(&b->c);
 }
 
-/* Returns true if node I of a level is independent: it has mass. */
+/* Returns true if node I of level `level` of l is independent: it has mass. */
 static bool node_free(const struct mesh_levels *l, int level, int64_t I)
 {
     return level_mesh_read_only(l, level)->grid.mass[I] > 0;
@@ -103,7 +104,7 @@ static real place_of(const struct mesh *mesh, int64_t I, int d)
     return grid_node_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
-/* Sets u or v of all nodes to A X + c plus a random motion of at most `by`. */
+/* Sets u, or v if `velocity`, of all nodes of b to A X + c plus a random motion of at most `by`. */
 static void motion_set(struct plate *b, const real A[9], const real *c, real by, bool velocity)
 {
     uint64_t seed = 3;
@@ -141,7 +142,7 @@ static real strain_of(struct plate *b, bool finite)
            levels_strain_energy_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite);
 }
 
-/* Returns the force on a component of node I of a level by all cells: of its own level, plus half the doubled one of
+/* Returns the force on component d of node I of `level` by all cells: of its own level, plus half the doubled one of
  * the next. */
 static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
 {
@@ -153,8 +154,8 @@ static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
     return own + 0.5 * (g->force[d][I] - own);
 }
 
-/* f = -dW/du by central differences of the energy of all cells, at some nodes of each level. Tolerance 1e-6 of the
- * largest force: third derivatives times the squared step, and round-off of the total energy over the step. */
+/* Checks f = -dW/du by central differences of the energy of all cells, at some nodes of each level. Tolerance 1e-6 of
+ * the largest force: third derivatives times the squared step, and round-off of the total energy over the step. */
 static void gradient_across(enum space space, bool finite)
 {
     struct plate b;
@@ -195,7 +196,7 @@ static void test_gradient(void **state)
     gradient_across(SPACE_SOLID, true);
 }
 
-/* Returns true if the node is on a face of the block. */
+/* Returns true if node I of `level` is on a face of the block b. */
 static bool on_face(const struct plate *b, int level, int64_t I)
 {
     const struct mesh *mesh = level_mesh_read_only(&b->levels, level);
@@ -231,7 +232,7 @@ static void patch_level(struct plate *b, bool finite, int level)
     }
 }
 
-/* Uniform strain and rotation cause no force at inner nodes: round-off of forces of cells, 1e-12. */
+/* Checks that uniform strain and rotation cause no force at inner nodes: round-off of forces of cells, 1e-12. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -263,8 +264,8 @@ static real kinetic_of(const struct plate *b)
     return mesh_kinetic(&b->mesh) + levels_kinetic_energy_of_coarse_levels(&b->levels);
 }
 
-/* Every change of levels conserves mass and momentum of random motion to round-off, keeps affine motion exactly, and a
- * split never increases the energy of random motion. */
+/* Checks that every change of levels conserves mass and momentum of random motion to round-off, keeps affine motion
+ * exactly, and that a split never increases the energy of random motion. */
 static void test_changes(void **state)
 {
     (void)state;
@@ -316,7 +317,7 @@ static void steps_make(struct plate *b, int64_t n, bool finite)
     }
 }
 
-/* Returns the energy between two steps, 1/2 p- . v+ + W, at a time common to all levels. */
+/* Returns the energy of b between two steps, 1/2 p- . v+ + W, at a time common to all levels. */
 static real energy_of(struct plate *b, bool finite)
 {
     const real strain = strain_of(b, finite), before = kinetic_of(b);
@@ -328,8 +329,9 @@ static real energy_of(struct plate *b, bool finite)
     return before + 0.5 * b->dt * (own + power) + strain;
 }
 
-/* Returns the largest energy over `rounds` of 100 steps and the mean of the last tenth over that of the first, for a
- * bar or plate with random velocities. share: dt in spacings over wave speed. */
+/* Returns how the energy of a bar, or plate, with random velocities grows: that in the last tenth of `rounds` of 96
+ * steps over that in the first; INFINITY if a million-fold. share: dt in spacings over wave speed. parted: two
+ * materials. *momentum_error: receives the relative change of momentum; NULL: not needed. */
 static real energy_growth(enum space space, int levels, real share, int rounds, bool parted, real *momentum_error)
 {
     struct plate b;
@@ -354,9 +356,9 @@ static real energy_growth(enum space space, int levels, real share, int rounds, 
     return last / first;
 }
 
-/* Random velocities over 1e5 steps at 1.4 spacings over wave speed, 0.7 of the critical step: the energy is constant to
- * 0.5 %, the momentum to round-off. Beyond the resonance at pi/2 of the finest cells' period, 1.57, the energy grows
- * without bound. */
+/* Tests random velocities over 1e5 steps at 1.4 spacings over wave speed, 0.7 of the critical step: the energy is
+ * constant to 0.5 %, the momentum to round-off. Beyond the resonance at pi/2 of the finest cells' period, 1.57, the
+ * energy grows without bound. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -370,8 +372,8 @@ static void test_steps(void **state)
     assert_true(energy_growth(SPACE_LINE, 2, 1.8, 1000, false, NULL) > 2);
 }
 
-/* At an interface of two materials the inertia of cells is not matched, because masses of nodes differ: momentum is
- * conserved to round-off, and the energy is bounded. */
+/* Checks an interface of two materials, where the inertia of cells is not matched, because masses of nodes differ:
+ * momentum is conserved to round-off, and the energy is bounded. */
 static void test_materials(void **state)
 {
     (void)state;
@@ -386,7 +388,8 @@ static void test_materials(void **state)
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* Sets a pulse of this width (4 Gaussian radii) [spacings] in a bar, centred at `at` [m], that travels to the right. */
+/* Sets in the bar b a pulse of the width `width` (4 Gaussian radii) [spacings], centred at `at` [m], that travels to
+ * the right. */
 static void pulse_set(struct plate *b, real at, real width)
 {
     struct mesh_levels *l = &b->levels;
@@ -405,15 +408,16 @@ static void pulse_set(struct plate *b, real at, real width)
     levels_copy_motion_to_ghost_nodes(l);
 }
 
-/* Computes the displacement at the nodes of level 0. */
+/* Computes u[], the displacement of b at the nodes of level 0. */
 static void profile_of(struct plate *b, real *u)
 {
     levels_prolong_motion_to_fine_nodes(&b->levels);
     memcpy(u, b->mesh.displacement[0], (size_t)b->mesh.grid.n * sizeof *u);
 }
 
-/* Returns the mean-square difference between a pulse that has travelled 190 spacings through cells of `levels` and one
- * in cells of level 0, at their common nodes, over its mean square. */
+/* Returns the mean-square difference between a pulse of the width `width` that has travelled 190 spacings through cells
+ * of `levels` and one in cells of level 0, at their common nodes, over its mean square. matched: false for lumped
+ * mass. */
 static real pulse_difference(int levels, real width, bool matched)
 {
     enum { LENGTH = 640 };
@@ -442,10 +446,10 @@ static real pulse_difference(int levels, real width, bool matched)
     return sqrt(difference / all);
 }
 
-/* Cells of four spacings with matched inertia carry a pulse of 64 spacings as those of two within 0.2 %, one of 128
- * within 0.02 %: the dispersion decreases with the fourth power of the width (measured 0.08 and 0.008 %). With
- * lumped mass the error is 2.4 %, decreasing with the square. With cells of eight spacings after those of four: 2
- * and 0.1 %. */
+/* Checks the dispersion of coarse cells by pulses: cells of four spacings with matched inertia carry a pulse of 64
+ * spacings as those of two within 0.2 %, one of 128 within 0.02 %: the dispersion decreases with the fourth power of
+ * the width (measured 0.08 and 0.008 %). With lumped mass the error is 2.4 %, decreasing with the square. With cells of
+ * eight spacings after those of four: 2 and 0.1 %. */
 static void test_dispersion(void **state)
 {
     (void)state;
@@ -456,7 +460,8 @@ static void test_dispersion(void **state)
     assert_true(pulse_difference(2, 128, true) < 0.001);
 }
 
-/* Returns the amplitude reflected at an interface to cells of four spacings, over the peak of the pulse. */
+/* Returns the amplitude of a pulse of the width `width` reflected at an interface to cells of four spacings, over the
+ * peak of the pulse. */
 static real reflection(int levels, real width)
 {
     enum { LENGTH = 1600 };
@@ -484,8 +489,8 @@ static real reflection(int levels, real width)
     return back / peak;
 }
 
-/* The impedance of lumped cells gives 2.0, 0.6, 0.15 % at 32, 64, 128 spacings for the transition from 2 to 4; the
- * limits are larger by a fifth to a quarter. */
+/* Checks reflections at an interface to coarse cells: the impedance of lumped cells gives 2.0, 0.6, 0.15 % at 32, 64,
+ * 128 spacings for the transition from 2 to 4; the limits are larger by a fifth to a quarter. */
 static void test_reflection(void **state)
 {
     (void)state;

@@ -7,7 +7,8 @@
 
 /* f = -dW/du by central differences of the plain energy of the cells around a node. Tolerance 1e-7 of the largest
  * force: third derivatives times the squared step, and round-off of the energy over the step. */
-/* averaged: 1: with one dilatation in a cell, 2: and with several materials. */
+/* Checks the nodal forces of a block against the energy gradient. cubic: true for a cubic material; averaged: 1: with
+ * one dilatation in a cell, 2: and with several materials in it. */
 static void gradient_stencil_apply(enum space space, bool finite, bool cubic, int averaged)
 {
     struct block b;
@@ -56,7 +57,8 @@ static void test_gradient(void **state)
         }
 }
 
-/* The closed form of complete cells and the stiffness of cut ones equal the same sums over points, to round-off. */
+/* Checks that the closed form of complete cells and the stiffness of cut ones equal the same sums over points, to
+ * round-off. */
 static void test_whole_and_cut(void **state)
 {
     (void)state;
@@ -88,8 +90,8 @@ static void test_whole_and_cut(void **state)
         }
 }
 
-/* Computes the stress that a point transfers at small strain by its own motion: C : e minus the part carried by bonds,
- * without its antisymmetric part; e has the trace of point_trace. */
+/* Computes P, the stress that point i of b transfers at small strain by its own motion: C : e minus the part carried by
+ * bonds (`partial`), without its antisymmetric part; e has the trace of point_trace. */
 static void given_own(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct mesh *mesh = &b->mesh;
@@ -118,8 +120,8 @@ static void given_own(const struct block *b, const struct partial_stress *partia
     }
 }
 
-/* Computes the stress that a point transfers: that of given_own, whose mean stress is the mean over the points of its
- * cell and material if they have one dilatation. */
+/* Computes P, the stress that point i of b transfers: that of given_own, whose mean stress is the mean over the points
+ * of its cell and material if they have one dilatation. */
 static void given(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct particles *p = &b->c.p;
@@ -137,8 +139,8 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     for (int d = 0; d < p->dim && n > 0; d++) P[d * (p->dim + 1)] += pressure / n - own;
 }
 
-/* Partial cells with a random partial stress that derives from an energy, compared with sums of V P grad N over points:
- * round-off of a few hundred terms. Later changes are followed cell by cell. */
+/* Compares forces of partial cells with a random partial stress that derives from an energy with sums of V P grad N
+ * over points: round-off of a few hundred terms. Later changes are followed cell by cell. */
 static void test_partial(void **state)
 {
     (void)state;
@@ -186,8 +188,8 @@ static void test_partial(void **state)
     }
 }
 
-/* Uniform strain causes no force inside, for complete and cut cells: round-off of sums of stresses times faces. Inner
- * nodes are those whose neighbours all have their full mass. */
+/* Checks that uniform strain causes no force inside, for complete and cut cells: round-off of sums of stresses times
+ * faces. Inner nodes are those whose neighbours all have their full mass. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -212,8 +214,8 @@ static void test_patch(void **state)
         }
 }
 
-/* A rotation causes no force at finite strain, and no displacement causes a resultant force or moment on the whole
- * body: 1e-13 of the terms. At small strain the resultant force vanishes, but not the moment. */
+/* Checks that a rotation causes no force at finite strain, and that no displacement causes a resultant force or moment
+ * on the whole body: 1e-13 of the terms. At small strain the resultant force vanishes, but not the moment. */
 static void test_momentum(void **state)
 {
     (void)state;
@@ -246,8 +248,8 @@ static void test_momentum(void **state)
         }
 }
 
-/* Least squares reproduce linear fields at nodes, and at the points again: tolerance of the residual times the
- * condition number of the mass matrix. */
+/* Checks that least squares reproduce linear fields at nodes, and at the points again: tolerance of the residual times
+ * the condition number of the mass matrix. */
 static void test_start(void **state)
 {
     (void)state;
@@ -268,7 +270,7 @@ static void test_start(void **state)
     }
 }
 
-/* Converted points take their share of mass and momentum; the remainder is the mesh of the other points. */
+/* Checks that converted points take their share of mass and momentum; the remainder is the mesh of the other points. */
 static void test_release(void **state)
 {
     (void)state;
@@ -302,8 +304,8 @@ static void test_release(void **state)
     }
 }
 
-/* Complete cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a single point in a cell to 1.5 D/c: omega^2 =
- * 16/3 (1 + nu) c^2/h^2. In a bar: h/c. */
+/* Checks critical steps against closed forms: complete cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a
+ * single point in a cell to 1.5 D/c: omega^2 = 16/3 (1 + nu) c^2/h^2. In a bar: h/c. */
 static void test_step(void **state)
 {
     (void)state;
@@ -323,7 +325,7 @@ static void test_step(void **state)
     block_free(&b);
 }
 
-/* Points that do not form a lattice of two points per cell are refused, with the position. */
+/* Checks that points that do not form a lattice of two points per cell are refused, with the position. */
 static void test_refused(void **state)
 {
     (void)state;
@@ -348,8 +350,9 @@ static void test_refused(void **state)
 
 enum { EDGE = 4, NODES = EDGE * EDGE * EDGE };
 
-/* Returns a . (L - C) a of a cell of unit mass with corner values a: L a divides a by 2^dim, C a by a factor 3 or 6 for
- * each axis along which two corners are equal or different. */
+/* Returns a . (L - C) a of a cell of unit mass with corner values a[2^dim], with lumped mass matrix L and consistent
+ * one C: L a divides a by 2^dim, C a by a factor 3 or 6 for each axis along which two corners are equal or
+ * different. */
 static real plain_form(int dim, const real *a)
 {
     real sum = 0;
@@ -362,8 +365,8 @@ static real plain_form(int dim, const real *a)
     return sum;
 }
 
-/* Kinetic energy of a velocity update with matched inertia, for random forces and masses, with some cells of a second
- * material and some not matched: dt^2/4 (f^2/m + match M a . (L - C) a) with a = f/m, to round-off. */
+/* Checks the kinetic energy of a velocity update with matched inertia, for random forces and masses, with some cells of
+ * a second material and some not matched: dt^2/4 (f^2/m + match M a . (L - C) a) with a = f/m, to round-off. */
 static void test_matched_kick(void **state)
 {
     (void)state;

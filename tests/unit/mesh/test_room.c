@@ -53,7 +53,7 @@ static int64_t cell_at(const struct body *b, int x, int y, int z)
     return I;
 }
 
-/* Returns the level for which six cells fit across `thick` cells of level 0, with half a cell of that level as
+/* Returns the highest level for which six cells fit across `thick` cells of level 0, with half a cell of that level as
  * tolerance. */
 static int level_for(int thick)
 {
@@ -62,7 +62,7 @@ static int level_for(int thick)
     return level;
 }
 
-/* Plates in 3D, strips in 2D: equal thickness everywhere, for any length. */
+/* Checks the thickness found in plates in 3D and strips in 2D: equal everywhere, for any length. */
 static void plates_and_strips(void **state)
 {
     (void)state;
@@ -80,7 +80,7 @@ static void plates_and_strips(void **state)
         }
 }
 
-/* A square tube: the thickness of its wall counts, not its width. */
+/* Checks a square tube: the thickness of its wall counts, not its width. */
 static void tubes(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void tubes(void **state)
     }
 }
 
-/* A wedge, one cell higher every four: level L where a square of its size fits, up to its own length beyond. */
+/* Checks a wedge, one cell higher every four: level L where a square of its size fits, up to its own length beyond. */
 static void wedges(void **state)
 {
     (void)state;
@@ -114,7 +114,8 @@ static void wedges(void **state)
     body_free(&b);
 }
 
-/* Half of a strip beside a plane of symmetry has the thickness of the whole; a slit in the middle halves it. */
+/* Checks that half of a strip beside a plane of symmetry has the thickness of the whole, and that a slit in the middle
+ * halves it. */
 static void mirrors_and_slits(void **state)
 {
     (void)state;

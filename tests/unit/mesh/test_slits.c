@@ -10,8 +10,8 @@ enum slit_kind { BETWEEN_CELLS, INSIDE_CELLS, OBLIQUE, SLITS };
 static real slit_corner[4][DIM_MAX];
 static struct crack slit_made;
 
-/* Returns a slit from x = -1 to `to`, at height y; oblique: higher by this amount at its end. All in spacings from the
- * corner of the block. In 3D through the whole thickness. */
+/* Returns a slit of kind `kind` from x = -1 to `to`, at height y; oblique: higher by this amount at its end. All in
+ * spacings from the corner of the block b. In 3D through the whole thickness. */
 static const struct crack *slit_of(const struct block *b, enum slit_kind kind, real to)
 {
     const struct grid *g = &b->mesh.grid;
@@ -61,7 +61,8 @@ static real point_mass(const struct block *b)
     return sum;
 }
 
-/* Two points separated by a slit through the block share no cell and no node; masses are those of the points. */
+/* Checks that two points separated by a slit through the block share no cell and no node; masses are those of the
+ * points. */
 static void test_parts(void **state)
 {
     (void)state;
@@ -91,8 +92,8 @@ static void test_parts(void **state)
         }
 }
 
-/* Forces on some of the doubled nodes by central differences of the energy of all points. Tolerance 1e-5 of the largest
- * force: third derivatives times the squared step, and round-off of the sum over the step. */
+/* Checks forces on some of the doubled nodes by central differences of the energy of all points. Tolerance 1e-5 of the
+ * largest force: third derivatives times the squared step, and round-off of the sum over the step. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -123,7 +124,8 @@ static void test_gradient(void **state)
             }
 }
 
-/* Returns the largest force on nodes away from the loaded ends of the block, over stress times a point's face [1]. */
+/* Returns the largest force on nodes away from the loaded ends of the block b, divided by `stress` times the face of a
+ * point [1]. */
 static real residual(const struct block *b, real stress)
 {
     real most = 0, low = INFINITY, high = -INFINITY;
@@ -139,8 +141,8 @@ static real residual(const struct block *b, real stress)
     return most / (stress * mesh->volume / CLOUD_SPACING);
 }
 
-/* Uniaxial tension along the slit, u = e x, -nu e y (, z): no force on its free faces; in plane stress and 3D the
- * stress is E e along x only. */
+/* Checks uniaxial tension along the slit, u = e x, -nu e y (, z): no force on its free faces; in plane stress and 3D
+ * the stress is E e along x only. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -158,7 +160,7 @@ static void test_patch(void **state)
         }
 }
 
-/* A slit through the block separates it: motion of one side causes no force on the other. */
+/* Checks that a slit through the block separates it: motion of one side causes no force on the other. */
 static void test_loose(void **state)
 {
     (void)state;
@@ -179,8 +181,9 @@ static void test_loose(void **state)
         }
 }
 
-/* A linear field is projected exactly to the nodes of both sides, and a jump across a slit through the block to 1e-12.
- * Points that leave take their mass; when they are inserted again they return it, with their displacement. */
+/* Checks that a linear field is projected exactly to the nodes of both sides, and a jump across a slit through the
+ * block to 1e-12. Points that leave take their mass; when they are inserted again they return it, with their
+ * displacement. */
 static void test_points(void **state)
 {
     (void)state;

@@ -74,7 +74,8 @@ static void toy_check(const struct toy *toy, int64_t step, int64_t n)
     for (int64_t i = 0; i < n; i++) assert_true(toy->value[i] == (real)(i * step));
 }
 
-/* Writes a checkpoint of the object at `step`. */
+/* Writes a checkpoint of the test's object of n numbers to the output o at the step `step`. Returns the status of the
+ * write. */
 static status write_step(struct output *o, int64_t step, int64_t n)
 {
     struct toy toy = toy_make(o, step, n);
@@ -83,7 +84,8 @@ static status write_step(struct output *o, int64_t step, int64_t n)
     return s;
 }
 
-/* Restores into a new object and compares. */
+/* Restores the checkpoint of the output o into a new object of n numbers and asserts that it is the state of step
+ * `step`. */
 static void assert_resumes_at(const struct output *o, int64_t step, int64_t n)
 {
     struct output other = {0};
@@ -94,7 +96,7 @@ static void assert_resumes_at(const struct output *o, int64_t step, int64_t n)
     output_close(&other);
 }
 
-/* Checks that no checkpoint is accepted and no byte of it reaches the state. */
+/* Asserts that no checkpoint of the output o is accepted and that no byte of one reaches the state. */
 static void assert_not_restored(const struct output *o)
 {
     struct output other = {0};
@@ -111,7 +113,7 @@ static int64_t file_size(const char *path)
     return s.st_size;
 }
 
-/* Inverts one byte of a file; a second call restores it. */
+/* Inverts the byte at offset `at` of the file `path`; a second call restores it. */
 static void flip(const char *path, int64_t at)
 {
     unsigned char byte;
@@ -152,7 +154,7 @@ static void state_comes_back(void **state)
     output_close(&o);
 }
 
-/* HDF5 opens the file although it has a footer. */
+/* Checks that HDF5 opens a checkpoint although it has a footer. */
 static void hdf5_ignores_the_footer(void **state)
 {
     (void)state;
@@ -202,7 +204,8 @@ static void every_truncation_is_found(void **state)
     output_close(&o);
 }
 
-/* Redirects standard error to a file during a restore and returns its contents. */
+/* Redirects standard error to a file during a restore of step `step` of the output o and returns its contents, to be
+ * freed. n: as in assert_resumes_at. */
 static char *said_by_resume(const struct output *o, int64_t step, int64_t n)
 {
     char *text;
@@ -272,7 +275,7 @@ static void other_scenes_are_refused(void **state)
     output_close(&o);
 }
 
-/* Creates a valid file, with the right footer, of a future format. */
+/* Saves the state of a valid file, with the right footer, of a future format. */
 static status future_archive(void *context, struct archive *a)
 {
     int32_t version = 1000;
@@ -319,7 +322,8 @@ static void fault_of_a_module_loses_nothing(void **state)
 
 /* ---- a full disk ------------------------------------------------------------------------------------------------- */
 
-/* Child process: every write must fail without a crash; returns the number of the first violated expectation. */
+/* Runs in a child process: every write to the output o must fail without a crash; returns the number of the first
+ * violated expectation, 0 if none is. frame_first: true to write a frame before the checkpoint. */
 static int write_to_full_disk(struct output *o, bool frame_first)
 {
     struct particles p;

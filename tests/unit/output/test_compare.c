@@ -152,7 +152,7 @@ static void history_is_read_by_name(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Sets a square plate whose right half is displaced by `gap`; `shift` is added to every displacement. */
+/* Sets p to a square plate whose right half is displaced by `gap`; `shift` is added to every displacement. */
 static void fill_plate(struct particles *p, double gap, double shift)
 {
     particles_make(p, 2, SIDE * SIDE, 0);
@@ -190,7 +190,7 @@ static void write_run(const char *folder, double shift, double loop_seconds, dou
               "0,0,0,0,0.1,0\n2e-6,20,2,1e-6,0.2,1e-3\n");
 }
 
-/* Runs a command and returns what it prints. */
+/* Runs command(argc, argv) and stores what it prints in printed[]. Returns its status. */
 static status run(status (*command)(int, char **), int argc, char **argv, char *printed)
 {
     fflush(stdout);
@@ -208,7 +208,7 @@ static status run(status (*command)(int, char **), int argc, char **argv, char *
     return s;
 }
 
-/* Returns the first number after a label. */
+/* Returns the first number after the first `label` in `text`. */
 static double number_after(const char *text, const char *label)
 {
     const char *at = strstr(text, label);
@@ -244,7 +244,7 @@ static void runs_are_compared(void **state)
     assert_non_null(strstr(printed, "-0.05 of the time of B; times of equal runs differ as much\n"));
 }
 
-/* Runs in plane strain that differ only in the out-of-plane stress are reported. */
+/* Checks that runs in plane strain that differ only in the out-of-plane stress are reported as different. */
 static void stress_across_is_compared(void **state)
 {
     (void)state;
@@ -278,8 +278,8 @@ static void unequal_runs_are_told_apart(void **state)
     assert_non_null(strstr(printed, "comparable particle by particle: no"));
 }
 
-/* Results of LAMMPS: two particles displaced by -1.3 mm and 2.2 mm, with 0.25 and 0.5 of the bonds of LAMMPS broken,
- * when 0.4 and 0 were broken initially: damage 0.55 and 0.5. */
+/* Checks that results of LAMMPS are read: two particles displaced by -1.3 mm and 2.2 mm, with 0.25 and 0.5 of the bonds
+ * of LAMMPS broken, when 0.4 and 0 were broken initially: damage 0.55 and 0.5. */
 static void runs_of_lammps_are_read(void **state)
 {
     (void)state;
@@ -337,7 +337,7 @@ static void wrong_words_are_refused(void **state)
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the width of a PNG picture [pixel] after checking its signature and first chunk. */
+/* Returns the width of the PNG picture `path` [pixel] after checking its signature and first chunk. */
 static int picture_width(const char *path)
 {
     unsigned char head[24];
@@ -381,7 +381,7 @@ static void missing_gnuplot_is_named(void **state)
     assert_false(is_there("a/pictures/damage.png"));
 }
 
-/* Returns the share of pixels of a rectangle [spacings] that show a body. */
+/* Returns the fraction of the pixels of a rectangle from from_x to to_x [spacings] in which a body of c is drawn. */
 static double covered(const struct plotted_particles *c, double from_x, double to_x)
 {
     enum { PIXELS = 20 * SIDE }; /* 20 pixels per spacing: a gap of a tenth of a spacing is visible */

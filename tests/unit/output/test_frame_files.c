@@ -21,7 +21,7 @@ static void open_fresh(struct output *o, const char *folder)
     assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, false), OK);
 }
 
-/* Creates particles with values in the fields; ids are in reverse order. */
+/* Creates n particles p in `dim` dimensions with values in the fields; ids are in reverse order. */
 static void make_particles(struct particles *p, int dim, int64_t n)
 {
     particles_make(p, dim, n, 0);
@@ -32,7 +32,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
     }
 }
 
-/* Fields by name: derived ones, those in the file, and a message for others. */
+/* Checks that fields of frames are read by name: derived ones, those in the file, and a message for others. */
 static void fields_are_read_by_name(void **state)
 {
     (void)state;
@@ -68,8 +68,9 @@ static void fields_are_read_by_name(void **state)
     }
 }
 
-/* Reads what VTK's reader of temporal grids reads of a step: the part PartOffsets[step]; points from PointOffsets on,
- * one cell offset more than cells for each preceding part, rows of a field from its own offset on. */
+/* Reads what VTK's reader of temporal grids reads of step `step` of `steps` in h, and compares it with p: the part
+ * PartOffsets[step]; points from PointOffsets on, one cell offset more than cells for each preceding part, rows of a
+ * field from its own offset on. */
 static void check_step(struct hdf *f, int step, int steps, const struct particles *p)
 {
     static const char *const start[] = {
@@ -108,7 +109,8 @@ static void check_step(struct hdf *f, int step, int steps, const struct particle
     free(all), free(points), free(stress), free(offset), free(corner);
 }
 
-/* frames.vtkhdf has the layout published by VTK, contains no rows of its own, and can be moved with its folder. */
+/* Checks that frames.vtkhdf has the layout published by VTK, contains no rows of its own, and can be moved with its
+ * folder. */
 static void frames_in_one_file(void **state)
 {
     (void)state;
@@ -148,7 +150,8 @@ static void frames_in_one_file(void **state)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* A series of a region has its particles by id, its own folder and indices, and is removed with a replaced run. */
+/* Checks that a series of a region has its particles by id, its own folder and indices, and is removed with a replaced
+ * run. */
 static void frames_of_a_region(void **state)
 {
     (void)state;

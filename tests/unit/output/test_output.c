@@ -30,7 +30,7 @@ enum { PARTICLES = 1000 };
 
 /* ---- helpers ----------------------------------------------------------------------------------------------------- */
 
-/* Opens an empty folder for one test. */
+/* Opens in o the output in `folder`, emptied before, for one test. compress: true for compressed frames. */
 static void open_fresh(struct output *o, const char *folder, bool compress)
 {
     remove_tree(folder);
@@ -44,7 +44,7 @@ static real noise(int64_t i, int k)
     return (real)((a ^ a >> 31) * UINT64_C(0xBF58476D1CE4E5B9) >> 11) * 0x1p-53;
 }
 
-/* Creates particles with values in every field; ids are in reverse order with gaps. */
+/* Creates n particles p in `dim` dimensions with values in every field; ids are in reverse order with gaps. */
 static void make_particles(struct particles *p, int dim, int64_t n)
 {
     particles_make(p, dim, n, 0);
@@ -123,7 +123,7 @@ static void frames_come_back(void **state)
         }
 }
 
-/* Frames have the layout required by the reader of VTK 9.1. */
+/* Checks that frames have the layout required by the reader of VTK 9.1. */
 static void frames_have_vtk_layout(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void frames_have_vtk_layout(void **state)
     output_close(&o);
 }
 
-/* Plastic strain is in frames and their index if and only if the particles have it. */
+/* Checks that plastic strain is in frames and their index if and only if the particles have it. */
 static void plastic_strain_where_it_is(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void plastic_strain_where_it_is(void **state)
     }
 }
 
-/* Contact forces and fragments are in frames, by id, if and only if they are passed. */
+/* Checks that contact forces and fragments are in frames, by id, if and only if they are passed. */
 static void frames_hold_what_they_are_given(void **state)
 {
     (void)state;
@@ -338,7 +338,8 @@ static void older_run_is_replaced_unless_resumed(void **state)
         assert_true(file_has_contents(path_join("again", others[k]).text, "mine", 4));
 }
 
-/* A table that Cleave did not write is never overwritten in the folder of a run; a truncated one is the run's own. */
+/* Checks that a table that Cleave did not write is never overwritten in the folder of a run; a truncated one is the
+ * run's own. */
 static void tables_of_others_stay(void **state)
 {
     (void)state;
@@ -401,7 +402,7 @@ static void history_is_cut_back(void **state)
     output_close(&o);
 }
 
-/* A limit on the file length represents a full disk. */
+/* Checks that the history fails on a full disk, which a limit on the file length represents. */
 static void history_on_a_full_disk_fails(void **state)
 {
     (void)state;

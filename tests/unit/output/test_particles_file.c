@@ -23,7 +23,7 @@ static void open_fresh(struct output *o, const char *folder)
     assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, false), OK);
 }
 
-/* Creates particles that differ in every field, of both kinds. */
+/* Creates n particles p in `dim` dimensions that differ in every field, of both kinds. */
 static void make_particles(struct particles *p, int dim, int64_t n)
 {
     particles_make(p, dim, n, 0);
@@ -43,9 +43,10 @@ static int64_t size_of(const char *path)
     return (int64_t)s.st_size;
 }
 
-/* A frame stores 4 bytes for each component that the space has, of positions, displacement, velocity, stress, damage
- * and, if there are any, contact forces and fragments, and 1 for the kind: 21, 45 and 65 bytes a point, with contact
- * and fragments 29, 57 and 81. HDF5 adds about 0.02 bytes a point for each of the datasets and less than 16 kB. */
+/* Checks the size of frames. A frame stores 4 bytes for each component that the space has, of positions, displacement,
+ * velocity, stress, damage and, if there are any, contact forces and fragments, and 1 for the kind: 21, 45 and 65 bytes
+ * a point, with contact and fragments 29, 57 and 81. HDF5 adds about 0.02 bytes a point for each of the datasets and
+ * less than 16 kB. */
 static void frames_take_little(void **state)
 {
     (void)state;
@@ -73,8 +74,8 @@ static void frames_take_little(void **state)
         }
 }
 
-/* An array with one value in thousands of rows, as of a body at rest, takes no space in a file and is read back bit for
- * bit. A negative zero counts as another value than zero. */
+/* Checks that an array with one value in thousands of rows, as of a body at rest, takes no space in a file and is read
+ * back bit for bit. A negative zero counts as another value than zero. */
 static void tables_come_back(void **state)
 {
     (void)state;
@@ -106,8 +107,8 @@ static void tables_come_back(void **state)
     }
 }
 
-/* The particles file is written before the first frame, stays while the particles are the same, and has a successor
- * once they are not. */
+/* Checks that the particles file is written before the first frame, stays while the particles are the same, and has a
+ * successor once they are not. */
 static void one_file_while_particles_are_the_same(void **state)
 {
     (void)state;
@@ -147,7 +148,8 @@ static void flip(const char *path, long at)
     assert_true(byte != EOF && fseek(f, at, SEEK_SET) == 0 && fputc(byte ^ 1, f) != EOF && fclose(f) == 0);
 }
 
-/* A frame without its particles file, with that of another run or with a damaged one is refused in one line. */
+/* Checks that a frame without its particles file, with that of another run or with a damaged one is refused in one
+ * line. */
 static void frames_alone_are_refused(void **state)
 {
     (void)state;
@@ -176,8 +178,8 @@ static void frames_alone_are_refused(void **state)
     assert_failed(frame_read(&f, frame), "particles_000000.h5 beside it, to which it links, belongs to another run");
 }
 
-/* A restart beside the particles file of another run leaves out the frames that link to it, names the file, and begins
- * another one; the next frame is read. */
+/* Checks that a restart beside the particles file of another run leaves out the frames that link to it, names the file,
+ * and begins another one; the next frame is read. */
 static void foreign_file_is_left(void **state)
 {
     (void)state;
@@ -215,7 +217,8 @@ static void foreign_file_is_left(void **state)
     output_close(&o);
 }
 
-/* Asserts that frames.xdmf of the folder `back` lists n frames, and that a restart reports `lost` frames as lost. */
+/* Asserts that frames.xdmf of the folder `back` lists n frames of the output o, and that a restart reports `lost`
+ * frames as lost. */
 static void assert_listed(struct output *o, int n, int lost)
 {
     char message[1000], *text;
@@ -229,8 +232,8 @@ static void assert_listed(struct output *o, int n, int lost)
     memory_free(text);
 }
 
-/* Frames whose particles file was away at one restart and is back at the next are listed again, also if the index was
- * written without them by a process whose state is lost. */
+/* Checks that frames whose particles file was away at one restart and is back at the next are listed again, also if the
+ * index was written without them by a process whose state is lost. */
 static void file_comes_back(void **state)
 {
     (void)state;
@@ -254,7 +257,7 @@ static void file_comes_back(void **state)
     output_close(&o);
 }
 
-/* A frame that is complete by itself, as those of earlier versions, is read. */
+/* Checks that a frame that is complete by itself, as those of earlier versions, is read. */
 static void complete_frames_are_read(void **state)
 {
     (void)state;
@@ -282,7 +285,7 @@ static void complete_frames_are_read(void **state)
     particles_free(&p);
 }
 
-/* Contact forces are in frames that have any; elsewhere readers find 0, also in the file of all frames. */
+/* Checks that contact forces are in frames that have any; elsewhere readers find 0, also in the file of all frames. */
 static void contact_where_it_is(void **state)
 {
     (void)state;

@@ -17,7 +17,7 @@
 
 static const double SPACING = 1e-3; /* [m] */
 
-/* Creates a block of nx x ny x nz particles at rest, without damage. */
+/* Creates a block of nx x ny x nz particles at rest, without damage, in dim dimensions. */
 static struct output_frame block_make(int nx, int ny, int nz, int dim)
 {
     const int count[3] = {nx, ny, nz};
@@ -47,7 +47,7 @@ static float value_of(struct output_frame *f, const char *name)
     return first;
 }
 
-/* Closed form: plane stress of 30 and 10 with a shear of 10 has the principal stresses 20 +- sqrt(200) (Mohr 1882). */
+/* Checks plane stress of 30 and 10 with a shear of 10: principal stresses 20 +- sqrt(200) (Mohr 1882). */
 static void fields_follow_from_stress(void **state)
 {
     (void)state;
@@ -73,7 +73,7 @@ static void unknown_fields_are_refused(void **state)
     assert_int_equal(plot_field_find_by_name(&field, "stress_yy", 1), REFUSED);
 }
 
-/* The key of rigid bodies has their colour also where bodies are faded behind cracks. */
+/* Checks that the key of rigid bodies has their colour also where bodies are faded behind cracks. */
 static void rigid_bodies_are_faded_behind_cracks(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void rigid_bodies_are_faded_behind_cracks(void **state)
     assert_true(faded.red > full.red + 50 && faded.green > full.green + 50 && faded.blue > full.blue + 50);
 }
 
-/* Vectors have one meaning in all pictures of a bar, their component along it; elsewhere the label says magnitude. */
+/* Checks that vectors mean their component along a bar in all its pictures; elsewhere the label says magnitude. */
 static void labels_say_component_or_magnitude(void **state)
 {
     (void)state;
@@ -102,7 +102,7 @@ static void labels_say_component_or_magnitude(void **state)
     }
 }
 
-/* Index of the component for a name, in the order of frames: normal components first, then xy, yz, zx. */
+/* Checks the index of the component for a name, in the order of frames: normal components first, then xy, yz, zx. */
 static void fields_name_components(void **state)
 {
     (void)state;
@@ -133,8 +133,8 @@ static void fields_name_components(void **state)
     }
 }
 
-/* The default slice is that with the largest damage, not the middle one; in an undamaged body the one nearest to the
- * middle. */
+/* Checks that the default slice is that with the largest damage, not the middle one; in an undamaged body the one
+ * nearest to the middle. */
 static void slices_show_damage(void **state)
 {
     (void)state;
@@ -160,8 +160,8 @@ static void slices_show_damage(void **state)
     frame_free(&f);
 }
 
-/* Among layers with damage equal within 2 %, the one nearest to the middle is used; one with 0.9 of the largest damage,
- * still nearer, is not. Points of several sizes have the spacing of the smallest. */
+/* Checks that among layers with damage equal within 2 % the one nearest to the middle is used; one with 0.9 of the
+ * largest damage, still nearer, is not. Points of several sizes have the spacing of the smallest. */
 static void slices_are_near_the_middle(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void slices_are_near_the_middle(void **state)
     frame_free(&f);
 }
 
-/* Axes have the SI prefix for which numbers are between 1 and 1000. */
+/* Checks that axes have the SI prefix for which numbers are between 1 and 1000. */
 static void axes_have_prefixes(void **state)
 {
     (void)state;
@@ -199,7 +199,7 @@ static void axes_have_prefixes(void **state)
     assert_true(unit_for_largest_value_if_prefixable("kg m/s", 3e-5).factor == 1);
 }
 
-/* A single distant particle changes neither the rectangle nor the range of colours, and is counted as outside. */
+/* Checks that a distant particle changes neither rectangle nor range of colours, and is counted as outside. */
 static void one_particle_sets_no_scale(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void one_particle_sets_no_scale(void **state)
 
 enum { PIXELS = 120 };
 
-/* An axial view of a block is a rectangle; cracks inside it are visible through the body. */
+/* Checks that an axial view of a block is a rectangle; cracks inside it are visible through the body. */
 static void solids_are_seen_from_outside(void **state)
 {
     (void)state;
@@ -254,7 +254,7 @@ static void solids_are_seen_from_outside(void **state)
     memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
 }
 
-/* Displaces a block by u = H X, H = F - 1, in two dimensions; what is above the middle also by `open` upwards [m]. */
+/* Displaces the block f by u = H X, H = F - 1, in two dimensions; the part above the middle also by `open` [m]. */
 static void block_deform(struct output_frame *f, const double H[2][2], double open)
 {
     for (int64_t i = 0; i < f->n; i++)
@@ -262,7 +262,7 @@ static void block_deform(struct output_frame *f, const double H[2][2], double op
             f->u[d][i] = (float)(H[d][0] * f->X[0][i] + H[d][1] * f->X[1][i] + (d == 1 && f->X[1][i] > 0 ? open : 0));
 }
 
-/* Counts the pixels with and without a particle in a square around the origin that is 2 x `half` wide [m]. */
+/* Counts the pixels of c with a particle and without (*blank) in a square around the origin, 2 x `half` wide [m]. */
 static void pixels_count(const struct plotted_particles *c, double half, int *painted, int *blank)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
@@ -273,7 +273,7 @@ static void pixels_count(const struct plotted_particles *c, double half, int *pa
     memory_free(pixel);
 }
 
-/* Ends of the colours that are asked for, with units; what is beyond them is counted, also of the usual ends. */
+/* Checks ends of the colours that are asked for, with units; what is beyond them is counted, also of the usual ends. */
 static void ends_of_colours_are_counted(void **state)
 {
     (void)state;
@@ -314,8 +314,8 @@ static double end_of_colours(const char *field, int spots, double spot, int rest
     return v.high;
 }
 
-/* A hot spot of 0.8 % of the particles does not take the colours of the others; with a single sign of a field of both,
- * too. A small part of the body that yields has all colours, not only the last one. */
+/* Checks that a hot spot of 0.8 % of the particles does not take the colours of the others; with a single sign of a
+ * field of both, too. A small part of the body that yields has all colours, not only the last one. */
 static void hot_spots_leave_colours(void **state)
 {
     (void)state;
@@ -326,8 +326,8 @@ static void hot_spots_leave_colours(void **state)
     assert_true(end_of_colours("plastic_strain", 40, 3, 900) > 2.9);
 }
 
-/* A body that is stretched by 30 %, sheared or turned has no gap inside; its area is that of the body times det F, but
- * for a tenth of a spacing at each edge. Without bonds across the middle, a gap as wide as it opens is blank. */
+/* Checks that a body stretched by 30 %, sheared or turned has no gap inside; its area is that of the body times det F,
+ * but for a tenth of a spacing at each edge. Without bonds across the middle a gap as wide as it opens is blank. */
 static void stretched_bodies_are_closed(void **state)
 {
     (void)state;
@@ -352,7 +352,7 @@ static void stretched_bodies_are_closed(void **state)
     }
 }
 
-/* A solid that is stretched by 50 % along x is 15 spacings wide from outside, and closed. */
+/* Checks that a solid that is stretched by 50 % along x is 15 spacings wide from outside, and closed. */
 static void stretched_solids_are_closed(void **state)
 {
     (void)state;
@@ -382,9 +382,9 @@ static int columns_with_line(const struct colour *pixel, int size)
     return columns;
 }
 
-/* A slit of a mesh, which causes no damage, is a line that ends at the body's edge, and opens where it opens. Its faces
- * are lines over its whole length of 12 of 30 spacings, opened or not, also in a picture with less than a pixel for a
- * spacing, 2.5 km from the origin. They are where rows of particles part, which a slit beside the middle is not. */
+/* Checks that a slit of a mesh, which causes no damage, is a line that ends at the body's edge and opens where it does.
+ * Its faces are lines over 12 of 30 spacings, opened or not, also with less than a pixel a spacing, 2.5 km from the
+ * origin. They are where rows of particles part, which a slit beside the middle is not. */
 static void slits_are_lines_of_the_body(void **state)
 {
     (void)state;
@@ -420,8 +420,8 @@ static void slits_are_lines_of_the_body(void **state)
     memory_free(pixel);
 }
 
-/* A rigid brick of 4 x 2 spacings that has moved and turned by 90 degrees beside a block: its area in pixels and where
- * it is, in a flat map and, as a solid, from outside; the picture grows to show it. */
+/* Checks a rigid brick of 4 x 2 spacings that has moved and turned by 90 degrees beside a block: its area in pixels and
+ * where it is, in a flat map and, as a solid, from outside; the picture grows to show it. */
 static void rigid_bodies_are_shown(void **state)
 {
     (void)state;
@@ -455,7 +455,7 @@ static void rigid_bodies_are_shown(void **state)
     memory_free(pixel);
 }
 
-/* Axes of every view are right-handed unit vectors. */
+/* Checks that axes of every view are right-handed unit vectors. */
 static void cameras_are_right_handed(void **state)
 {
     (void)state;
@@ -468,8 +468,8 @@ static void cameras_are_right_handed(void **state)
     }
 }
 
-/* Colour scales of quantities have increasing lightness, so that their order is visible in grey print and with any
- * colour vision. */
+/* Checks that colour scales of quantities have increasing lightness, so that their order is visible in grey print and
+ * with any colour vision. */
 static void colours_keep_their_order(void **state)
 {
     (void)state;

@@ -3,7 +3,7 @@
 #include "kernels/kernels.h"
 #include "probes/diagnostics.h"
 
-/* v = (2, -1) plus a shear without momentum. */
+/* Checks energies and momenta in closed form for v = (2, -1) plus a shear without momentum. */
 static void ledger_of_a_known_field(void **state)
 {
     (void)state;
@@ -76,8 +76,8 @@ static status tape_exchange(struct archive *a, const char *name, void *data, siz
     return OK;
 }
 
-/* A body that was fast, is slow now and then loses momentum: its error is relative to the fast state, before and after
- * a restart. */
+/* Checks a body that was fast, is slow now and then loses momentum: its error is relative to the fast state, before and
+ * after a restart. */
 static void ledger_survives_a_restart(void **state)
 {
     (void)state;
@@ -109,7 +109,8 @@ static void ledger_survives_a_restart(void **state)
     body_free(&b);
 }
 
-/* Energy of strain e: 1/2 e : C e V, with shear counted twice; half of it if half the stress is left to bonds. */
+/* Checks the energy of strain e: 1/2 e : C e V, with shear counted twice; half of it if half the stress is left to
+ * bonds. */
 static void strain_energy_of_material_points(void **state)
 {
     (void)state;
@@ -220,7 +221,8 @@ static void alarm_names_the_first_runaway(void **state)
     body_free(&b);
 }
 
-/* The alarm checks exactly the listed particles: contiguous lists, lists with gaps and with ends of every length. */
+/* Checks that the alarm checks exactly the listed particles: contiguous lists, lists with gaps and with ends of every
+ * length. */
 static void alarm_sees_everybody_listed(void **state)
 {
     (void)state;
@@ -250,8 +252,8 @@ static void alarm_sees_everybody_listed(void **state)
     }
 }
 
-/* The ends of a short list may be as far apart as those of eight consecutive particles: particles between them that are
- * not listed are ignored. */
+/* Checks that the ends of a short list may be as far apart as those of eight consecutive particles: particles between
+ * them that are not listed are ignored. */
 static void alarm_passes_gaps_at_the_end(void **state)
 {
     (void)state;
@@ -266,8 +268,8 @@ static void alarm_passes_gaps_at_the_end(void **state)
     body_free(&b);
 }
 
-/* Yielded points in plane strain, of two materials: elastic energy by Hooke's law in 3D including the out-of-plane
- * stress; plastic work, which is booked by initial volume. */
+/* Checks yielded points in plane strain, of two materials: elastic energy by Hooke's law in 3D including the
+ * out-of-plane stress; plastic work, which is booked by initial volume. */
 static void energies_of_yielded_points(void **state)
 {
     (void)state;

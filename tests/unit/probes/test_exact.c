@@ -61,7 +61,8 @@ static void step_bar_by_characteristics(void **state)
     }
 }
 
-/* A bar of length 1 fixed at 0, c = 100: the numbers of Zeng et al. 2021, section 5.1. */
+/* Returns the solution `form` for a bar of length 1 fixed at 0, c = 100: the numbers of Zeng et al. 2021, section
+ * 5.1. */
 static struct exact unit_bar(enum exact_form form)
 {
     return (struct exact){.form = form,
@@ -159,9 +160,10 @@ static void plastic_bar_jumps(void **state)
 
 /* ---- smooth forms: the wave equation ----------------------------------------------------------------------------- */
 
-/* Compares finite differences of the displacement with velocity, strain and, for pulses, the wave equation. Central
- * differences have an error of h^2/6 times the third derivative; in the wave equation with c k = h these cancel, up to
- * the round-off of distances up to 5 with strains up to 0.02: 4 x 5 x 0.02 x 2^-53/h^2, where u_xx is of order 1. */
+/* Compares finite differences of the displacement e at (X, t) with velocity, strain and, if `wave`, the wave equation,
+ * within `tolerance`. Central differences have an error of h^2/6 times the third derivative; in the wave equation with
+ * c k = h these cancel, up to the round-off of distances up to 5 with strains up to 0.02: 4 x 5 x 0.02 x 2^-53/h^2,
+ * where u_xx is of order 1. */
 static void check_smooth(const struct exact *e, real X, real t, real scale, real tolerance, bool wave)
 {
     real c = sqrt(e->young / e->density), h = 1e-3 * scale, k = h / c;
@@ -223,8 +225,8 @@ static void manufactured_is_its_formula(void **state)
 
 /* ---- bond flux --------------------------------------------------------------------------------------------------- */
 
-/* Force across a section: an irregular row with its images in a wall at 0, a third of it material points; every pair
- * within the horizon has a bond unless both are material points. */
+/* Checks the force across a section: an irregular row with its images in a wall at 0, a third of it material points;
+ * every pair within the horizon has a bond unless both are material points. */
 static void flux_is_the_force_across(void **state)
 {
     (void)state;
@@ -395,7 +397,7 @@ static void figures_of_a_made_up_field(void **state)
     particles_free(&b.p);
 }
 
-/* The reversed bar, fixed at 1 and loaded at 0, has no errors if it moves as the first does. */
+/* Checks that the reversed bar, fixed at 1 and loaded at 0, has no errors if it moves as the first does. */
 static void bars_drawn_at_the_left(void **state)
 {
     (void)state;

@@ -165,7 +165,7 @@ static void probe_of_a_support(void **state)
     body_free(&b);
 }
 
-/* Boundaries with one name: their forces add up; their displacement is the mean over all particles. */
+/* Checks boundaries with one name: their forces add up; their displacement is the mean over all particles. */
 static void probe_of_two_supports(void **state)
 {
     (void)state;
@@ -190,7 +190,8 @@ static void probe_of_two_supports(void **state)
     body_free(&b);
 }
 
-/* The reflected part of a pulse is the motion before the interface that is not present in the run without it. */
+/* Checks that the reflected part of a pulse is the motion before the interface that is not present in the run without
+ * it. */
 static void probe_of_a_pulse(void **state)
 {
     (void)state;
@@ -214,7 +215,8 @@ static void probe_of_a_pulse(void **state)
     body_free(&b);
 }
 
-/* The largest stress of a rotating body in plane strain may be the out-of-plane stress; shear is that in the plane. */
+/* Checks that the largest stress of a rotating body in plane strain may be the out-of-plane stress; shear is that in
+ * the plane. */
 static void probe_of_a_turning_body(void **state)
 {
     (void)state;
@@ -295,7 +297,7 @@ static void bar_bond(struct bar *bar)
     bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
 }
 
-/* Breaks the bonds of one body that cross x = `plane` and are at least `shortest` long, as the bond kernel would. */
+/* Breaks the bonds of `bar` that cross x = `plane` and are at least `shortest` long, as the bond kernel would. */
 static void bar_cut(struct bar *bar, real plane, real shortest)
 {
     struct bonds *b = &bar->bonds;
@@ -322,7 +324,7 @@ static struct observed_run bar_seen(const struct bar *bar, real t)
     return o;
 }
 
-/* Bonds the particles of a bar and makes a spall probe of it. Returns the bar as it is at 1 s. */
+/* Bonds the particles of `bar` and makes a spall probe s of it. Returns the bar as it is at 1 s. */
 static struct observed_run spall_probe_make(struct probes *s, struct bar *bar)
 {
     struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
@@ -332,7 +334,7 @@ static struct observed_run spall_probe_make(struct probes *s, struct bar *bar)
     return o;
 }
 
-/* Releases the probes of a bar, its bonds and its particles. */
+/* Releases the probes s of `bar`, its bonds and its particles. */
 static void bar_probes_free(struct probes *s, struct bar *bar)
 {
     probes_free(s);
@@ -340,7 +342,8 @@ static void bar_probes_free(struct probes *s, struct bar *bar)
     body_free(&bar->b);
 }
 
-/* Two adjacent bodies (0..6 and 6..30) are separate from the start; the second breaks at 25 with its last bond. */
+/* Tests two adjacent bodies (0..6 and 6..30): they are separate from the start; the second breaks at 25 with its last
+ * bond. */
 static void probe_of_a_spall(void **state)
 {
     (void)state;
@@ -374,7 +377,7 @@ static void probe_of_a_spall(void **state)
     bar_probes_free(&s, &bar);
 }
 
-/* Adjacent planes that separate at the same time are one fracture, at their middle. */
+/* Checks that adjacent planes that separate at the same time are one fracture, at their middle. */
 static void probe_of_a_wide_spall(void **state)
 {
     (void)state;
@@ -391,7 +394,8 @@ static void probe_of_a_wide_spall(void **state)
     bar_probes_free(&s, &bar);
 }
 
-/* Material points on both sides within reach of bonds still connect a plane, until they separate themselves. */
+/* Checks that material points on both sides within reach of bonds still connect a plane, until they separate
+ * themselves. */
 static void probe_of_a_spall_knows_the_grid(void **state)
 {
     (void)state;

@@ -48,7 +48,8 @@ static void plate_free(struct plate *p)
     body_free(&p->body);
 }
 
-/* Sets displacements, or velocities, of the field of a tip at `place` that moves along x with speed v. */
+/* Sets displacements, or velocities, of k to the field with factors K of a tip at `place` that moves along x with speed
+ * v. */
 static void plate_field(struct plate *k, const real K[MODES], const real *place, real v, bool velocities)
 {
     struct particles *p = &k->body.p;
@@ -96,7 +97,7 @@ static void figure_keep(void *context, const char *probe, const char *quantity, 
         if (strcmp(quantity, names[k]) == 0) f->value[k] = value, f->n++;
 }
 
-/* A static field, measured by probes that find the tip, with a given position, and without a crack. */
+/* Tests a static field, measured by probes that find the tip, with a given position, and without a crack. */
 static void tip_at_rest(void **state)
 {
     (void)state;
@@ -190,7 +191,7 @@ static void bad_requests_are_refused(void **state)
     plate_free(&p);
 }
 
-/* A tip that has grown by 12 at 1000 m/s: velocities half a step before and after give acceleration and velocity;
+/* Tests a tip that has grown by 12 at 1000 m/s: velocities half a step before and after give acceleration and velocity;
  * speed, position and direction are those of the tip. The state in a checkpoint is sufficient to continue. */
 static void tip_in_motion(void **state)
 {
@@ -255,7 +256,7 @@ static void tip_in_motion(void **state)
     plate_free(&p);
 }
 
-/* A crack that turned by 45 degrees: the frame is that of its last spacings. */
+/* Tests a crack that turned by 45 degrees: the frame is that of its last spacings. */
 static void tip_that_turned(void **state)
 {
     (void)state;

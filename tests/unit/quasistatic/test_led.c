@@ -30,7 +30,7 @@ static void run(struct solution *a, const char *text)
 }
 
 /* Creates a plate of 64 spacings with a crack of 2 x 12 at `angle` to the normal of the load, a quarter of a spacing
- * off the symmetry of the rows, so that no particle is on it. */
+ * off the symmetry of the rows, so that no particle is on it, and solves it. more: further overrides `key=value`. */
 static void plate(struct solution *a, real angle, int steps, const char *more)
 {
     static char text[2000];
@@ -54,9 +54,9 @@ static void solution_free(struct solution *a)
     scene_free(&a->s);
 }
 
-/* The first increments, for 15 and 75 degrees (45: test_kink_through), have the angle of the largest hoop stress
- * (Erdogan & Sih 1963). K_II/K_I is tan(angle) in a wide plate; here, with a crack of 3/8 of the width, within 8 %,
- * which changes the kink by 2 degrees. */
+/* Checks that the first increments, for 15 and 75 degrees (45: test_kink_through), have the angle of the largest hoop
+ * stress (Erdogan & Sih 1963). K_II/K_I is tan(angle) in a wide plate; here, with a crack of 3/8 of the width, within 8
+ * %, which changes the kink by 2 degrees. */
 static void test_kink(void **state)
 {
     (void)state;
@@ -116,7 +116,7 @@ static void test_bend(void **state)
 
 /* ---- fronts in space --------------------------------------------------------------------------------------------- */
 
-/* Formats a point with its components in another order [mm]. */
+/* Formats the point (x, y, z) with its components in another order [mm]; returns text. */
 static const char *point(char text[80], const int *order, real x, real y, real z)
 {
     const real from[3] = {x, y, z};
@@ -151,9 +151,9 @@ static void block(struct solution *a, const int *order, real askew, int steps)
     run(a, text);
 }
 
-/* A straight crack stays in its plane for any orientation of its front; its area is that of the plane within the body,
- * and its energy that of the bonds across a lattice plane, 0.98 G_c. The orientation of axes changes only the order of
- * sums: rotated for the front along a side, mirrored for the oblique one. */
+/* Checks that a straight crack stays in its plane for any orientation of its front; its area is that of the plane
+ * within the body, and its energy that of the bonds across a lattice plane, 0.98 G_c. The orientation of axes changes
+ * only the order of sums: rotated for the front along a side, mirrored for the oblique one. */
 static void test_fronts(void **state)
 {
     static const int orders[2][2][3] = {{{0, 1, 2}, {1, 2, 0}}, {{0, 1, 2}, {2, 1, 0}}};
@@ -178,7 +178,7 @@ static void test_fronts(void **state)
     }
 }
 
-/* A crack through a plate of 40 x 40 x 3 spacings kinks as in a 2D body. */
+/* Checks that a crack through a plate of 40 x 40 x 3 spacings kinks as in a 2D body. */
 static void test_kink_through(void **state)
 {
     static char text[2000];

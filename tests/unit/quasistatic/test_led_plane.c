@@ -21,7 +21,7 @@ struct solution {
     struct run e;
 };
 
-/* Creates the run of a scene and finds its only crack tip. */
+/* Creates the run a of the scene `text` and returns its only crack tip. */
 static const struct sif_crack_tip *solution_begin(struct solution *a, const char *text)
 {
     memset(a, 0, sizeof *a);
@@ -62,8 +62,8 @@ static void field_set(struct run *e, const struct sif_crack_tip *tip, enum space
     }
 }
 
-/* Displacements of plane stress in a plate thinner than the diameter of the ring of the fit, and of plane strain in a
- * thicker one, yield the factors that were set. The other plane state would yield factors 7 % off. */
+/* Checks that displacements of plane stress in a plate thinner than the diameter of the ring of the fit, and of plane
+ * strain in a thicker one, yield the factors that were set. The other plane state would yield factors 7 % off. */
 static void test_plane_state(void **state)
 {
     static char text[1000];
@@ -92,8 +92,8 @@ static void test_plane_state(void **state)
     }
 }
 
-/* A crack along a plane of symmetry has one of its faces in the body: half of the area of its length times the
- * thickness. */
+/* Checks that a crack along a plane of symmetry has one of its faces in the body: half of the area of its length times
+ * the thickness. */
 static void test_face_area(void **state)
 {
     static const char half[] =
@@ -118,8 +118,8 @@ static void test_face_area(void **state)
     }
 }
 
-/* In 3D a crack is as wide as the body along its front: 0.5 + 3 mm if a plane of symmetry across the front halves the
- * first of four layers of particles, 4 mm if the plane is beside them. */
+/* Checks that in 3D a crack is as wide as the body along its front: 0.5 + 3 mm if a plane of symmetry across the front
+ * halves the first of four layers of particles, 4 mm if the plane is beside them. */
 static void test_width(void **state)
 {
     static const char block[] =
@@ -153,8 +153,8 @@ static const char plate[] =
     "cracks: [{from: [-1 mm, 4 mm], to: [7 mm, 4 mm]}]\n"
     "boundary: [{fixed: all, face: y-}, {traction: [0, 1 MPa], face: y+, time: {ramp: {until: 1 s}}}]\n";
 
-/* Three growths along a path, each with another energy release rate: the recorded rate is that of the last two; before
- * there are two, that of the first. */
+/* Tests three growths along a path, each with another energy release rate: the recorded rate is that of the last two;
+ * before there are two, that of the first. */
 static void test_release_rate(void **state)
 {
     static const real grown[] = {0, 1.3e-3, 3.4e-3, 5.1e-3}, released[] = {0, 2e-4, 7.1e-4, 9.3e-4};
@@ -180,8 +180,8 @@ static void test_release_rate(void **state)
     solution_free(&a);
 }
 
-/* Particles beside the crack are damaged spacing by spacing: a growth is four spacings, so that rates up to the eighth
- * are relative to the start, later ones to the fourth. */
+/* Tests damage of particles beside the crack, spacing by spacing: a growth is four spacings, so that rates up to the
+ * eighth are relative to the start, later ones to the fourth. */
 static void test_rate_of_damage(void **state)
 {
     (void)state;

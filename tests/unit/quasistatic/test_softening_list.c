@@ -22,7 +22,7 @@ static void body_make(struct soft_body *s, enum space space)
     softening_store_equilibrium_stretches(&s->c.bonds, &s->c.p, &s->c.source.limit);
 }
 
-/* Stretches the body by `strain` along x and moves its particles at random. */
+/* Stretches the body c by `strain` along x and moves its particles at random (seed). */
 static void body_move(struct particle_cloud *c, uint64_t seed, real strain)
 {
     for (int64_t i = 0; i < c->p.n; i++)
@@ -31,7 +31,7 @@ static void body_move(struct particle_cloud *c, uint64_t seed, real strain)
                 c->p.X[d][i] * (1 + (d == 0 ? strain : 0)) + cloud_between(&seed, -1e-3, 1e-3) * CLOUD_SPACING;
 }
 
-/* Lists the bonds at the present positions; k becomes max(k_0, s). */
+/* Lists the bonds of s in l at the present positions; k becomes max(k_0, s). */
 static void follow(struct soft_body *s, struct softening_list *l)
 {
     bonds_open_beyond_onset(&s->c.bonds, &s->c.p, &s->c.source.limit);
@@ -39,7 +39,7 @@ static void follow(struct soft_body *s, struct softening_list *l)
     softening_list_store_largest_stretches(l, &s->c.bonds, 1);
 }
 
-/* Returns the potential, the sum of phi over all bonds, at the present positions [J]. */
+/* Returns the potential, the sum of phi over all bonds of s in l, at the present positions [J]. */
 static real potential(struct soft_body *s, struct softening_list *l)
 {
     softening_list_make(l, &s->c.bonds, &s->c.p, 1);
@@ -52,9 +52,9 @@ static void forces(struct soft_body *s)
     bond_forces(bond_force_table[s->c.p.dim][PD_BOND_SOFT], &s->c.bonds, &s->c.p, &bond_limit_never, NULL);
 }
 
-/* Forces of a body of which some bonds soften further, some unload and some are compressed are minus the gradient of
- * the potential. Central differences over 1e-6 spacings, a thousandth of the onset: their error is of its square,
- * 1e-6, and round-off 1e-16/1e-9 of the force. */
+/* Checks that forces of a body of which some bonds soften further, some unload and some are compressed are minus the
+ * gradient of the potential. Central differences over 1e-6 spacings, a thousandth of the onset: their error is of its
+ * square, 1e-6, and round-off 1e-16/1e-9 of the force. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -94,8 +94,8 @@ static void test_gradient(void **state)
     }
 }
 
-/* Creates a body whose bonds soften, moves it, and lets their largest stretches follow. l: empty; receives the bonds.
- */
+/* Creates a body s whose bonds soften, moves it, and lets their largest stretches follow. l: empty; receives the
+ * bonds. */
 static void body_soften(struct soft_body *s, struct softening_list *l)
 {
     body_make(s, SPACE_PLANE_STRESS);
@@ -103,8 +103,8 @@ static void body_soften(struct soft_body *s, struct softening_list *l)
     follow(s, l);
 }
 
-/* The factor of the displacements at which an energy is dissipated; with it as new k the balance of the bonds says the
- * same. Largest stretches are floats. */
+/* Checks the factor of the displacements at which an energy is dissipated; with it as new k the balance of the bonds
+ * says the same. Largest stretches are floats. */
 static void test_factor(void **state)
 {
     (void)state;
@@ -122,8 +122,8 @@ static void test_factor(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* A trial that is undone leaves energy and forces as they were, to the bit; forces are those of the stored k, so that
- * nothing is dissipated by evaluating them. */
+/* Checks that a trial that is undone leaves energy and forces as they were, to the bit; forces are those of the stored
+ * k, so that nothing is dissipated by evaluating them. */
 static void test_undo(void **state)
 {
     (void)state;
@@ -148,7 +148,7 @@ static void test_undo(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* Bonds whose k has reached their end break, in both rows, and all they dissipate is fracture energy. */
+/* Checks that bonds whose k has reached their end break, in both rows, and all they dissipate is fracture energy. */
 static void test_end(void **state)
 {
     (void)state;

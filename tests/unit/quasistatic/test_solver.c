@@ -37,7 +37,7 @@ struct solution {
     status made, ran;
 };
 
-/* Solves a scene with the overrides `key=value`, terminated by NULL. */
+/* Solves the scene `text` with the overrides `key=value`, terminated by NULL, into a. */
 static void solve(struct solution *a, const char *text, ...)
 {
     enum { MOST = 8 };
@@ -97,7 +97,7 @@ static real moved(const struct solution *a, int d, real x, real y)
     return a->e.part.x[d][i] - a->e.part.X[d][i];
 }
 
-/* Returns the mean strain between two positions along d. */
+/* Returns the mean strain between the positions `from` and `to` along d. */
 static real strain(const struct solution *a, int d, const real *from, const real *to)
 {
     const int64_t i = at(a, from[0], from[1]), j = at(a, to[0], to[1]);
@@ -149,8 +149,8 @@ static void test_integrals(void **state)
 
 static const real quarter_place[2] = {0.205, 0}, far_place[2] = {0.805, 0};
 
-/* sigma/E = 1e-6 in the interior. The families at the free end are incomplete over a horizon: with surface correction
- * the displacement of the last particle exceeds F x/(E A) by 0.13 % of the bar's elongation. */
+/* Checks sigma/E = 1e-6 in the interior. The families at the free end are incomplete over a horizon: with surface
+ * correction the displacement of the last particle exceeds F x/(E A) by 0.13 % of the bar's elongation. */
 static void test_bar_traction(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void test_bar_traction(void **state)
     }
 }
 
-/* A velocity of 0.5 um/s for 2 s is a displacement of 1 um; the reaction equals the equivalent traction. */
+/* Checks that a velocity of 0.5 um/s for 2 s is a displacement of 1 um; the reaction equals the equivalent traction. */
 static void test_bar_support(void **state)
 {
     (void)state;
@@ -185,7 +185,7 @@ static void test_bar_support(void **state)
     }
 }
 
-/* Own weight: u = rho g (L x - x^2/2)/E; a ramp counts with its final value. */
+/* Tests own weight: u = rho g (L x - x^2/2)/E; a ramp counts with its final value. */
 static void test_bar_weight(void **state)
 {
     (void)state;
@@ -197,7 +197,7 @@ static void test_bar_weight(void **state)
     solution_free(&a);
 }
 
-/* Stores the largest force and the root mean square that a probe reports. */
+/* Stores the largest force and the root mean square in *context, if `quantity` of a probe is one of them. */
 static void reaction_keep(void *context, const char *probe, const char *quantity, real value)
 {
     real *figure = context;
@@ -206,7 +206,8 @@ static void reaction_keep(void *context, const char *probe, const char *quantity
     if (strcmp(quantity, "force_rms") == 0) figure[1] = value;
 }
 
-/* Material points reach equilibrium by time steps; reactions during relaxation are not those of the equilibrium. */
+/* Checks that material points reach equilibrium by time steps; reactions during relaxation are not those of the
+ * equilibrium. */
 static void test_points_support(void **state)
 {
     (void)state;
@@ -224,7 +225,8 @@ static void test_points_support(void **state)
     solution_free(&a);
 }
 
-/* Tolerance: a residual of 1e-5 leaves 1e-4 of a strain; so does the loss of light nodes at interfaces (grid.h). */
+/* Tests a bar of material points. Tolerance: a residual of 1e-5 leaves 1e-4 of a strain; so does the loss of light
+ * nodes at interfaces (grid.h). */
 static void test_bar_points(void **state)
 {
     (void)state;
@@ -243,7 +245,8 @@ static void test_bar_points(void **state)
 
 /* ---- plates ------------------------------------------------------------------------------------------------------ */
 
-/* Lattice anisotropy (C11 +1.1 %, C12 -3.4 %) makes bonds with a horizon of 3.015 about 2 % stiffer along the axes. */
+/* Tests a plate of bonds. Lattice anisotropy (C11 +1.1 %, C12 -3.4 %) makes bonds with a horizon of 3.015 about 2 %
+ * stiffer along the axes. */
 static void test_plate(void **state)
 {
     (void)state;
@@ -264,7 +267,7 @@ static void test_plate(void **state)
     }
 }
 
-/* Solvers agree within a residual of 1e-7, and work is symmetric. */
+/* Checks that solvers agree on a plate with a crack within a residual of 1e-7, and that work is symmetric. */
 static void test_crack(void **state)
 {
     (void)state;
@@ -282,7 +285,7 @@ static void test_crack(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Every law of bonds, each with another Poisson's ratio. */
+/* Tests every law of bonds, each with another Poisson's ratio. */
 static void test_models(void **state)
 {
     (void)state;
@@ -299,7 +302,7 @@ static void test_models(void **state)
     }
 }
 
-/* Peridynamic around the crack, material points elsewhere: the mouth opens as with bonds everywhere. */
+/* Tests a plate peridynamic around the crack, material points elsewhere: the mouth opens as with bonds everywhere. */
 static void test_crack_coupled(void **state)
 {
     (void)state;
@@ -315,7 +318,7 @@ static void test_crack_coupled(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Fixed at the bottom: loads at irregular positions would leave a moment. */
+/* Tests irregular particles, fixed at the bottom: loads at irregular positions would leave a moment. */
 static void test_irregular(void **state)
 {
     (void)state;
@@ -353,7 +356,7 @@ static void test_quarter(void **state)
     }
 }
 
-/* Particles on planes of symmetry make K self-adjoint only in a weighted sum. */
+/* Tests particles on planes of symmetry, which make K self-adjoint only in a weighted sum. */
 static void test_on_plane(void **state)
 {
     (void)state;
@@ -407,7 +410,8 @@ static void test_limits(void **state)
     solution_free(&a);
 }
 
-/* Each pair of materials has its own limit: the limit of an unloaded body of another material is not used. */
+/* Checks that each pair of materials has its own limit: the limit of an unloaded body of another material is not
+ * used. */
 static void test_strength_of_pairs(void **state)
 {
     (void)state;
@@ -425,7 +429,7 @@ static void test_strength_of_pairs(void **state)
     solution_free(&a);
 }
 
-/* Bonds far beyond their critical stretch are counted and stay intact. */
+/* Checks that bonds far beyond their critical stretch are counted and stay intact. */
 static void test_strength(void **state)
 {
     (void)state;

@@ -46,7 +46,7 @@
 
 /* ---- work of stretching ------------------------------------------------------------------------------------------ */
 
-/* Returns the work up to a stretch of a bond with stiffness 1 that yields and hardens: the sum of small steps under its
+/* Tests the work up to a stretch of a bond with stiffness 1 that yields and hardens: the sum of small steps under its
  * curve. */
 static void test_stretch_work(void **state)
 {
@@ -65,8 +65,8 @@ static void test_stretch_work(void **state)
 
 /* ---- comparison with the static solvers -------------------------------------------------------------------------- */
 
-/* Every model of bonds, in 2D and 3D, with loads and driven particles: equal within a residual of 1e-7 and the square
- * of strains. */
+/* Tests every model of bonds, in 2D and 3D, with loads and driven particles: equal within a residual of 1e-7 and the
+ * square of strains. */
 static void test_models(void **state)
 {
     (void)state;
@@ -86,7 +86,7 @@ static void test_models(void **state)
         }
 }
 
-/* Irregular lattices, weights of bonds near faces, plane strain. */
+/* Tests irregular lattices, weights of bonds near faces, plane strain. */
 static void test_variants(void **state)
 {
     (void)state;
@@ -104,8 +104,8 @@ static void test_variants(void **state)
     }
 }
 
-/* Material points: cells of the reference frame compared with the current frame, far from free faces, where the shape
- * functions of points differ. */
+/* Tests material points: cells of the reference frame compared with the current frame, far from free faces, where the
+ * shape functions of points differ. */
 static void test_points(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void test_points(void **state)
 
 /* ---- mirrors ----------------------------------------------------------------------------------------------------- */
 
-/* A quarter of a free body agrees with the whole, for particles and for points. */
+/* Checks that a quarter of a free body agrees with the whole, for particles and for points. */
 static void test_quarter(void **state)
 {
     (void)state;
@@ -142,8 +142,8 @@ static void test_quarter(void **state)
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* A crack through the whole plate: the upper part has balanced loads and the strain of a free plate, while supports
- * pull at the lower part. */
+/* Tests a crack through the whole plate: the upper part has balanced loads and the strain of a free plate, while
+ * supports pull at the lower part. */
 static void test_parted(void **state)
 {
     (void)state;
@@ -160,7 +160,8 @@ static void test_parted(void **state)
     solution_free(&a);
 }
 
-/* Rigid motions that mirrors leave to fragments: mirrors between particles and through them, particles and cells. */
+/* Tests rigid motions that mirrors leave to fragments: mirrors between particles and through them, particles and
+ * cells. */
 static void test_motions(void **state)
 {
     (void)state;
@@ -235,7 +236,7 @@ static void trace_take(struct trace *t, const struct run *e)
     trace_add(t, e->part.flag, (size_t)e->part.n);
 }
 
-/* A trial of a crack increment, in bodies with and without yielding bonds. */
+/* Tests a trial of a crack increment, in bodies with and without yielding bonds. */
 static void test_trial(void **state)
 {
     (void)state;
@@ -276,8 +277,8 @@ static void test_trial(void **state)
     "boundary:\n  - {name: foot, fixed: [x, y], region: {box: {from: [-inf, 0], to: [inf, 2 mm]}}}\n"                  \
     "  - {name: top, body: high, traction: [0, -2.3 MPa], face: y+, time: {ramp: {until: 1 s}}}\n"
 
-/* The upper block is pushed into the lower one as a rigid body and released: it returns to its position, and the
- * contact energy of the push, minus the work against the traction on the way back, is recorded as dissipated. */
+/* Tests an upper block that is pushed into the lower one as a rigid body and released: it returns to its position, and
+ * the contact energy of the push, minus the work against the traction on the way back, is recorded as dissipated. */
 static void test_let_go(void **state)
 {
     (void)state;
@@ -302,8 +303,8 @@ static void test_let_go(void **state)
     solution_free(&a);
 }
 
-/* Under control by an opening, the distance of two positions increases by the prescribed amount, in as many parts as
- * steps. */
+/* Checks that under control by an opening, the distance of two positions increases by the prescribed amount, in as many
+ * parts as steps. */
 static void test_opening(void **state)
 {
     (void)state;

@@ -22,13 +22,13 @@ static const char plate[] =
 /* Returns the number of slots of bonds in the columns of the row blocks. */
 static int64_t bond_slots(const struct run *e) { return e->bonds.columns * LANES; }
 
-/* Adds `more` to the plastic stretch of all bonds [1]. */
+/* Adds `more` to the plastic stretch of all bonds of e [1]. */
 static void flow(struct run *e, real more)
 {
     for (int64_t q = 0; q < bond_slots(e); q++) e->bonds.plastic_stretch[q] += more;
 }
 
-/* Fails unless all bonds have this plastic stretch [1]. */
+/* Fails unless all bonds of e have the plastic stretch `stretch` [1]. */
 static void expect(const struct run *e, real stretch)
 {
     for (int64_t q = 0; q < bond_slots(e); q++) assert_true(e->bonds.plastic_stretch[q] == stretch);

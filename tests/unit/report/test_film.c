@@ -13,8 +13,8 @@
 enum { NX = 50, NY = 37, FRAMES = 61 };
 static const double H = 0.25e-3;
 
-/* Makes a film of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are busy from x = 10 H on.
- */
+/* Makes a film f of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are busy from x = 10 H
+ * on. */
 static void plate_make(struct film *f)
 {
     *f = (struct film){.dim = 2, .spacing = H, .every = 1, .frames = FRAMES, .listed = FRAMES, .sets = 1};
@@ -34,8 +34,8 @@ static void plate_make(struct film *f)
     }
 }
 
-/* Returns the number of bytes of the frames that are shown: 4 for displacements, and 4 once for positions, 6 at most
- * for sizes and two fields of the set. */
+/* Returns the number of bytes of the frames of f that are shown: 4 for displacements, and 4 once for positions, 6 at
+ * most for sizes and two fields of the set. */
 static int64_t film_bytes(const struct film *f) { return f->set->shown * (4 * f->used + 10); }
 
 static void groups_cover_the_body(void **state)
@@ -75,7 +75,7 @@ static void groups_cover_the_body(void **state)
     film_free(&f);
 }
 
-/* Particles of two materials, fragments or bodies are never one group. */
+/* Checks that particles of two materials, fragments or bodies are never one group. */
 static void groups_do_not_mix(void **state)
 {
     struct film f;

@@ -20,8 +20,8 @@ static struct solid solids[] = {
 };
 static const struct region shape = {.n = 3, .solid = solids};
 
-/* Checks that the distance decreases to 0 along the normal, and that no point of the body is closer: the ball of that
- * radius around the point contains none of its points (outside). */
+/* Checks that the distance from x decreases to 0 along the normal, and that no point of the body is closer: the ball of
+ * that radius around the point contains none of its points (outside). */
 static void check_point(const real *x)
 {
     real normal[DIM_MAX], at[DIM_MAX];
@@ -46,8 +46,8 @@ static void test_distance(void **state)
         check_point((const real[]){-5.03 + 2 * (k % 7), -2.01 + k / 7 % 7, -2.02 + 1.1 * (k / 49)});
 }
 
-/* A box with a spherical cavity: inside, the distance is that to the cavity's wall, with the normal from there to the
- * point, as outside the box. */
+/* Tests a box with a spherical cavity: inside, the distance is that to the cavity's wall, with the normal from there to
+ * the point, as outside the box. */
 static void test_cavity(void **state)
 {
     (void)state;
@@ -68,8 +68,8 @@ static void test_cavity(void **state)
 /* ---- surfaces in files ---------------------------------------------------------------------------------------------
  */
 
-/* Area in the plane, volume in space within the faces of a surface, by Gauss's theorem; a quadrilateral as two
- * triangles. */
+/* Returns area in the plane, volume in space within the faces of a surface s, by Gauss's theorem; a quadrilateral as
+ * two triangles. */
 static real enclosed(const struct rigid_surface *s)
 {
     real sum = 0;
@@ -87,8 +87,8 @@ static real enclosed(const struct rigid_surface *s)
     return fabs(sum);
 }
 
-/* Surfaces of a disc, a ball and a brick: closed, of the right size within what their grids resolve (200 and 24 cells
- * across; bricks have sharp edges, also a turned one), points on the surface; a half-space is cut to the box. */
+/* Tests surfaces of a disc, a ball and a brick: closed, of the right size within what their grids resolve (200 and 24
+ * cells across; bricks have sharp edges, also a turned one), points on the surface; a half-space is cut to the box. */
 static void test_surface(void **state)
 {
     (void)state;
@@ -126,8 +126,8 @@ static void test_surface(void **state)
     solid_free(&turned);
 }
 
-/* A half-space beyond the box of the particles has a surface, on its face and as wide as the box; a box that it cuts
- * stays as it is but for the margin of 0.08 of the longest edge, 5. */
+/* Checks that a half-space beyond the box of the particles has a surface, on its face and as wide as the box; a box
+ * that it cuts stays as it is but for the margin of 0.08 of the longest edge, 5. */
 static void test_surface_of_a_plane_afar(void **state)
 {
     (void)state;
@@ -153,8 +153,8 @@ static void test_surface_of_a_plane_afar(void **state)
 
 static const real rest[DIM_MAX] = {0, 0, 0};
 
-/* Inertia: a brick m/12 (b^2 + c^2), to round-off with the cells of a grid; a disc m R^2/2 within 1e-3 with a grid of
- * points. */
+/* Tests inertia: a brick m/12 (b^2 + c^2), to round-off with the cells of a grid; a disc m R^2/2 within 1e-3 with a
+ * grid of points. */
 static void test_inertia(void **state)
 {
     (void)state;
@@ -173,9 +173,9 @@ static void test_inertia(void **state)
     assert_near(r.inertia[2][2], 9, 5e-3 * 9);
 }
 
-/* Composite bodies, one part of which is small against the box round both; parts do not overlap, or a rod ends in the
- * centre of a ball, whose closed form is in the table. Moments of parts by Steiner's theorem; no error of a part may be
- * above 1/2 %, which is what the sampling is refined to. */
+/* Tests composite bodies, one part of which is small against the box round both; parts do not overlap, or a rod ends in
+ * the centre of a ball, whose closed form is in the table. Moments of parts by Steiner's theorem; no error of a part
+ * may be above 1/2 %, which is what the sampling is refined to. */
 static void test_inertia_of_composites(void **state)
 {
     (void)state;
@@ -205,7 +205,7 @@ static void test_inertia_of_composites(void **state)
     }
 }
 
-/* Free rotation about the middle axis, which is unstable: energy and angular momentum are constant. */
+/* Tests free rotation about the middle axis, which is unstable: energy and angular momentum are constant. */
 static void test_tumbling(void **state)
 {
     (void)state;
@@ -231,7 +231,7 @@ static void test_tumbling(void **state)
         }
 }
 
-/* Constant force and moment: the closed forms of leap-frog integration, whose energy is the work. */
+/* Tests constant force and moment: the closed forms of leap-frog integration, whose energy is the work. */
 static void test_driven(void **state)
 {
     (void)state;
@@ -256,8 +256,8 @@ static void test_driven(void **state)
     assert_near(rigid_signed_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
 }
 
-/* A brick in free 3D motion: the velocity of its points is the rate of their positions; the kinetic energy increases by
- * the work of force, weight and moment. */
+/* Tests a brick in free 3D motion: the velocity of its points is the rate of their positions; the kinetic energy
+ * increases by the work of force, weight and moment. */
 static void test_points_move(void **state)
 {
     (void)state;
@@ -289,8 +289,8 @@ static void test_points_move(void **state)
     assert_true(work > 0.5);
 }
 
-/* Kinetic energy added by a velocity update of half a step: half a step times the power of force, weight and moment. A
- * driven body has none. */
+/* Tests the kinetic energy added by a velocity update of half a step: half a step times the power of force, weight and
+ * moment. A driven body has none. */
 static void test_kick(void **state)
 {
     (void)state;
@@ -314,7 +314,7 @@ static void test_kick(void **state)
 
 /* ---- in the engine ----------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a column of history.csv. */
+/* Returns the value of column `name` of history.csv in `record`, which has n columns. */
 static real recorded(const struct column *column, const real *record, int n, const char *name)
 {
     for (int k = 0; k < n; k++)
@@ -323,7 +323,8 @@ static real recorded(const struct column *column, const real *record, int n, con
     return NAN;
 }
 
-/* Two bodies: each value is in its column; in 2D the moment is about z. Energies are sums over both. */
+/* Tests the record of two bodies: each value is in its column; in 2D the moment is about z. Energies are sums over
+ * both. */
 static void test_record(void **state)
 {
     (void)state;
@@ -373,7 +374,7 @@ static void test_record(void **state)
     memory_free(rigid.motion);
 }
 
-/* The displacement of a driven body from its speed and ramp agrees with the sum of its steps. */
+/* Checks that the displacement of a driven body from its speed and ramp agrees with the sum of its steps. */
 static void test_ramp(void **state)
 {
     (void)state;
@@ -390,8 +391,8 @@ static void test_ramp(void **state)
     }
 }
 
-/* Invalid rigid bodies are refused, also a flying one with a part so thin (1 : 1000) that its weight is uncertain; a
- * fixed one may have it. */
+/* Checks that invalid rigid bodies are refused, also a flying one with a part so thin (1 : 1000) that its weight is
+ * uncertain; a fixed one may have it. */
 static void test_refused(void **state)
 {
     (void)state;

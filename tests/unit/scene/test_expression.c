@@ -89,7 +89,7 @@ static void values_are_those_of_c(void **state)
     }
 }
 
-/* Central differences of a formula agree with its derivative: to the square of the step, and round-off. */
+/* Checks that central differences of a formula agree with its derivative: to the square of the step, and round-off. */
 static void derivatives_follow(void **state)
 {
     (void)state;
@@ -114,7 +114,7 @@ static void derivatives_follow(void **state)
     }
 }
 
-/* The stored text compiles to the same steps and is stored unchanged. */
+/* Checks that the stored text compiles to the same steps and is stored unchanged. */
 static void texts_read_back(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void faults_are_placed(void **state)
     }
 }
 
-/* Deeply nested, long and wide texts are refused. */
+/* Checks that deeply nested, long and wide texts are refused. */
 static void size_is_bounded(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static uint32_t random_next(uint64_t *seed)
     return (uint32_t)(*seed >> 33);
 }
 
-/* Changes, removes, doubles or exchanges some parts of a formula. */
+/* Changes, removes, doubles or exchanges some parts of a formula, text of at most `room` bytes, at random (*seed). */
 static void mutate(char *text, size_t room, uint64_t *seed)
 {
     static const char letters[] = "()+-*/^.,0123456789eExyztmsk gPaN%_ \t\xc2\xb5\xff";

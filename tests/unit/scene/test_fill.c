@@ -48,7 +48,7 @@ static void boxes_are_filled_in_every_space(void **state)
     }
 }
 
-/* A plate with an inclusion that contains a region of the plate's own material. */
+/* Tests a plate with an inclusion that contains a region of the plate's own material. */
 static void parts_are_of_their_material(void **state)
 {
     (void)state;
@@ -93,7 +93,7 @@ static bool has_particle(const struct particles *p, real x, real y)
     return false;
 }
 
-/* A ring about the origin: the mirror images of every particle are particles, bitwise. */
+/* Tests a ring about the origin: the mirror images of every particle are particles, bitwise. */
 static void symmetric_bodies_are_filled_symmetrically(void **state)
 {
     (void)state;
@@ -122,7 +122,8 @@ static void symmetric_bodies_are_filled_symmetrically(void **state)
     }
 }
 
-/* A driven layer added below the plate continues its lattice, and so does a second body without a box of its own. */
+/* Checks that a driven layer added below the plate continues its lattice, and so does a second body without a box of
+ * its own. */
 static void added_solids_continue_the_lattice(void **state)
 {
     (void)state;
@@ -154,7 +155,8 @@ static void added_solids_continue_the_lattice(void **state)
     particles_free(&p);
 }
 
-/* Particles exactly on a surface belong to the body on every side, although 0.1 has no exact binary representation. */
+/* Checks that particles exactly on a surface belong to the body on every side, although 0.1 has no exact binary
+ * representation. */
 static void particles_on_surfaces_are_kept(void **state)
 {
     (void)state;
@@ -254,7 +256,7 @@ static void later_initial_entries_overwrite(void **state)
     particles_free(&p);
 }
 
-/* Initial velocity from formulas of second order, whose central differences are exact, and its gradient. */
+/* Tests the initial velocity from formulas of second order, whose central differences are exact, and its gradient. */
 static void velocities_by_formulas(void **state)
 {
     static const char text[] =
@@ -282,7 +284,7 @@ static void velocities_by_formulas(void **state)
     scene_free(&s);
 }
 
-/* Stress, position, volume and stretch under a uniform gradient, compared with Hooke's law. */
+/* Compares stress, position, volume and stretch under a uniform gradient with Hooke's law. */
 static void initial_strain_is_hooke(void **state)
 {
     (void)state;
@@ -359,8 +361,9 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "give body or bodies");
 }
 
-/* Pulses along and across their direction: velocity from its form, displacement from its integral; the stress on planes
- * across the direction is -rho c v, c of longitudinal or shear waves; longitudinal ones change the volume by -v/c. */
+/* Tests pulses along and across their direction: velocity from its form, displacement from its integral; the stress on
+ * planes across the direction is -rho c v, c of longitudinal or shear waves; longitudinal ones change the volume by
+ * -v/c. */
 static void pulses_are_waves(void **state)
 {
     (void)state;

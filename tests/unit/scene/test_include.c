@@ -49,7 +49,7 @@ static const char base[] = "name: base\n"
                            "output: {frames: 3, samples: 20}\n"
                            "probes: [tip, energy]\n";
 
-/* Asserts that a scene is equal to `flat`, except for its name, when written out. */
+/* Asserts that the scene at `path` is equal to `flat`, except for its name, when written out. */
 static void assert_like(const char *path, const char *flat)
 {
     struct scene s, want;
@@ -99,8 +99,8 @@ static void names_and_overrides_are_of_the_scene(void **state)
     scene_free(&s);
 }
 
-/* A chain of files in folders, each named relative to the folder of the previous one; a list of particles beside the
- * last. */
+/* Tests a chain of files in folders, each named relative to the folder of the previous one; a list of particles beside
+ * the last. */
 static void files_are_sought_beside_who_names_them(void **state)
 {
     (void)state;

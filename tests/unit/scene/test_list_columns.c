@@ -8,7 +8,7 @@
 #include "tests/support/setting.h"
 #include "scene/fill.h"
 
-/* Writes `text` to a file in the test's folder and makes it the list of body 0. */
+/* Writes `text` to the file `name` in the test's folder and makes it the list of body 0 of s. */
 static void list_written(struct setting *s, char *name, const char *text)
 {
     FILE *file = fopen(name, "wb");
@@ -18,7 +18,7 @@ static void list_written(struct setting *s, char *name, const char *text)
     s->body[0].file = name;
 }
 
-/* Units, separators, columns of other programs, and defaults of missing columns. */
+/* Tests units, separators, columns of other programs, and defaults of missing columns. */
 static void lists_of_others_are_read(void **state)
 {
     (void)state;
@@ -53,7 +53,8 @@ static void lists_of_others_are_read(void **state)
     }
 }
 
-/* A scene says the unit of coordinates and volumes that name none, and the columns of a file without names. */
+/* Checks that a scene says the unit of coordinates and volumes that name none, and the columns of a file without
+ * names. */
 static void scene_says_unit_and_columns(void **state)
 {
     (void)state;
@@ -101,8 +102,8 @@ static void scene_says_unit_and_columns(void **state)
     remove(h5);
 }
 
-/* Without a spacing in the scene it follows from the mean volume, in a plate with its thickness; particles closer than
- * a thousandth of it are refused. */
+/* Checks that a spacing not in the scene follows from the mean volume, in a plate with its thickness; particles closer
+ * than a thousandth of it are refused. */
 static void spacing_of_volumes(void **state)
 {
     (void)state;
@@ -124,7 +125,7 @@ static void spacing_of_volumes(void **state)
     }
 }
 
-/* Files of ParaView, R, pandas, Peridigm and PeriLab are read unchanged. */
+/* Checks that files of ParaView, R, pandas, Peridigm and PeriLab are read unchanged. */
 static void lists_of_programs_are_read(void **state)
 {
     (void)state;
@@ -160,7 +161,7 @@ static void lists_of_programs_are_read(void **state)
     }
 }
 
-/* Without volumes each particle has that of the lattice, and a message reports it. */
+/* Checks that without volumes each particle has that of the lattice, and a message reports it. */
 static void volumes_have_a_default(void **state)
 {
     (void)state;
@@ -183,7 +184,7 @@ static void volumes_have_a_default(void **state)
     remove(name);
 }
 
-/* Mutated lists are read, or refused in one line. */
+/* Checks that mutated lists are read, or refused in one line. */
 static void mutated_lists_are_bounded(void **state)
 {
     (void)state;

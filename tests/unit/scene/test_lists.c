@@ -10,7 +10,7 @@
 #include "tests/support/setting.h"
 #include "scene/fill.h"
 
-/* Writes `text` to a file in the test's folder and makes it the list of body 0. */
+/* Writes `text` to the file `name` in the test's folder and makes it the list of body 0 of s. */
 static void list_of(struct setting *s, char *name, const char *text)
 {
     FILE *file = fopen(name, "wb");
@@ -48,7 +48,7 @@ static void csv_lists_are_read(void **state)
     remove(name);
 }
 
-/* Two bodies from one file, each with its own rows; without a spacing, that of the mean particle is used for
+/* Tests two bodies from one file, each with its own rows; without a spacing, that of the mean particle is used for
  * sorting. */
 static void bodies_share_a_list(void **state)
 {
@@ -197,7 +197,7 @@ static void hdf5_lists_are_read(void **state)
     remove(name);
 }
 
-/* Writes an attribute `unit` of a dataset, of fixed or variable length. */
+/* Writes the attribute `unit` of the dataset `name`, of fixed or variable length. */
 static void unit_write(hid_t file, const char *name, const char *unit, bool variable)
 {
     hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
@@ -209,7 +209,7 @@ static void unit_write(hid_t file, const char *name, const char *unit, bool vari
     H5Tclose(type);
 }
 
-/* Positions in 3D, velocities, masses, and their units. */
+/* Tests positions in 3D, velocities, masses, and their units. */
 static void hdf5_lists_have_units(void **state)
 {
     (void)state;
@@ -246,8 +246,8 @@ static void hdf5_lists_have_units(void **state)
     remove(name);
 }
 
-/* Refused: positions that are a link out of the file or inside it, numbers in another file or dataset, or far more
- * numbers than the file has bytes. */
+/* Checks what is refused: positions that are a link out of the file or inside it, numbers in another file or dataset,
+ * or far more numbers than the file has bytes. */
 static void hdf5_lists_are_whole(void **state)
 {
     (void)state;
@@ -407,7 +407,7 @@ static void units_of_lists_are_told(void **state)
     remove(name);
 }
 
-/* Points inside another body interact with it on the grid; bonds stay within their body. */
+/* Checks that points inside another body interact with it on the grid; bonds stay within their body. */
 static void other_bodies_are_neighbours_of_points(void **state)
 {
     (void)state;
@@ -426,7 +426,7 @@ static void other_bodies_are_neighbours_of_points(void **state)
     remove(name);
 }
 
-/* 2e5 particles, each the neighbour of all others, need 960 GB: refused. */
+/* Checks that 2e5 particles, each the neighbour of all others, which need 960 GB, are refused. */
 static void bonds_beyond_memory_are_refused(void **state)
 {
     (void)state;

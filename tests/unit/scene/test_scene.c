@@ -184,7 +184,7 @@ static void test_block(void **state)
     scene_free(&s);
 }
 
-/* A rotation at 21/s about an axis of length 7 has w = (9, -18, 6)/s: rows of w x. */
+/* Checks that a rotation at 21/s about an axis of length 7 has w = (9, -18, 6)/s: rows of w x. */
 static void test_turn(void **state)
 {
     (void)state;
@@ -327,7 +327,7 @@ static void test_overrides(void **state)
     scene_free(&s);
 }
 
-/* Keys under their earlier names, in the file, in the path of an override and in its value; the echo has the new
+/* Tests keys under their earlier names, in the file, in the path of an override and in its value; the echo has the new
  * names. */
 static void test_renamed(void **state)
 {
@@ -351,8 +351,8 @@ static void test_renamed(void **state)
     scene_free(&s);
 }
 
-/* Bonds across an interface break as those of a material with the harmonic mean of both moduli: the critical stretch is
- * proportional to sqrt(G/E). */
+/* Checks that bonds across an interface break as those of a material with the harmonic mean of both moduli: the
+ * critical stretch is proportional to sqrt(G/E). */
 static void interfaces_have_their_strength(void **state)
 {
     (void)state;
@@ -371,7 +371,7 @@ static void interfaces_have_their_strength(void **state)
     scene_free(&s);
 }
 
-/* Reads a scene of a stiff and a soft material whose bodies meet, with further lines. */
+/* Reads into s a scene of a stiff and a soft material whose bodies meet, with the further lines `more`. */
 static void read_joint(struct scene *s, const char *more)
 {
     char text[1200];
@@ -386,8 +386,8 @@ static void read_joint(struct scene *s, const char *more)
     if (scene_read_text(s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
 }
 
-/* A joint releases the energy of its interface, else the smaller one of both materials. The critical stretch is
- * proportional to sqrt(G/E); E is the harmonic mean for model bond, the arithmetic mean for ospd. */
+/* Checks that a joint releases the energy of its interface, else the smaller one of both materials. The critical
+ * stretch is proportional to sqrt(G/E); E is the harmonic mean for model bond, the arithmetic mean for ospd. */
 static void joints_have_their_energy(void **state)
 {
     (void)state;
@@ -409,10 +409,10 @@ static void joints_have_their_energy(void **state)
         }
 }
 
-/* With the influence function omega the critical stretch of a continuum is that of omega = 1 times sqrt(mu/nu), with
- * the means mu and nu of omega that have the weights r^2 and r^3 in 2D: 3 and 2 for (horizon/r)^2, 3/2 and 4/3 for
- * horizon/r. A lattice lacks the particle itself, where omega is largest: a horizon of 10 spacings agrees within 3.5 %.
- */
+/* Checks that with the influence function omega the critical stretch of a continuum is that of omega = 1 times
+ * sqrt(mu/nu), with the means mu and nu of omega that have the weights r^2 and r^3 in 2D: 3 and 2 for (horizon/r)^2,
+ * 3/2 and 4/3 for horizon/r. A lattice lacks the particle itself, where omega is largest: a horizon of 10 spacings
+ * agrees within 3.5 %. */
 static void stretches_depend_on_influence(void **state)
 {
     (void)state;
@@ -430,8 +430,8 @@ static void stretches_depend_on_influence(void **state)
     }
 }
 
-/* On a line with a horizon of 3 spacings h, k parallel bonds of length k h cross each plane: G = E s^2 h/2 (1 + 4 +
- * 9)/(1 + 2 + 3). The continuum integral of (horizon/r)^2 diverges there. */
+/* Checks that on a line with a horizon of 3 spacings h, where k parallel bonds of length k h cross each plane, G = E
+ * s^2 h/2 (1 + 4 + 9)/(1 + 2 + 3). The continuum integral of (horizon/r)^2 diverges there. */
 static void stretch_on_a_line(void **state)
 {
     (void)state;

@@ -312,8 +312,8 @@ static const struct {
      "1:10: not YAML: invalid leading UTF-8 octet; indent by spaces (not tabs), end a key in `: `, close brackets"},
 };
 
-/* Returns the valid scene with the only occurrence of `piece` replaced; NUL bytes are kept according to
- * `instead_length`. */
+/* Returns the valid scene with the only occurrence of `piece` replaced by instead[instead_length], which may have NUL
+ * bytes; *length: of the result. */
 static char *replaced(const char *piece, const char *instead, size_t instead_length, size_t *length)
 {
     const char *at = strstr(good, piece);

@@ -14,7 +14,7 @@
 
 /* ---- round trip -------------------------------------------------------------------------------------------------- */
 
-/* Checks that a scene that is written out and read back has equal text and numbers, except for name and path. */
+/* Checks that the scene a, written out and read back, has equal text and numbers, except for name and path. */
 static void check_round_trip(const struct scene *a)
 {
     struct scene b;
@@ -66,7 +66,7 @@ static unsigned draw(uint64_t *seed)
     return (unsigned)(*seed >> 33);
 }
 
-/* Changes some bytes, or doubles or removes a piece. Returns the length. */
+/* Changes some bytes of text[length], or doubles or removes a piece, at random (*seed). Returns the new length. */
 static size_t mutate(char *text, size_t length, uint64_t *seed)
 {
     static const char letters[] = "[]{}:,-&*!|>'\"#%@ \n\t\\0123456789.eE/inf_x\xc3\x00";

@@ -149,7 +149,8 @@ static int64_t filled(const char *regions, const char *shape, int dim)
     return n;
 }
 
-/* A body rotated by quarter turns contains the same lattice positions as the unrotated one, also on its surface. */
+/* Checks that a body rotated by quarter turns contains the same lattice positions as the unrotated one, also on its
+ * surface. */
 static void test_filled_alike(void **state)
 {
     (void)state;
@@ -168,7 +169,7 @@ static void test_filled_alike(void **state)
     for (size_t k = 0; k < COUNT_OF(same); k++) assert_int_equal(filled("", same[k][0], 2), filled("", same[k][1], 2));
 }
 
-/* A wheel with slots all around has equal numbers of particles in each quarter. */
+/* Checks that a wheel with slots all around has equal numbers of particles in each quarter. */
 static void test_filled_symmetrically(void **state)
 {
     (void)state;
@@ -188,7 +189,7 @@ static void test_filled_symmetrically(void **state)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* A name stands for its solids in loads and probes. */
+/* Checks that a name stands for its solids in loads and probes. */
 static void test_names(void **state)
 {
     (void)state;
@@ -270,7 +271,7 @@ static void test_refusals(void **state)
     }
 }
 
-/* Names that expand to a hundred million solids are refused at once. */
+/* Checks that names that expand to a hundred million solids are refused at once. */
 static void test_multiplied_names(void **state)
 {
     (void)state;

@@ -22,7 +22,7 @@ static void read_sound(struct scene *s, const char *text)
     if (scene_read_text(s, text, strlen(text), "spacings.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
 }
 
-/* Crack ends, gaps and edges are between particles; cells of two spacings end with the body. */
+/* Checks that crack ends, gaps and edges are between particles; cells of two spacings end with the body. */
 static void spacings_divide_lengths(void **state)
 {
     (void)state;
@@ -37,7 +37,7 @@ static void spacings_divide_lengths(void **state)
     scene_free(&s);
 }
 
-/* The first body is a disc, so that no edge along x counts; the spacing stays if none divides the other body's
+/* Checks that no edge along x counts if the first body is a disc; the spacing stays if none divides the other body's
  * edges. */
 static void a_disc_has_no_edges(void **state)
 {
@@ -49,8 +49,8 @@ static void a_disc_has_no_edges(void **state)
     scene_free(&s);
 }
 
-/* Lengths that must be resolved have a few spacings each, which divide the body; none needs more than 50,000
- * particles. */
+/* Checks that lengths that must be resolved have a few spacings each, which divide the body; none needs more than
+ * 50,000 particles. */
 static void each_length_has_a_few_spacings(void **state)
 {
     (void)state;
@@ -77,7 +77,7 @@ static void each_length_has_a_few_spacings(void **state)
     }
 }
 
-/* Particles from a list and a body without bounds have no length that determines a spacing. */
+/* Checks that particles from a list and a body without bounds have no length that determines a spacing. */
 static void there_may_be_no_length(void **state)
 {
     (void)state;

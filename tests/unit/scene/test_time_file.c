@@ -21,7 +21,7 @@ static void file_write(const char *name, const char *text, size_t length)
     fclose(file);
 }
 
-/* Reads the scene with this function of time and a file blast.csv of this text. */
+/* Reads into s the scene with the function of time `time` and a file blast.csv that has the text csv[length]. */
 static status read_with(struct scene *s, const char *time, const char *csv, size_t length)
 {
     char text[1000];
@@ -105,7 +105,7 @@ static void bad_files_are_refused(void **state)
     assert_refused(read_with(&s, "{file: blast.csv, table: [[0, 1]]}", "", 0), "table: is given together with file");
 }
 
-/* Arbitrary bytes cause a status, never a crash. */
+/* Checks that arbitrary bytes cause a status, never a crash. */
 static void garbage_is_refused(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void garbage_is_refused(void **state)
     }
 }
 
-/* Bisection yields values bitwise equal to those of a search from the start. */
+/* Checks that bisection yields values bitwise equal to those of a search from the start. */
 static void long_tables_are_bisected(void **state)
 {
     (void)state;

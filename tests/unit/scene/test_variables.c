@@ -63,7 +63,7 @@ static void every_number_may_contain_them(void **state)
     scene_free(&s);
 }
 
-/* The scene as run contains only numbers, which are read back bitwise. */
+/* Checks that the scene as run contains only numbers, which are read back bitwise. */
 static void the_scene_as_run_holds_numbers(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static const struct {
     {"a: 1e40 mm", "2:3: b: 2*a + 4 mm needs a, which is above 1e30 in SI units"},
 };
 
-/* Each line replaces `a: 3 mm`; the expected message follows the file's name. */
+/* Checks that each line in place of `a: 3 mm` is refused; the expected message follows the file's name. */
 static void wrong_ones_are_refused(void **state)
 {
     (void)state;
@@ -172,7 +172,7 @@ static void wrong_ones_are_refused(void **state)
     }
 }
 
-/* A chain of definitions that is too long for the stack is refused. */
+/* Checks that a chain of definitions that is too long for the stack is refused. */
 static void chains_are_bounded(void **state)
 {
     (void)state;

@@ -16,7 +16,7 @@
     "method: auto\nspace: plane stress\nthickness: 1 mm\nduration: 1 us\n"                                             \
     "material: {young: 2e11, poisson: 1/3, density: 8000}\nbody: {box: {from: [0, 0], to: [40 mm, 20 mm]}}\n"
 
-/* Reads a scene of this text from a file. */
+/* Reads a scene with this text from a file, with its wish w. */
 static status wish_of(struct pilot_wish *w, const char *text)
 {
     char path[] = "/tmp/cleave-wish-XXXXXX";
@@ -61,7 +61,7 @@ static void all_that_can_be_given(void **state)
     scene_free(&w.provisional);
 }
 
-/* Joined bodies are refused in adaptive runs, so that the provisional method is pd. */
+/* Checks that joined bodies are refused in adaptive runs, so that the provisional method is pd. */
 static void joined_bodies_are_for_bonds(void **state)
 {
     (void)state;
@@ -78,7 +78,7 @@ static void joined_bodies_are_for_bonds(void **state)
     scene_free(&w.provisional);
 }
 
-/* Scenes with other methods are read as by scene_read; invalid ones leave no request. */
+/* Checks that scenes with other methods are read as by scene_read(); invalid ones leave no wish. */
 static void other_scenes_have_no_wish(void **state)
 {
     (void)state;

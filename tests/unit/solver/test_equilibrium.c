@@ -61,7 +61,8 @@ static real truss_energy(const struct truss *t)
     return sum;
 }
 
-/* Applies the sum of the diagonal entries of all bars as preconditioner: every node has stiffness in it. */
+/* Computes z from the residual r by the sum of the diagonal entries of all bars of the truss *context: every node has
+ * stiffness in it. */
 static void truss_precondition(void *context, const struct field *r, struct field *z)
 {
     const struct truss *t = context;
@@ -111,7 +112,7 @@ static status truss_find(struct truss *t, bool moved)
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
 
-/* Solves the equations of a truss with small displacements by elimination: n unknowns, rows of n + 1. */
+/* Solves the equations A x = b of a truss with small displacements by elimination: n unknowns, rows (A, b) of n + 1. */
 static void eliminate(int n, real (*A)[2 * NODES + 1], real *x)
 {
     for (int k = 0; k < n; k++)
@@ -126,8 +127,8 @@ static void eliminate(int n, real (*A)[2 * NODES + 1], real *x)
     }
 }
 
-/* A plane truss of ten free nodes and two fixed ones; displacements are a thousandth of its size, and so are nonlinear
- * effects. Tolerances of 1e-5 and 1e-9 are reached. */
+/* Tests a plane truss of ten free nodes and two fixed ones; displacements are a thousandth of its size, and so are
+ * nonlinear effects. Tolerances of 1e-5 and 1e-9 are reached. */
 static void test_linear(void **state)
 {
     (void)state;
@@ -166,8 +167,8 @@ static void test_linear(void **state)
     }
 }
 
-/* A bar on a hinge under a transverse force: it rotates by a right angle, into the direction of the force, and has the
- * corresponding length. */
+/* Tests a bar on a hinge under a transverse force: it rotates by a right angle, into the direction of the force, and
+ * has the corresponding length. */
 static void test_turns(void **state)
 {
     (void)state;
@@ -181,8 +182,9 @@ static void test_turns(void **state)
     truss_free(&t);
 }
 
-/* Two bars form a flat roof of height 0.1 over half a span of 1. The snap-through load is 2 k max of (1/1 - 1/l) y,
- * about 2 k 0.1^3/(3 sqrt 3); below it the roof bends, above it hangs. Equilibria from the closed form by bisection. */
+/* Returns the load of a flat roof of two bars of stiffness k = 1 at height y: height 0.1 over half a span of 1 at
+ * first. The snap-through load is 2 k max of (1/1 - 1/l) y, about 2 k 0.1^3/(3 sqrt 3); below it the roof bends, above
+ * it hangs. Equilibria from the closed form by bisection. */
 static real roof_load(real y) { return 2 * (sqrt(1.01) / hypot(1, y) - 1) * y; }
 static void test_snaps(void **state)
 {
@@ -211,9 +213,9 @@ static void test_snaps(void **state)
     }
 }
 
-/* A roof whose middle is moved through by a support: support forces do work, and no energy is lost. Then a bar breaks:
- * its energy and that released by the others are dissipated. Tolerance: Simpson's rule for displacements of a twentieth
- * of a bar and more; the work of supports between equilibria is that of their mean force, to 0.5 %. */
+/* Tests a roof whose middle is moved through by a support: support forces do work, and no energy is lost. Then a bar
+ * breaks: its energy and that released by the others are dissipated. Tolerance: Simpson's rule for displacements of a
+ * twentieth of a bar and more; the work of supports between equilibria is that of their mean force, to 0.5 %. */
 static void test_work(void **state)
 {
     (void)state;
@@ -241,7 +243,7 @@ static void test_work(void **state)
     truss_free(&t);
 }
 
-/* A structure without resistance to the load has no equilibrium. */
+/* Checks that a structure without resistance to the load has no equilibrium. */
 static void test_none(void **state)
 {
     (void)state;

@@ -31,7 +31,7 @@ struct body {
     int32_t *node; /* [positions of the lattice] node, -1: none */
 };
 
-/* Returns a pseudo-random number in [-1/2, 1/2), equal on all machines. */
+/* Returns the pseudo-random number k in [-1/2, 1/2), equal on all machines. */
 static real mixed(uint64_t k)
 {
     k = (k + 1) * 0x9e3779b97f4a7c15u;
@@ -46,7 +46,7 @@ static bool in_piece(const struct body *b, const int *at)
     return true;
 }
 
-/* Returns true if a bond connects two positions in this kind of body. */
+/* Returns true if a bond connects the positions `from` and `to` in b's kind of body. */
 static bool joined(const struct body *b, const int *from, const int *to)
 {
     const real middle = b->size[1] / 2 - 0.5;
@@ -59,8 +59,8 @@ static bool joined(const struct body *b, const int *from, const int *to)
     return true;
 }
 
-/* Returns the factor on the stiffness: of two materials one is a thousand times as stiff; bonds between them have the
- * harmonic mean. */
+/* Returns the factor on the stiffness of the bond between the positions `from` and `to`: of two materials one is a
+ * thousand times as stiff; bonds between them have the harmonic mean. */
 static real bond_factor(const struct body *b, const int *from, const int *to)
 {
     const int stiff = (from[0] > b->size[0] / 2) + (to[0] > b->size[0] / 2);
@@ -79,7 +79,7 @@ static void place_of(const struct body *b, int64_t k, int *at)
     at[2] = (int)(k / b->size[0] / b->size[1]);
 }
 
-/* Creates the row of the node at lattice position k, from entry `first` on; returns its end. */
+/* Creates the row of b of the node at lattice position k, from entry `first` on; returns its end. */
 static int64_t row_make(struct body *b, int64_t k, int64_t first)
 {
     const int dim = b->dim, reach = b->kind & MESH_CELLS ? 1 : 3, size = dim * dim;
@@ -194,7 +194,7 @@ static real product(const struct body *b, const struct vectors *x, const struct 
     return sum;
 }
 
-/* Computes y = K x as forces of bonds stretched by differences of displacements. */
+/* Computes y = K x for b as forces of bonds stretched by differences of displacements. */
 static void stiffness(const struct body *b, const struct vectors *x, struct vectors *y)
 {
     const int dim = b->dim;
@@ -207,7 +207,8 @@ static void stiffness(const struct body *b, const struct vectors *x, struct vect
     }
 }
 
-/* Solves K u = load by conjugate gradients with the preconditioner m to 1e-8; returns the number of iterations. */
+/* Solves K u = load for b by conjugate gradients with the preconditioner m to 1e-8; returns the number of
+ * iterations. */
 static int solve_with(struct multigrid *m, const struct body *b, const struct vectors *load, struct vectors *u)
 {
     enum { MOST = 200 };
@@ -239,7 +240,7 @@ static int solve(const struct body *b, const struct vectors *load, struct vector
     return k;
 }
 
-/* Returns a load along the body and a smaller one across. */
+/* Returns a load along the body b and a smaller one across. */
 static struct vectors load_make(const struct body *b)
 {
     struct vectors v = vectors_make(b);
@@ -264,7 +265,7 @@ static int iterations(int dim, int nx, int ny, int nz, int kind)
 
 /* ---- solutions --------------------------------------------------------------------------------------------------- */
 
-/* Computes x = K^-1 load by elimination of the dense matrix of free components. */
+/* Computes x = K^-1 load for b by elimination of the dense matrix of free components. */
 static void dense_reference(const struct body *b, const struct vectors *load, real *x)
 {
     const int dim = b->dim;
@@ -295,8 +296,8 @@ static void dense_reference(const struct body *b, const struct vectors *load, re
     memory_free(k);
 }
 
-/* Tolerance: stiffness in single precision, 6e-8 of the diagonal, over the least eigenvalue of these small bodies,
- * 1e-3. */
+/* Compares solutions with elimination. Tolerance: stiffness in single precision, 6e-8 of the diagonal, over the least
+ * eigenvalue of these small bodies, 1e-3. */
 static void solutions_are_those_of_elimination(void **state)
 {
     (void)state;
@@ -318,8 +319,9 @@ static void solutions_are_those_of_elimination(void **state)
     }
 }
 
-/* Limits are the observed numbers of iterations plus three: they are equal on all machines up to round-off; coarse
- * spaces without rotations, or aggregates across cracks, need twice as many. */
+/* Checks that numbers of iterations do not grow with the body. Limits are the observed numbers plus three: they are
+ * equal on all machines up to round-off; coarse spaces without rotations, or aggregates across cracks, need twice as
+ * many. */
 static void iterations_do_not_grow(void **state)
 {
     (void)state;
@@ -372,7 +374,7 @@ static void operator_is_symmetric_and_positive(void **state)
     }
 }
 
-/* A free body: its rigid motions have zero stiffness, or a little from round-off, and must not be treated as soft
+/* Tests a free body: its rigid motions have zero stiffness, or a little from round-off, and must not be treated as soft
  * modes. Balanced loads are solved as fast as for a fixed body. */
 static void free_body_stays_bounded(void **state)
 {
@@ -390,7 +392,7 @@ static void free_body_stays_bounded(void **state)
     body_free(&b);
 }
 
-/* Breaks the bonds across the middle of a plate from x0 to x1: entries become 0 in place. */
+/* Breaks the bonds of b across the middle of a plate from x0 to x1: entries become 0 in place. */
 static void bonds_break(struct body *b, real x0, real x1)
 {
     const real middle = b->size[1] / 2 - 0.5;
@@ -404,8 +406,8 @@ static void bonds_break(struct body *b, real x0, real x1)
         }
 }
 
-/* The preconditioner of a body remains effective while a crack runs through it, and one rebuilt ignores broken
- * bonds. */
+/* Checks that the preconditioner of a body remains effective while a crack runs through it, and one rebuilt ignores
+ * broken bonds. */
 static void broken_bonds_cost_few_iterations(void **state)
 {
     (void)state;

@@ -16,8 +16,8 @@
 
 /* ---- zero forces at rest ----------------------------------------------------------------------------------------- */
 
-/* Checks that forces of all models on undeformed bodies, regular and irregular, at any position, are zero. At positions
- * far from the origin every component of a bond has round-off. */
+/* Checks that forces of `model` on undeformed bodies, regular and irregular, at any position, are zero; dim dimensions,
+ * random positions of seed. At positions far from the origin every component of a bond has round-off. */
 static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
 {
     static const enum space space[DIM_MAX + 1] = {0, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -123,7 +123,7 @@ static void same_bits(const struct run *a, const struct run *b)
     assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q, NULL)}, sizeof energy);
 }
 
-/* Returns the inactive share of the body, or of the points on the grid. */
+/* Returns the inactive share of the body of e, or of its points on the grid. */
 static real sleeping(const struct run *e)
 {
     const struct transfer_order *active = e->grid->transfer.order;
@@ -132,9 +132,10 @@ static real sleeping(const struct run *e)
     return real_max(particles_at_rest_fraction(&e->bonds, &e->frame->mesh, &e->part), points);
 }
 
-/* Runs with and without the active set; results agree after every tenth step. At least `early` of the body is inactive
- * after a tenth of the steps (of points on the grid after the first check, since round-off travels some cells per step
- * there), and nothing at the end. Returns the number of converted particles. */
+/* Runs the scene of body, boundary, more and keys with and without the active set; results agree after every tenth
+ * step. At least `early` of the body is inactive after a tenth of the steps (of points on the grid after the first
+ * check, since round-off travels some cells per step there), and nothing at the end. Returns the number of converted
+ * particles. */
 static int64_t check_same(const char *body, const char *boundary, const char *more, const char *keys, real early)
 {
     struct scene s[2];
@@ -183,7 +184,7 @@ static void test_mesh(void **state)
     check_same(plate, pulled, mirror, "method: mpm\nmpm: {frame: reference, strain: small}", 0.1);
 }
 
-/* On the grid, where disturbances travel from cell to cell: FLIP and wide shapes carry them farthest. */
+/* Tests points on the grid, where disturbances travel from cell to cell: FLIP and wide shapes carry them farthest. */
 static void test_points(void **state)
 {
     (void)state;
@@ -195,7 +196,8 @@ static void test_points(void **state)
     check_same(plate, struck, late, "method: mpm\nmpm: {shape: linear}", 0.05);
 }
 
-/* The crack tips are peridynamic from the start; the pulse breaks bonds there and more particles convert. */
+/* Tests an adaptive run. The crack tips are peridynamic from the start; the pulse breaks bonds there and more particles
+ * convert. */
 static void test_adaptive(void **state)
 {
     (void)state;
@@ -208,7 +210,8 @@ static void test_adaptive(void **state)
 
 /* ---- activation -------------------------------------------------------------------------------------------------- */
 
-/* A load that starts late, far from the wave, moves the particles on which it acts as without an active set. */
+/* Checks that a load that starts late, far from the wave, moves the particles on which it acts as without an active
+ * set. */
 static void test_late(void **state)
 {
     (void)state;

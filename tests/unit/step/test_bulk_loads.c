@@ -32,7 +32,7 @@ struct finished_run {
     struct run e;
 };
 
-/* Runs a scene with the overrides `key=value`, terminated by NULL. */
+/* Runs the scene `text` with the overrides `key=value` of list, terminated by NULL, into a. */
 static status run_status(struct finished_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -57,7 +57,7 @@ static void run_end(struct finished_run *a)
     scene_free(&a->s);
 }
 
-/* Asserts that the largest errors of both balances are within this tolerance. */
+/* Asserts that the largest errors of both balances of a are within `tolerance`. */
 static void balanced(const struct finished_run *a, real tolerance)
 {
     const struct energy_balance *now = &a->e.diagnostics->now;
@@ -76,7 +76,7 @@ static const char *const frames[][2] = {{"method=pd", "mpm.frame=auto"},
                                         {"method=adaptive", "mpm.frame=auto"}};
 #define FRAMES (sizeof frames / sizeof *frames)
 
-/* Free fall: 1/2 m (g t)^2 and no strain; gravity does all the work. */
+/* Tests free fall: 1/2 m (g t)^2 and no strain; gravity does all the work. */
 static void gravity_makes_bodies_fall(void **state)
 {
     (void)state;
@@ -94,7 +94,7 @@ static void gravity_makes_bodies_fall(void **state)
     }
 }
 
-/* A free rigid body falls by g t^2/2 and reaches g t; the work of its weight is external work. */
+/* Checks that a free rigid body falls by g t^2/2 and reaches g t; the work of its weight is external work. */
 static void gravity_makes_rigid_bodies_fall(void **state)
 {
     (void)state;
@@ -121,8 +121,8 @@ static void gravity_makes_rigid_bodies_fall(void **state)
     run_end(&r);
 }
 
-/* A block hits a rigid plate under bulk damping: the impulse of the plate's force is over the velocity update of a
- * step, which damping shortens; the balance of momentum closes to round-off. */
+/* Tests a block that hits a rigid plate under bulk damping: the impulse of the plate's force is over the velocity
+ * update of a step, which damping shortens; the balance of momentum closes to round-off. */
 static void rigid_bodies_take_momentum(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static void rigid_bodies_take_momentum(void **state)
     run_end(&r);
 }
 
-/* A standing bar: the support carries its weight, u(L) = -rho g L^2/(2 E). */
+/* Tests a standing bar: the support carries its weight, u(L) = -rho g L^2/(2 E). */
 static void gravity_rests_on_a_support(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void gravity_rests_on_a_support(void **state)
     run_end(&a);
 }
 
-/* The energy of free vibrations decays as exp(-c t) for all modes; the loss is recorded. */
+/* Checks that the energy of free vibrations decays as exp(-c t) for all modes; the loss is recorded. */
 static void damping_is_that_of_an_oscillator(void **state)
 {
     (void)state;
@@ -169,8 +169,8 @@ static void damping_is_that_of_an_oscillator(void **state)
     }
 }
 
-/* A free body thrown under gravity: u = g/c (T - (1 - exp(-c T))/c) + v (1 - exp(-c T))/c, of second order in the step:
- * (c dt)^2/24 of the steady part, and the same of the decaying part. */
+/* Tests a free body thrown under gravity: u = g/c (T - (1 - exp(-c T))/c) + v (1 - exp(-c T))/c, of second order in the
+ * step: (c dt)^2/24 of the steady part, and the same of the decaying part. */
 static void damping_bears_a_steady_force(void **state)
 {
     (void)state;
@@ -208,8 +208,8 @@ static real spin_after(const char *method, const char *transfer, const char *dam
     return spin / inertia;
 }
 
-/* The angular momentum of a rotating body decays as exp(-c t), including the part that APIC stores in velocity
- * gradients: a tenth in a body of 25 points. */
+/* Checks that the angular momentum of a rotating body decays as exp(-c t), including the part that APIC stores in
+ * velocity gradients: a tenth in a body of 25 points. */
 static void damping_slows_turning_bodies(void **state)
 {
     (void)state;
@@ -221,7 +221,7 @@ static void damping_slows_turning_bodies(void **state)
     }
 }
 
-/* Far beyond critical damping bodies creep without gaining energy, also for steps longer than 1/c. */
+/* Checks that far beyond critical damping bodies creep without gaining energy, also for steps longer than 1/c. */
 static void any_damping_only_takes(void **state)
 {
     (void)state;
@@ -250,8 +250,8 @@ static void any_damping_only_takes(void **state)
     "body: [{ball: {centre: [0, 0, 0], radius: 22 mm}}, {subtract: {box: {from: [0, 0, 0], to: [1, 1, 1]}}}]\n"        \
     "particles: {spacing: 5 mm}\n"
 
-/* Returns the resultant and moment of the loads on the particles in their current positions, over sum |f| and sum |f|
- * |x|. */
+/* Returns how far the loads on the particles of a in their current positions are from balance: the largest component of
+ * their resultant over sum |f|, or of their moment over sum |f| times the largest |x|. */
 static real loads_left(struct finished_run *a)
 {
     struct particles *p = &a->e.part;
@@ -270,7 +270,7 @@ static real loads_left(struct finished_run *a)
     return left;
 }
 
-/* Pressure on the whole surface of a body of any form has neither resultant nor moment. */
+/* Checks that pressure on the whole surface of a body of any form has neither resultant nor moment. */
 static void pressure_all_round_is_balanced(void **state)
 {
     (void)state;
@@ -285,7 +285,7 @@ static void pressure_all_round_is_balanced(void **state)
         }
 }
 
-/* A square in plane strain under pressure p on all sides contracts by p (1 + nu)(1 - 2 nu)/E. */
+/* Checks that a square in plane strain under pressure p on all sides contracts by p (1 + nu)(1 - 2 nu)/E. */
 static void pressure_shrinks_a_body(void **state)
 {
     (void)state;
@@ -304,8 +304,8 @@ static void pressure_shrinks_a_body(void **state)
     run_end(&a);
 }
 
-/* Pressure acts only on outer faces, not on planes of symmetry, whether it follows the faces or not: the resultant on a
- * quarter of a plate and on an eighth of a brick is p times the outer areas. */
+/* Checks that pressure acts only on outer faces, not on planes of symmetry, whether it follows the faces or not: the
+ * resultant on a quarter of a plate and on an eighth of a brick is p times the outer areas. */
 static void pressure_spares_mirrored_faces(void **state)
 {
     (void)state;
@@ -330,8 +330,8 @@ static void pressure_spares_mirrored_faces(void **state)
     }
 }
 
-/* A block that rotates by four radians under following pressure: the load stays normal to its faces, sum x . f = -2 V,
- * and the balance closes. */
+/* Tests a block that rotates by four radians under following pressure: the load stays normal to its faces, sum x . f =
+ * -2 V, and the balance closes. */
 static void pressure_follows_a_turning_body(void **state)
 {
     (void)state;
@@ -355,7 +355,7 @@ static void pressure_follows_a_turning_body(void **state)
     run_end(&a);
 }
 
-/* A quarter of a tube between two mirrors behaves as part of the whole tube. */
+/* Checks that a quarter of a tube between two mirrors behaves as part of the whole tube. */
 static void pressure_follows_beside_mirrors(void **state)
 {
     (void)state;
@@ -391,7 +391,7 @@ static void pressure_follows_beside_mirrors(void **state)
 
 /* ---- rotation and formulas --------------------------------------------------------------------------------------- */
 
-/* Driven particles stay on their circle in every frame; the work becomes energy of rotation. */
+/* Checks that driven particles stay on their circle in every frame; the work becomes energy of rotation. */
 static void rotation_drives_on_circles(void **state)
 {
     (void)state;
@@ -410,8 +410,8 @@ static void rotation_drives_on_circles(void **state)
     }
 }
 
-/* Equal loads as a function of time and as a formula, and a velocity as a formula of position and as a gradient,
- * give equal results. */
+/* Checks that equal loads as a function of time and as a formula, and a velocity as a formula of position and as a
+ * gradient, give equal results. */
 static void formulas_are_what_they_say(void **state)
 {
     (void)state;
@@ -442,8 +442,8 @@ static void formulas_are_what_they_say(void **state)
     }
 }
 
-/* A free bar with initial velocity V cos(pi x/L): after a quarter of the period 2 L/c it is at rest with displacement V
- * L/(pi c) cos(pi x/L). The scene as run contains the formula. */
+/* Tests a free bar with initial velocity V cos(pi x/L): after a quarter of the period 2 L/c it is at rest with
+ * displacement V L/(pi c) cos(pi x/L). The scene as run contains the formula. */
 static void initial_velocities_are_formulas(void **state)
 {
     (void)state;

@@ -36,7 +36,7 @@ struct scene_run {
     struct run e;
 };
 
-/* Creates a run of a scene with the overrides `key=value`, terminated by NULL. */
+/* Creates the run a of the scene `text` with the overrides `key=value` of list, terminated by NULL. */
 static status run_make(struct scene_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -77,8 +77,8 @@ static const char *const ways[][3] = {{"method=pd", "mpm.frame=auto", "mpm.trans
                                       {"method=adaptive", "mpm.frame=current", "mpm.transfer=flip"}};
 enum { WAYS = sizeof ways / sizeof *ways };
 
-/* Returns the largest distance of the particles beyond `from` along x from reference position plus u along x, over the
- * last bit of the farthest position [1]. */
+/* Returns the largest distance of the particles of a beyond `from` along x from reference position plus u along x, over
+ * the last bit of the farthest position [1]. */
 static real off_place(const struct scene_run *a, real from, real u)
 {
     const struct particles *p = &a->e.part;
@@ -90,9 +90,9 @@ static real off_place(const struct scene_run *a, real from, real u)
     return most / (far * DBL_EPSILON);
 }
 
-/* Checks at every step that driven particles are at their positions to the last bit or two: the time in the middle of a
- * step plus half of it is rounded. In the mesh nodes are exact, and points between them are sums of four to eight
- * terms. */
+/* Checks at every step of `duration` that driven particles of `scene` beyond `from` are at their positions to the last
+ * bit or two: the time in the middle of a step plus half of it is rounded. In the mesh nodes are exact, and points
+ * between them are sums of four to eight terms. */
 static void check_places(const char *scene, real from, real size, real duration)
 {
     char boundary[300];
@@ -140,7 +140,7 @@ static void displaced_is_in_place(void **state)
     check_places(BLOCK, 6e-3, 2e-6, 5e-6);
 }
 
-/* A formula of position and time, for all components: particles and nodes are at its values at the end. */
+/* Tests a formula of position and time, for all components: particles and nodes are at its values at the end. */
 static void formulas_are_in_place(void **state)
 {
     (void)state;
@@ -161,9 +161,9 @@ static void formulas_are_in_place(void **state)
     }
 }
 
-/* A bar displaced by u (1 - cos omega t)/2: the final reaction is E A u/L (1 + k L cot(k L))/2, k = omega/c, and the
- * work is stored in the body. Nodes are fixed to the ends of the regions, between which L = 0.76 m; bonds are as stiff
- * as in equilibrium. Initial free waves are 2 % of it. */
+/* Tests a bar displaced by u (1 - cos omega t)/2: the final reaction is E A u/L (1 + k L cot(k L))/2, k = omega/c, and
+ * the work is stored in the body. Nodes are fixed to the ends of the regions, between which L = 0.76 m; bonds are as
+ * stiff as in equilibrium. Initial free waves are 2 % of it. */
 static void reaction_is_hookes(void **state)
 {
     (void)state;
@@ -194,9 +194,10 @@ static void reaction_is_hookes(void **state)
 
 /* ---- statics ----------------------------------------------------------------------------------------------------- */
 
-/* Uniform strain: the ends, or a frame, are driven by formulas over the depth of a horizon; the free part follows, the
- * stress is that of Hooke's law, and half the support forces times displacements is the strain energy. Strains of 1e-6
- * are linear to 1e-5. Relaxation moves supports in steps with round-off. */
+/* Checks uniform strain: the ends of `scene`, or a frame, are driven by formulas (drive) over the depth of a horizon;
+ * the free part follows, the stress is that of Hooke's law, and half the support forces times displacements is the
+ * strain energy. solver, model: of the scene. Strains of 1e-6 are linear to 1e-5. Relaxation moves supports in steps
+ * with round-off. */
 static void check_patch(const char *scene, const char *solver, const char *model, const char *drive, const real *strain,
                         const real *stress)
 {
@@ -252,7 +253,8 @@ static void uniform_strain_is_uniform_stress(void **state)
 
 /* ---- layers behind faces ----------------------------------------------------------------------------------------- */
 
-/* Returns the number of driven particles. */
+/* Returns the number of particles on which the first load of `scene` acts, with these keys of method, body and
+ * boundary. */
 static int64_t layer_of(const char *scene, const char *method, const char *body, const char *boundary)
 {
     struct scene_run a;
@@ -262,8 +264,8 @@ static int64_t layer_of(const char *scene, const char *method, const char *body,
     return n;
 }
 
-/* A layer has its specified depth from the outside to the first gap, inside the region only; on a curved face whole
- * columns. */
+/* Checks that a layer has its specified depth from the outside to the first gap, inside the region only; on a curved
+ * face whole columns. */
 static void faces_have_layers(void **state)
 {
     (void)state;
@@ -290,7 +292,7 @@ static void faces_have_layers(void **state)
                      2 * 80);
 }
 
-/* Ends fixed by their faces: nodes are at the faces, and the whole bar is free. */
+/* Tests ends fixed by their faces: nodes are at the faces, and the whole bar is free. */
 static void faces_hold_nodes(void **state)
 {
     (void)state;
@@ -319,8 +321,8 @@ static status refusal(const char *scene, ...)
 
 #define GRIP(text) "boundary=[{name: grip, " text "}]"
 
-/* Refused: jumps and speeds above wave speeds, which a run could not follow; positions that are not numbers; keys
- * without effect. */
+/* Checks what is refused: jumps and speeds above wave speeds, which a run could not follow; positions that are not
+ * numbers; keys without effect. */
 static void jumps_are_refused(void **state)
 {
     (void)state;

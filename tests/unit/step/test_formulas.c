@@ -22,7 +22,7 @@ struct scene_run {
     struct run e;
 };
 
-/* Runs a scene with the overrides `key=value`, terminated by NULL. */
+/* Runs the scene `text` with the overrides `key=value`, terminated by NULL, into a. */
 static status run_of(struct scene_run *a, const char *text, ...)
 {
     va_list list;
@@ -42,8 +42,8 @@ static void run_end(struct scene_run *a)
     scene_free(&a->s);
 }
 
-/* A formula that has no value from some time on, early or only in the last step, of every kind of load and with every
- * solver with steps: one line, with the load's name and the time. With values up to the end the run completes. */
+/* Tests a formula that has no value from some time on, early or only in the last step, of every kind of load and with
+ * every solver with steps: one line, with the load's name and the time. With values up to the end the run completes. */
 static void formulas_without_value_stop_the_run(void **state)
 {
     (void)state;

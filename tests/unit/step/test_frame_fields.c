@@ -14,7 +14,7 @@
 
 /* ---- a run and its frames ---------------------------------------------------------------------------------------- */
 
-/* Runs a scene; begins: only up to the frame at t = 0. */
+/* Runs the scene `text`; begins: only up to the frame at t = 0. */
 static void run_text(const char *text, bool begins)
 {
     struct scene s;
@@ -66,7 +66,8 @@ static void shown_close(struct shown *a)
     free(a->X);
 }
 
-/* Returns true if a particle is farther than `reach` from all faces of the block of edge 1 around the origin. */
+/* Returns true if particle i of a is farther than `reach` from all faces of the block of edge 1 around the origin, in
+ * dim dimensions. */
 static bool shown_inside(const struct shown *a, int64_t i, int dim, double reach)
 {
     for (int d = 0; d < dim; d++)
@@ -74,7 +75,8 @@ static bool shown_inside(const struct shown *a, int64_t i, int dim, double reach
     return true;
 }
 
-/* Asserts that the field is `wanted` [columns] within `tolerance` for every particle away from faces. */
+/* Asserts that the field `name` of a is wanted[columns] within `tolerance` for every particle farther than `reach` from
+ * faces. */
 static void field_is(struct shown *a, int dim, double reach, const char *name, int columns, const double *wanted,
                      double tolerance)
 {
@@ -121,7 +123,7 @@ static const struct block block[] = {
     {"solid", 3, 0.3, 0.1, "method: mpm\nmpm: {frame: reference}"},
 };
 
-/* Runs a block of edge 1 around the origin with the displacement gradient H and all fields; more: further keys. */
+/* Runs the block b of edge 1 around the origin with the displacement gradient H and all fields; more: further keys. */
 static void run_block(const struct block *b, const double H[3][3], const char *more)
 {
     char text[2000], gradient[400] = "";
@@ -145,7 +147,7 @@ static void run_block(const struct block *b, const double H[3][3], const char *m
     run_text(text, true);
 }
 
-/* Computes the Green-Lagrange strain of H in VTK's order, including the out-of-plane strain. */
+/* Computes E[6], the Green-Lagrange strain of H in VTK's order, including the out-of-plane strain of b. */
 static void strain_of(const struct block *b, const double H[3][3], double *E)
 {
     static const int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -156,7 +158,7 @@ static void strain_of(const struct block *b, const double H[3][3], double *E)
     if (strcmp(b->space, "plane stress") == 0) E[2] = -b->poisson / (1 - b->poisson) * (E[0] + E[1]);
 }
 
-/* Computes the stress by Hooke's law in 3D from the strain including the out-of-plane component. */
+/* Computes the stress S[6] of b by Hooke's law in 3D from the strain E including the out-of-plane component. */
 static void hooke_stress(const struct block *b, const double *E, double *S)
 {
     const double nu = b->poisson, lambda = YOUNG * nu / ((1 + nu) * (1 - 2 * nu)), G = YOUNG / (2 * (1 + nu));
@@ -164,8 +166,8 @@ static void hooke_stress(const struct block *b, const double *E, double *S)
     if (b->dim == 1) S[0] = YOUNG * E[0], S[1] = S[2] = 0;
 }
 
-/* All fields of a block under uniform strain. The stress of material points is exact to the size of strains; that of
- * bonds on this lattice deviates by 1.1 % in C11 in 2D and 5 % in 3D with uncut volumes. */
+/* Tests all fields of a block under uniform strain. The stress of material points is exact to the size of strains; that
+ * of bonds on this lattice deviates by 1.1 % in C11 in 2D and 5 % in 3D with uncut volumes. */
 static void uniform_strain(void **state)
 {
     (void)state;
@@ -195,7 +197,7 @@ static void uniform_strain(void **state)
     }
 }
 
-/* Two materials under uniform strain: each contracts across by its own Poisson's ratio, or has the corresponding
+/* Tests two materials under uniform strain: each contracts across by its own Poisson's ratio, or has the corresponding
  * stress. */
 static void strain_of_parts(void **state)
 {
@@ -235,7 +237,7 @@ static void strain_of_parts(void **state)
     }
 }
 
-/* A rotation by 0.3 rad causes no strain, no stress and no change of density. */
+/* Checks that a rotation by 0.3 rad causes no strain, no stress and no change of density. */
 static void rigid_turn(void **state)
 {
     (void)state;
@@ -254,7 +256,7 @@ static void rigid_turn(void **state)
     }
 }
 
-/* Fields derived from stress and velocity agree with those in the same frame. */
+/* Checks that fields derived from stress and velocity agree with those in the same frame. */
 static void fields_follow(void **state)
 {
     (void)state;
@@ -286,8 +288,8 @@ static void fields_follow(void **state)
 
 /* ---- yielding ---------------------------------------------------------------------------------------------------- */
 
-/* A bar under uniform extension: plastic work W = (sigma^2 - sigma_y^2)/(2 H) = int sigma d eps_p, from its stress and
- * from its strain. */
+/* Tests a bar under uniform extension: plastic work W = (sigma^2 - sigma_y^2)/(2 H) = int sigma d eps_p, from its
+ * stress and from its strain. */
 static void yielding_bar(void **state)
 {
     (void)state;
@@ -322,7 +324,8 @@ static void yielding_bar(void **state)
     }
 }
 
-/* A sheet under equibiaxial extension: plastic strain a/2 along each axis, -a across; eps_zz = -2 nu sigma/E - a. */
+/* Tests a sheet under equibiaxial extension: plastic strain a/2 along each axis, -a across; eps_zz = -2 nu sigma/E -
+ * a. */
 static void yielding_sheet(void **state)
 {
     (void)state;

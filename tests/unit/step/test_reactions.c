@@ -39,7 +39,7 @@ static void test_reactions(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Particles in a clamped plane do not move; the others agree with the static solver. */
+/* Checks that particles in a clamped plane do not move; the others agree with the static solver. */
 static void test_clamped_plane(void **state)
 {
     (void)state;
@@ -56,8 +56,8 @@ static void test_clamped_plane(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* A plate on a foot: the reaction is the traction times its face; the work of linearly increasing loads is half of
- * their last values times the displacement of the face. */
+/* Tests a plate on a foot: the reaction is the traction times its face; the work of linearly increasing loads is half
+ * of their last values times the displacement of the face. */
 static void test_foot(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void test_foot(void **state)
     solution_free(&a);
 }
 
-/* Nodes beyond a plane of symmetry: the impulse of the plane and of a load on a half is its momentum. */
+/* Tests nodes beyond a plane of symmetry: the impulse of the plane and of a load on a half is its momentum. */
 static void test_mirrored_nodes(void **state)
 {
     (void)state;
@@ -109,7 +109,8 @@ static void test_mirrored_nodes(void **state)
     "material: {young: 1 MPa, poisson: 1/4, density: 1180}\nbody: {box: {from: [0, 0], to: [30 mm, 50 mm]}}\n"         \
     "particles: {spacing: 5 mm}\n"
 
-/* A block driven with velocity V t/T has moved by V T/2 at T, in every frame; the impulse of its support is m V. */
+/* Checks that a block driven with velocity V t/T has moved by V T/2 at T, in every frame; the impulse of its support is
+ * m V. */
 static void test_ramp(void **state)
 {
     (void)state;
@@ -133,7 +134,7 @@ static void test_ramp(void **state)
     }
 }
 
-/* A block whose lower part is driven by a ramp agrees with one driven by the equivalent formula. */
+/* Checks that a block whose lower part is driven by a ramp agrees with one driven by the equivalent formula. */
 static void test_ramp_below(void **state)
 {
     (void)state;
@@ -155,9 +156,9 @@ static void test_ramp_below(void **state)
     }
 }
 
-/* A plate sheared on its right side and fixed in its middle agrees in its right half with one whose left side is
- * sheared in the opposite direction: y displacements are odd in x; no others occur, away from the upper and lower
- * edges. The middle is on nodes, or midway between two. With groups of rotating points (flip, data/turning.h) x
+/* Checks that a plate sheared on its right side and fixed in its middle agrees in its right half with one whose left
+ * side is sheared in the opposite direction: y displacements are odd in x; no others occur, away from the upper and
+ * lower edges. The middle is on nodes, or midway between two. With groups of rotating points (flip, data/turning.h) x
  * velocities about their centres differ: 1e-3. */
 static void test_shear_beside_clamps(void **state)
 {
@@ -197,7 +198,7 @@ static void test_shear_beside_clamps(void **state)
     }
 }
 
-/* A region that fixes a body does not fix another body that enters it. */
+/* Checks that a region that fixes a body does not fix another body that enters it. */
 static void test_others_pass(void **state)
 {
     (void)state;

@@ -89,8 +89,8 @@ static enum growth_rate pace_of_oscillator(real dt, real damping)
     return RISE_UNSURE;
 }
 
-/* A step beyond the limit by a relative 2e-5 is detected as such; a gain of 1e-3 of the amplitude per step within the
- * limit is not. */
+/* Checks that a step beyond the limit by a relative 2e-5 is detected as such; a gain of 1e-3 of the amplitude per step
+ * within the limit is not. */
 static void steps_beyond_the_limit_are_fast(void **state)
 {
     (void)state;
@@ -109,8 +109,8 @@ static const char plate[] =
     "body: {box: {from: [0, 0], to: [20 mm, 20 mm]}}\nparticles: {spacing: 1 mm}\n"
     "pd: {region: {box: {from: [5 mm, 5 mm], to: [15 mm, 15 mm]}}}\noutput: {frames: 0, samples: 100}\n";
 
-/* Returns the remedy for a value that has grown tenfold in `tenfold` steps until step 20000, in a plate without
- * loads. */
+/* Writes into `remedy` the advice for key=value where the velocity has grown tenfold in `tenfold` steps until step
+ * 20000, in a plate without loads. */
 static void remedy_of(const char *key, const char *value, real tenfold, char *remedy)
 {
     struct run e;
@@ -152,7 +152,7 @@ static void slow_growth_is_no_matter_of_the_step(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs the plate with overrides up to NULL; the run must stop. Returns the message. */
+/* Runs the plate by `method` with the overrides `set` up to NULL; the run must stop. Returns the message. */
 static const char *stopped(const char *const *method, const char *const *set)
 {
     struct run e;
@@ -201,7 +201,7 @@ static void loads_beyond_reason_are_named(void **state)
         "the scene starts with 1e+05 m/s", "choose a smaller");
 }
 
-/* Loads that a body can carry are not reported as the cause if the step is too long. */
+/* Checks that loads that a body can carry are not reported as the cause if the step is too long. */
 static void steps_too_long_are_named(void **state)
 {
     (void)state;
@@ -210,7 +210,7 @@ static void steps_too_long_are_named(void **state)
                "; choose a smaller time.safety (now dt = ", "no time step");
 }
 
-/* A body that becomes unstable, sampled only at its end, is reported as unstable. */
+/* Checks that a body that becomes unstable, sampled only at its end, is reported as unstable. */
 static void the_last_sample_is_looked_at(void **state)
 {
     (void)state;
@@ -249,8 +249,8 @@ static void ring_make(struct loaded_ring *r)
     }
 }
 
-/* Sets the present positions: stretched along x by the factor `stretch`, rotated by `degrees` about the axis `axis`
- * through the origin, shifted. */
+/* Sets the present positions of r: stretched along x by the factor `stretch`, rotated by `degrees` about the axis
+ * `axis` through the origin, shifted. */
 static void ring_move(struct loaded_ring *r, int axis, real degrees, real stretch)
 {
     const real angle = degrees * 3.14159265358979323846 / 180, c = cos(angle), s = sin(angle);
@@ -262,8 +262,8 @@ static void ring_move(struct loaded_ring *r, int axis, real degrees, real stretc
     }
 }
 
-/* A surface that has turned by more than 10 degrees about any axis is named once, if its pressure does not follow; a
- * stretch by 2 is no rotation. */
+/* Checks that a surface that has turned by more than 10 degrees about any axis is named once, if its pressure does not
+ * follow; a stretch by 2 is no rotation. */
 static void pressures_on_turned_surfaces(void **state)
 {
     (void)state;

@@ -19,7 +19,7 @@ static void put(const char *path, const char *text)
     assert_int_equal(fclose(to), 0);
 }
 
-/* Returns the clock of a scene before its first step. */
+/* Returns the clock of the scene s before its first step. */
 static struct run_clock clock_made(struct scene *s)
 {
     static struct run e;
@@ -49,7 +49,8 @@ static struct run_clock clock_of_file(const char *path)
     "space: plane stress\nthickness: 0.37 mm\nmaterial: {young: 3 GPa, poisson: 1/3, density: 1180}\n"                 \
     "body: {box: {from: [0, 0], to: [64 mm, 64 mm]}}\nparticles: {spacing: 1 mm}\n"
 
-/* Cells of level 3 move every eighth step: runs have a multiple of eight steps, and end at their duration. */
+/* Checks that cells of level 3 move every eighth step: runs have a multiple of eight steps, and end at their
+ * duration. */
 static void levels_divide_the_steps(void **state)
 {
     (void)state;
@@ -64,7 +65,7 @@ static void levels_divide_the_steps(void **state)
     }
 }
 
-/* A quarter of the mass at equal stiffness doubles the frequency. */
+/* Checks that a quarter of the mass at equal stiffness doubles the frequency. */
 static void light_particles_take_short_steps(void **state)
 {
     (void)state;
@@ -86,7 +87,7 @@ static void light_particles_take_short_steps(void **state)
     assert_close(critical[1], 0.5 * critical[0], 1e-9);
 }
 
-/* Masses of a list are compared with those of their own material: none is light here. */
+/* Checks that masses of a list are compared with those of their own material: none is light here. */
 static void masses_are_of_their_material(void **state)
 {
     (void)state;
@@ -112,8 +113,8 @@ static void masses_are_of_their_material(void **state)
     assert_close(critical[1], critical[0], 1e-12);
 }
 
-/* The order of materials does not matter for bonds that do not exist yet: stiff and heavy, soft and light, where
- * neither stiffness nor density alone decides. */
+/* Checks that the order of materials does not matter for bonds that do not exist yet: stiff and heavy, soft and light,
+ * where neither stiffness nor density alone decides. */
 static void lattices_of_all_materials(void **state)
 {
     (void)state;
@@ -136,7 +137,7 @@ static void lattices_of_all_materials(void **state)
     }
 }
 
-/* The step is a fraction of the critical one, and at most half the time constant of damping. */
+/* Checks that the step is a fraction of the critical one, and at most half the time constant of damping. */
 static void safety_and_damping(void **state)
 {
     (void)state;
@@ -146,8 +147,8 @@ static void safety_and_damping(void **state)
     assert_true(damped.dt <= (1 + 1e-9) * 0.5 / 7e6 && damped.dt > 0.49 / 7e6);
 }
 
-/* The least compressible of all materials shortens the step by the root of 1 + c12/c11 over 5/3, c12/c11 = nu/(1 - nu)
- * in plane strain; the first material has the fastest waves. */
+/* Checks that the least compressible of all materials shortens the step by the root of 1 + c12/c11 over 5/3, c12/c11 =
+ * nu/(1 - nu) in plane strain; the first material has the fastest waves. */
 static void incompressible_parts_take_short_steps(void **state)
 {
     (void)state;
@@ -172,7 +173,7 @@ static void incompressible_parts_take_short_steps(void **state)
     }
 }
 
-/* Frames are at the steps nearest to their times: 0.7, 2.3 and 8.6 steps of 20 ns. */
+/* Checks that frames are at the steps nearest to their times: 0.7, 2.3 and 8.6 steps of 20 ns. */
 static void frames_are_nearest(void **state)
 {
     (void)state;

@@ -16,7 +16,8 @@
 
 enum { LEVELS = 3, RUNS = 5 };
 
-/* Evaluates f0 + a h^p at spacings 1, sqrt 2, 2, with a deviation of each run by a part of `noise`. */
+/* Evaluates c for f0 + a h^p at spacings 1, sqrt 2, 2, `runs` runs each, with a deviation of each run by a part of
+ * `noise`. */
 static bool converge_at(struct convergence *c, double f0, double a, double p, double noise, int runs)
 {
     static const double part[RUNS] = {0, -1, 1, -0.5, 0.5};
@@ -31,7 +32,8 @@ static bool converge_at(struct convergence *c, double f0, double a, double p, do
     return convergence_evaluate_scalar_result(c, spacing, value, level, n, LEVELS, NULL);
 }
 
-/* Order and limit of a power law are found to round-off; the interval of the finest value contains the limit. */
+/* Checks that order and limit of a power law are found to round-off; the interval of the finest value contains the
+ * limit. */
 static void power_laws_are_found(void **state)
 {
     (void)state;
@@ -68,7 +70,7 @@ static void bounds_where_no_order_is_seen(void **state)
     assert_false(convergence_evaluate_scalar_result(&c, spacing, lost, level, 3, 3, NULL));
 }
 
-/* Means with random errors: their observed orders, 2.9 and -1.0, are not accepted as true. */
+/* Tests means with random errors: their observed orders, 2.9 and -1.0, are not accepted as true. */
 static void chance_moves_the_order(void **state)
 {
     (void)state;
@@ -91,7 +93,8 @@ static void chance_moves_the_order(void **state)
     }
 }
 
-/* Returns the interval by rectangular quadrature over value, slope, order and misfit, directly from the definition. */
+/* Returns the interval of spacing[], mean[], error[] by rectangular quadrature over value, slope, order and misfit,
+ * directly from the definition. */
 static double half_width_plainly(const double *spacing, const double *mean, const double *error, double scale)
 {
     static const double order[] = {0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, weight[] = {0.5, 1, 1, 1, 1, 1, 0.5};
@@ -138,8 +141,8 @@ static void intervals_as_defined(void **state)
     }
 }
 
-/* Random values that follow the model of the intervals (Park & Miller's generator): 95 of 100 intervals contain the
- * true value. */
+/* Tests random values that follow the model of the intervals (Park & Miller's generator): 95 of 100 intervals contain
+ * the true value. */
 static void intervals_hold_what_they_name(void **state)
 {
     (void)state;
@@ -165,7 +168,7 @@ static void intervals_hold_what_they_name(void **state)
                                                                * of 100 */
 }
 
-/* Scatter only: the error of a mean is Student's; a trend below it does not determine an order. */
+/* Tests scatter only: the error of a mean is Student's; a trend below it does not determine an order. */
 static void scatter_hides_small_trends(void **state)
 {
     (void)state;
@@ -181,7 +184,7 @@ static void scatter_hides_small_trends(void **state)
     assert_near(c.order, 1, 1e-9);
 }
 
-/* A length quantised in spacings has an error of at least half a spacing, even if runs agree. */
+/* Checks that a length quantised in spacings has an error of at least half a spacing, even if runs agree. */
 static void steps_of_a_figure_are_errors(void **state)
 {
     (void)state;
@@ -196,7 +199,7 @@ static void steps_of_a_figure_are_errors(void **state)
     assert_true(c.uncertainty[0] > 1 && c.uncertainty[2] > 1);
 }
 
-/* A bias is included as an independent normal error: 1.96 to 0.6745 standard deviations. */
+/* Checks that a bias is included as an independent normal error: 1.96 to 0.6745 standard deviations. */
 static void bias_widens_intervals(void **state)
 {
     (void)state;
@@ -220,8 +223,8 @@ static void student_as_published(void **state)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* A plate of 100 x 40 with a crack at mid-height, spacing 0.5: other spacings must divide both sides, with particles on
- * both sides of the crack. */
+/* Tests a plate of 100 x 40 with a crack at mid-height, spacing 0.5: other spacings must divide both sides, with
+ * particles on both sides of the crack. */
 static void spacings_fit_faces_and_cracks(void **state)
 {
     (void)state;
@@ -251,7 +254,7 @@ static void spacings_fit_faces_and_cracks(void **state)
     }
 }
 
-/* Without positions that a lattice must fit, levels have the ratio sqrt(2). */
+/* Checks that, without positions that a lattice must fit, levels have the ratio sqrt(2). */
 static void levels_are_apart(void **state)
 {
     (void)state;
@@ -265,8 +268,8 @@ static void levels_are_apart(void **state)
 
 /* ---- existing study ---------------------------------------------------------------------------------------------- */
 
-/* The interval of a figure is that of the level whose spacing is the scene's within 5 %; there is none for other
- * spacings, or from a study of another scene. */
+/* Checks that the interval of a figure is that of the level whose spacing is the scene's within 5 %; there is none for
+ * other spacings, or from a study of another scene. */
 static void intervals_at_hand(void **state)
 {
     (void)state;

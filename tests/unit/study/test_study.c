@@ -91,7 +91,7 @@ static void runs_have_names_of_their_own(void **state)
     assert_refused(study_make(&s, "a.yaml", "", "sweep"), "give the name of a folder");
 }
 
-/* Names of the same runs, with the keys in both orders; long ones are hashes. */
+/* Compares names of the same runs, with the keys in both orders; long ones are hashes. */
 static void names_do_not_depend_on_the_order_of_keys(void **state)
 {
     (void)state;
@@ -142,7 +142,7 @@ static void values_are_short_in_pictures(void **state)
     assert_near(axis_tick_distance(8, 4), 2, 1e-12);
 }
 
-/* Units are taken from the header of a history, if it has the figure. */
+/* Checks that units are taken from the header of a history, if it has the figure. */
 static void figures_have_units(void **state)
 {
     (void)state;
@@ -177,8 +177,9 @@ static void figures_have_units(void **state)
     }
 }
 
-/* Figures that no run of a scene can have are refused with what the scene lacks. lacks: part of the message; NULL: the
- * scene can have the figure. A body without cracks, whose bonds have no limit; one that breaks in load steps. */
+/* Checks that figures that no run of a scene can have are refused with what the scene lacks. lacks: part of the
+ * message; NULL: the scene can have the figure. A body without cracks, whose bonds have no limit; one that breaks in
+ * load steps. */
 static void figures_fit_their_scene(void **state)
 {
     (void)state;
@@ -242,7 +243,7 @@ static void figures_fit_their_scene(void **state)
         }
 }
 
-/* 100000 names take 0.1 s; comparing each with all others would take 24 s. */
+/* Checks that 100000 names take 0.1 s; comparing each with all others would take 24 s. */
 static void many_names_are_found_in_time(void **state)
 {
     (void)state;
@@ -262,7 +263,7 @@ static void many_names_are_found_in_time(void **state)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* A stopped run has a summary of its part: these are not figures of the scene. */
+/* Checks that a stopped run has a summary of its part: these are not figures of the scene. */
 static void stopped_runs_have_no_figures(void **state)
 {
     (void)state;
