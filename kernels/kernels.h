@@ -352,8 +352,8 @@ KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velo
 KERNEL(void, grid_constrain,
        (struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work));
 
-/* Moves the nodes of g: calls grid_advance and then grid_constrain, which describe the arguments. For a body that has
- * no contact with bodies on other grids. */
+/* Moves the nodes of g: calls grid_advance and then grid_constrain, which describe transfer, dt_velocity,
+ * smallest_mass, impulse and work. For a body that has no contact with bodies on other grids. */
 static inline void grid_move_nodes(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass,
                                    real impulse[DIM_MAX], real *work)
 {

@@ -172,7 +172,7 @@ struct loads {
  * across a clamped plane nearby act on it after the bond sweep. TOUCHES: contact may act on it. */
 enum { LOADED = 1, MOVES_LATER = 2, TOUCHES = 4 };
 
-/* Returns true if applied loads or contact may act on particle i. */
+/* Returns true if loads or contact of l may act on particle i. */
 static inline bool particle_is_loaded(const struct loads *l, int64_t i)
 {
     return l->loaded && l->loaded[i] & (LOADED | TOUCHES);
@@ -257,7 +257,7 @@ void pressure_visit_faces(const struct boundary *boundary, int boundaries, int n
  * on time. Returns REFUSED, with a message, if a formula has no finite value at a particle. */
 status load_prepare_varying_particle_shares(struct load *l, const struct particles *p);
 
-/* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
+/* Checks that the formulas of all loads and supports in l have finite values at their particles at time t [s]. Returns
  * FAILED, with a message that contains boundary, position and time, if a value is not finite. */
 status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t);
 
@@ -290,28 +290,29 @@ void load_sum_force_and_mean_displacement(struct load *l, const struct particles
  * the spatial profile of a body force. Not defined for prescribed rotations. */
 void load_value_at_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *value);
 
-/* Creates the loads of boundary[boundaries]: finds the particles of each, sets FLAG_DRIVEN on particles with prescribed
- * motion, and appends mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Must be called
- * before the bonds are made. boundary: kept by reference; spacing: lattice spacing [m]; optional_arrays: optional
- * arrays of p, sum of WITH_*. Returns REFUSED, with a message, if a boundary has no particles or no free face, or a
- * mirror is misplaced. Release with loads_free. */
+/* Creates the loads l of boundary[boundaries]: finds the particles of each, sets FLAG_DRIVEN on particles with
+ * prescribed motion, and appends mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Must
+ * be called before the bonds are made. boundary: kept by reference; spacing: lattice spacing [m]; optional_arrays:
+ * optional arrays of p, sum of WITH_*. Returns REFUSED, with a message, if a boundary has no particles or no free face,
+ * or a mirror is misplaced. Release with loads_free. */
 status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
                   real mirror_reach, int optional_arrays);
 
 /* Frees all arrays of *l and of its loads; the boundaries, which belong to the scene, remain. */
 void loads_free(struct loads *l);
 
-/* Replaces the list in l of the particles on which contact may act by list[n] (indices, ascending), which is copied.
- * The forces of these particles are cleared before each step, and they are moved after all forces are complete, not
- * already while bond forces are computed. */
+/* Sets in l the list of particles on which contact forces may act, in place of the previous one: n indices in ascending
+ * order, which are copied. The forces of these particles are cleared before each step, and they are moved after all
+ * forces are complete, not already while bond forces are computed. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads with equal particle lists, to traverse each list once. Ends loads_make. dim: of the space. */
+/* Combines loads of l with equal particle lists, to traverse each list once. Ends loads_make. dim: of the space. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
-/* Releases the arrays load.share (area, volume or mass of each particle) of all loads, shared arrays once. */
+/* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads in l, also arrays that
+ * several loads have in common. */
 void loads_shares_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
@@ -323,29 +324,29 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
-/* Checks the absorbing boundaries, whose dashpots act on particles of p. Returns REFUSED, with a message, if two of
- * them act on the same part of a face, or if one lies in a mirror plane. */
+/* Checks the absorbing boundaries of l, whose dashpots act on particles of p. Returns REFUSED, with a message, if two
+ * of them act on the same part of a face, or if one lies in a mirror plane. */
 status absorbing_boundaries_check(const struct loads *l, const struct particles *p);
 
-/* Creates the dashpots on the particles of all absorbing faces. Must be called after loads_make.
+/* Creates the dashpots on the particles of all absorbing faces in l. Must be called after loads_make.
  * impedance[m][material]: wave impedances of the materials for particles that are moved by m (enum moved_by: bonds,
  * grid or mesh), kept by reference. Release with absorbing_dashpots_free. */
 void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
 
-/* Frees the dashpots in l of all absorbing faces, which absorbing_dashpots_make has made. */
+/* Frees the dashpots of all absorbing faces in l, which absorbing_dashpots_make has made. */
 void absorbing_dashpots_free(struct loads *l);
 
-/* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
- * dt_velocity: duration of the velocity update [s]. Part of loads_apply_to_particle_forces. */
+/* Adds the forces of the absorbing dashpots in l to p->f, for particles that are moved by bond forces (not by grid or
+ * mesh). dt_velocity: duration of the velocity update [s]. Part of loads_apply_to_particle_forces. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
-/* Appends the absorbing dashpots of grid nodes to g; part of loads_prescribe_grid_velocities, after the prescribed
+/* Appends the absorbing dashpots (l) of grid nodes to g; part of loads_prescribe_grid_velocities, after the prescribed
  * velocities of nodes are set. The coefficients of the dashpots on particles are distributed to the nodes by the kernel
  * kernels->spread. half_width: half the reference edge of a particle [m]. */
 void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
-/* Appends the absorbing dashpots of mesh nodes to mesh->grid, from the particles of absorbing faces; part of
+/* Appends the absorbing dashpots of mesh nodes to mesh->grid, from the particles of absorbing faces in l; part of
  * loads_find_driven_mesh_nodes. */
 void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
@@ -397,9 +398,9 @@ struct prescribed_motion prescribed_motion_make(const struct boundary *b, int di
  * velocity, so that a change of motion that no step follows adds no work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
-/* Returns component `component` of the velocity of `motion` [m/s] at the reference position X (dim components [m]); for
- * a prescribed displacement its difference over the step divided by dt. at_present_position: true if X is the position
- * of the material at the start of the step, false if it is its reference position. */
+/* Returns component `component` of the velocity [m/s] prescribed by `motion` at the reference position X (dim
+ * components [m]); for a prescribed displacement its difference over the step divided by dt. at_present_position: true
+ * if X is the position of the material at the start of the step, false if it is its reference position. */
 real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
                             bool at_present_position);
 
@@ -439,7 +440,7 @@ real loads_largest_velocity_difference(const struct load *load, const struct loa
 
 /* ---- forces and velocities of a step ----------------------------------------------------------------------------- */
 
-/* Sets p->f = 0 for all particles of the lists of loads and supports, before the bond forces are computed. */
+/* Sets p->f = 0 for all particles in the lists of l, the loads and supports, before the bond forces are computed. */
 void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p);
 
 /* Completes the particle forces p->f after the bond forces were computed: adds the impulse of mirror images to
@@ -448,31 +449,31 @@ void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p
  * the step of size dt [s]. */
 void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]. These are nodes in
- * the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass belongs to points
- * with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a node or midway between
- * two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of this grid, kept between
- * calls, zeroed at first. kernels: maps between points and nodes; half_width: half the reference edge of a particle
- * [m]. Must be called after the first particle-to-grid map. */
+/* Sets the velocities prescribed by l (walls) of the nodes of grid g for the step of size dt about t [s]. These are
+ * nodes in the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass belongs to
+ * points with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a node or midway
+ * between two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of this grid, kept
+ * between calls, zeroed at first. kernels: maps between points and nodes; half_width: half the reference edge of a
+ * particle [m]. Must be called after the first particle-to-grid map. */
 void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                      const struct particles *p, const struct kernels *kernels, real half_width, real t,
                                      real dt);
 
-/* Finds the nodes of the mesh whose motion loads or mirrors in l prescribe, and the absorbing dashpots of its nodes.
- * Call once at set-up, and again whenever the mesh has lost points to conversion. */
+/* Finds the nodes of the mesh whose motion boundaries or mirrors of l prescribe, and the absorbing dashpots of its
+ * nodes. Call once at set-up, and again whenever the mesh has lost points to conversion. */
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the mesh nodes that loads_find_driven_mesh_nodes has found, for the step of
- * size dt about t [s]. */
+/* Sets the velocities prescribed by l (walls) of the mesh nodes that loads_find_driven_mesh_nodes has found, for the
+ * step of size dt about t [s]. */
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
-/* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
+/* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion l prescribes, by their positions: nodes in
  * driven regions and on mirror planes. Stores them in `driven_nodes`. */
 void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                     const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the nodes in `driven_nodes`, found by loads_find_driven_coarse_nodes, on
- * grid g of a mesh of coarse cells, for the step of size dt about t [s]. */
+/* Sets the velocities prescribed by l (walls) of the nodes in `driven_nodes`, found by loads_find_driven_coarse_nodes,
+ * on grid g of a mesh of coarse cells, for the step of size dt about t [s]. */
 void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
                                        struct grid *g, real t, real dt);
 
@@ -482,7 +483,7 @@ void loads_prescribe_coarse_velocities(const struct loads *l, const struct const
 bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
- * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
+ * reactions of their loads in l. dt_velocity: duration of the velocity update [s]. */
 void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
@@ -493,29 +494,29 @@ void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_vel
 void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const struct boundary *boundary,
                                          int boundaries, real duration, real ramp_time);
 
-/* Computes the displacement of every driven component at full load (pseudo-time `ramp_time` [s]). displacement:
+/* Computes the displacement of every driven component at full load l (pseudo-time `ramp_time` [s]). displacement:
  * [dim][p->n] [m]; driven_components: [p->n], bit d: component d is driven. Of overlapping loads the later one in the
  * scene is used, as in dynamic runs. */
 void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
                                         real *const *displacement, uint8_t *driven_components);
 
-/* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
+/* Adds the inertia forces of a rigid rotation to the applied forces l of a free body in 2D (inertia relief), so that
  * loads with a moment have an equilibrium, for example loads on scattered particles of an irregular lattice. Returns
  * the moment of the loads divided by the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
-/* Adds the applied forces of a static problem at full load, with those of loads_add_inertia_relief, to p->f [N]. */
+/* Adds the applied forces l of a static problem at full load, with those of loads_add_inertia_relief, to p->f [N]. */
 void loads_add_static_forces(const struct loads *l, struct particles *p);
 
-/* Sets the reaction of each support to minus the sum of the forces p->f on those components whose motion it prescribes,
- * then sets these components of p->f to 0. Reactions of other loads become 0. */
+/* Sets the reaction of each support in l to minus the sum of the forces p->f on those components whose motion it
+ * prescribes, then sets these components of p->f to 0. Reactions of other loads become 0. */
 void loads_collect_static_reactions(struct loads *l, struct particles *p);
 
 /* Computes the work of loads that grow in proportion on a linear body: stores half the sum of applied forces times
  * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
 void loads_compute_static_work(struct loads *l, const struct particles *p);
 
-/* Saves impulse and work so far, displacement and reaction of each load to `a` if a->saving, else restores them.
+/* Saves impulse and work so far, displacement and reaction of each load in l to `a` if a->saving, else restores them.
  * Returns FAILED if an entry is missing or its size differs. */
 status loads_save_or_load(struct loads *l, struct archive *a);
 

@@ -5,9 +5,9 @@
 
 #include "loads/loads.h"
 
-/* Checks all mirror boundaries and appends mirror images of the particles within `mirror_reach` [m] of their planes to
- * p. optional_arrays: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED, with a
- * message, if a mirror plane is inside its body or two mirrors coincide. */
+/* Checks all mirror boundaries of l and appends mirror images of the particles within `mirror_reach` [m] of their
+ * planes to p. optional_arrays: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED,
+ * with a message, if a mirror plane is inside its body or two mirrors coincide. */
 status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
 
 /* Sets the flag MOVES_LATER in l->loaded for the particles of p whose bonds may cross a clamped mirror plane (a mirror
@@ -20,7 +20,7 @@ void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct parti
  * l->place_step, if it is not 0, so that image and particle are exactly symmetric. */
 void loads_update_mirror_images(const struct loads *l, struct particles *p);
 
-/* Checks the distance between parallel mirrors in l of a body with bonds of at most `bond_length` [m]. A particle
+/* Checks the distance between parallel mirrors of l for a body with bonds of at most `bond_length` [m]. A particle
  * between mirrors that are closer would have bonds to images of images on both sides, of which only one exists. The
  * forces would have no potential, and no time step would be stable. Material points have no such limit. Returns
  * REFUSED, with a message, if the distance is at most the bond length minus a spacing. */

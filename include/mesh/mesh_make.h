@@ -49,17 +49,17 @@ int64_t mesh_count_connected_parts(const struct particles *p, const struct grid 
 
 /* Updates the mesh after particles have become peridynamic or have changed their partial stress: removes the
  * peridynamic ones from their cells and recomputes these cells. changed_points[changed_count]: indices of these
- * particles, NULL if they are unknown; source: data of the cells. Each particle that leaves takes its share of mass and
- * momentum from the nodes of its cell, so that nodal velocities are kept. Returns the kinetic energy that is lost by
- * this [J]. */
+ * particles, NULL if they are unknown. Each particle that leaves takes its share of mass and momentum from the nodes of
+ * its cell, so that nodal velocities are kept. Returns the kinetic energy that is lost by this [J]. source: material
+ * constants. */
 real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                                                const int32_t *changed_points, int64_t changed_count);
 
-/* Recomputes from `source` the stiffness of the cells of the points of p in changed_points[changed_count] (indices)
- * after only their partial stresses have changed; all points remain in the mesh. Possible only for partial cells. These
- * store a stiffness matrix because points are missing, or leave a part of their stress to bonds. Returns false, without
- * any change, if one of the cells was not partial before or would not be afterwards; call
- * mesh_remove_points_and_return_lost_energy then. */
+/* Recomputes the stiffness of the cells of the points in changed_points[changed_count] (indices) after only their
+ * partial stresses have changed; all points remain in the mesh. Possible only for partial cells. These store a
+ * stiffness matrix because points are missing, or leave a part of their stress to bonds. Returns false, without any
+ * change, if one of the cells was not partial before or would not be afterwards; call
+ * mesh_remove_points_and_return_lost_energy then. source: material constants. */
 bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
                                             const struct mesh_source *source, const int32_t *changed_points,
                                             int64_t changed_count);
@@ -84,8 +84,8 @@ void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles
 
 /* Returns a lower bound of the critical time step of the mesh [s]: the smallest 2/omega over all cells, with the
  * largest angular frequency omega of a cell that moves on its own. after_any_conversion: true to include the cells that
- * would remain if any subset of the points of a cell converted, false for the present cells. source: data of the cells;
- * density: mass density of each material [kg/m^3]. */
+ * would remain if any subset of the points of a cell converted, false for the present cells. density: mass density of
+ * each material [kg/m^3]. source: material constants. */
 real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
                              bool after_any_conversion);
 

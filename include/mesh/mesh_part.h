@@ -65,11 +65,11 @@ void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings 
 status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
                                        const struct scene *s);
 
-/* Returns true if the material points of at least one body move with a mesh (the reference frame). */
+/* Returns true if the material points of at least one body move with a mesh (the reference frame r). */
 bool reference_frame_is_in_use(const struct reference_frame *r);
 
-/* Returns true if the particles p of scene s can be in the reference frame r: they form one connected mesh on a lattice
- * that fits the cells of the background grid of `mpm`. */
+/* Returns true if the particles of scene s can be in the reference frame r: they form one connected mesh on a lattice
+ * that fits the cells of the background grid of mpm. */
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm);
 
@@ -79,7 +79,7 @@ bool reference_frame_is_possible(const struct reference_frame *r, const struct p
  * REFUSED or FAILED, with a message, as mesh_make does. */
 status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
-/* Returns the critical time step of the cells of the mesh in the reference frame [s], INFINITY if there is none. If
+/* Returns the critical time step of the cells of the mesh in the reference frame r [s], INFINITY if there is none. If
  * points may convert (adaptive method) and `coupling` is not partial stress, cells that have lost any of their points
  * by conversion count, too. */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);

@@ -79,15 +79,14 @@ struct output {
  * process, before any other call of HDF5. */
 void output_configure_hdf5(void);
 
-/* Opens the output of a run: creates `folder` and its subfolder frames, locks the folder for this process and writes
+/* Opens the output o of a run: creates `folder` and its subfolder frames, locks the folder for this process and writes
  * scene.yaml. Removes temporary files of runs and, unless `mode` is OUTPUT_RESUME, the files of an older run. With
- * OUTPUT_RESUME and no older run, a new run begins and a printed line reports it.
- * scene_text: text of the scene with all defaults, of which a copy is written; compress: true to compress frames with
- * gzip.
- * Returns REFUSED if another process runs in the folder, or if it contains files that no run wrote. Returns REFUSED
- * also if it contains a run of another scene (another text in scene.yaml) unless `mode` is OUTPUT_OVERWRITE; a run of
- * this scene and `mode` is OUTPUT_FIRST; or an older run without checkpoints and `mode` is OUTPUT_RESUME. Returns
- * FAILED if a file or folder cannot be created. Unless OK is returned, output_close need not be called. */
+ * OUTPUT_RESUME and no older run, a new run begins and a printed line reports it. scene_text: text of the scene with
+ * all defaults, of which a copy is written; compress: true to compress frames with gzip. Returns REFUSED if another
+ * process runs in the folder, or if it contains files that no run wrote. Returns REFUSED also if it contains a run of
+ * another scene (another text in scene.yaml) unless `mode` is OUTPUT_OVERWRITE; a run of this scene and `mode` is
+ * OUTPUT_FIRST; or an older run without checkpoints and `mode` is OUTPUT_RESUME. Returns FAILED if a file or folder
+ * cannot be created. Unless OK is returned, output_close need not be called. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 
 /* Waits for the thread that writes frames, closes history.csv, unlocks the folder of the run, and frees the memory of
@@ -99,7 +98,7 @@ void output_close(struct output *o);
  * output_open, which removes the files of an older run. */
 status output_check_series_folder_is_free(const char *folder, const char *series_name);
 
-/* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
+/* Adds a series of frames of one region of the body to the output o: the subfolder frames_NAME and its index files
  * NAME.hdf.series and NAME.xdmf, with NAME = series_name. region: kept by reference until output_close. output_open
  * must have been called. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be
  * created. */

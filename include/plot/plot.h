@@ -286,8 +286,8 @@ void plotted_particles_free(struct plotted_particles *c);
  * particle is within one spacing of the given position. */
 status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f);
 
-/* Returns the particle spacing of a frame [m]: the smallest one if the frame stores spacings, else the median distance
- * of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
+/* Returns the particle spacing of the frame f [m]: the smallest one if the frame stores spacings, else the median
+ * distance of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
 double frame_particle_spacing(const struct output_frame *f);
 
 /* Quantity that the colours of a map (picture of particles) show: damage, kind or fragment of the particles, a field,

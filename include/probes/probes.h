@@ -103,9 +103,10 @@ void probes_free(struct probes *s);
  * later by probes_complete_sample_after_step. */
 void probes_begin_sample_before_step(struct probes *s, const struct observed_run *o);
 
-/* Computes the kinetic, strain and fracture energy of the particles of ENERGY probes and stores them in s->value [J].
- * Must be called when the forces at the time of the sample are known and before anything moves, as the energies of the
- * whole run are computed. The kinetic energy is replaced later by probes_complete_sample_after_step. */
+/* Computes the kinetic, strain and fracture energy of the particles of the ENERGY probes of s and stores them in
+ * s->value [J]. Must be called when the forces at the time of the sample are known and before anything moves, as the
+ * energies of the whole run are computed. The kinetic energy is replaced later by probes_complete_sample_after_step. o:
+ * view of the run. */
 void probes_sample_energies(struct probes *s, const struct observed_run *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
@@ -113,11 +114,11 @@ void probes_sample_energies(struct probes *s, const struct observed_run *o);
  * those after the step. */
 void probes_store_motion_before_step(struct probes *s, const struct observed_run *o);
 
-/* Computes the values of a sample of run o that depend on velocities or on the forces of the time step, after that
- * step, and stores them in s->value. The values are those at the time of the preceding call of
- * probes_store_motion_before_step: velocities are interpolated to that time, and reactions are those of the forces in
- * the step. now: time of the present velocities. If probes_store_motion_before_step was not called before, the body is
- * assumed to be in equilibrium. */
+/* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and
+ * stores them in s->value. The values are those at the time of the preceding call of probes_store_motion_before_step:
+ * velocities are interpolated to that time, and reactions are those of the forces in the step. now: time of the present
+ * velocities. If probes_store_motion_before_step was not called before, the body is assumed to be in equilibrium. o:
+ * view of the run. */
 void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
 
 /* Appends to *warning_list and prints, once for each SIF probe, a warning that K_I, K_II and J have no value at the
@@ -125,17 +126,17 @@ void probes_complete_sample_after_step(struct probes *s, const struct observed_r
  * single_equilibrium: also for tips at rest, where no wave can be the cause. t: time of the sample [s]. */
 void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list);
 
-/* Updates the probes s that observe every time step of run o. BREAK and SPALL probes search for bonds that broke in the
- * step (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared
- * forces. Must be called before these flags are cleared. */
+/* Updates the probes of s that observe every time step. BREAK and SPALL probes search for bonds that broke in the step
+ * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared forces.
+ * Must be called before these flags are cleared. */
 void probes_update_every_step(struct probes *s, const struct observed_run *o);
 
 /* Updates the BREAK and SPALL probes of s in run o, which search for bonds that just broke, and no other probes. Load
  * steps call this function each time bonds have broken. */
 void probes_update_broken_bonds(struct probes *s, const struct observed_run *o);
 
-/* Calls emit(context, probe name, quantity name, value) for every result in run o of every probe of s that summary.json
- * reports, in SI units. Values that are NAN are skipped. */
+/* Calls emit(context, probe name, quantity name, value) for every result of every probe of s that summary.json reports,
+ * in SI units. Values that are NAN are skipped. */
 void probes_visit_results(const struct probes *s, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context);
@@ -144,20 +145,20 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
  * probes_write_profiles passes on. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
-/* Prints the profile of each LINE and EXACT probe of s in run o as CSV text, and calls write_file(context,
+/* Prints the profile of each LINE and EXACT probe of s as CSV text, and calls write_file(context,
  * `<probe>_<frame>.csv`, text, length) for each. frame_number: number of the frame in these names. Returns FAILED if
  * memory is exhausted, or the status of `write_file` if it is not OK. */
 status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
                              void *context, int frame_number);
 
-/* Returns the number of profiles (tables of values along a line, one for each LINE and EXACT probe) that are written
- * with each frame. */
+/* Returns the number of profiles (tables of values along a line, one for each LINE and EXACT probe) that the probes s
+ * write with each frame. */
 int64_t probes_count_profiles(const struct probes *s);
 
 /* Capacity of the name of a profile that a probe writes, with its terminator [byte]. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 
-/* Writes the file name of profile number `profile` >= 0 of the probes s at frame number `frame_number` to
+/* Writes the file name of the profile of the probes s with number `profile` >= 0 of frame number `frame_number` to
  * file_name[PROFILE_NAME]. Returns false, without a name, if there are at most `profile` profiles. */
 bool probes_compose_profile_file_name(const struct probes *s, int profile, int frame_number, char *file_name);
 

@@ -63,7 +63,7 @@ static inline bool rigid_may_be_within_reach(const struct rigid_body *r, const r
     return r->motion == RIGID_FIXED || far2 <= square(r->radius + reach);
 }
 
-/* Returns the distance of the point x (present position, DIM_MAX components [m]) from the surface of the rigid body,
+/* Returns the distance of the point x (present position, DIM_MAX components [m]) from the surface of the rigid body r,
  * negative inside [m]. normal: receives the outward unit normal of the nearest surface point. */
 real rigid_signed_distance(const struct rigid_body *r, const real *x, real *normal);
 

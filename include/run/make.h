@@ -11,7 +11,7 @@
 void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials]: for each material and for
- * each method that moves its particles (bonds, grid or mesh). Release it with memory_free. Returns NULL if the scene
+ * each method that moves its particles (bonds, grid or mesh). Release it with memory_free. Returns NULL if the scene s
  * has no absorbing boundary or is static. source: bond law. */
 struct impedance *absorbing_boundary_impedances(const struct scene *s, const struct bond_source *source);
 

@@ -18,20 +18,20 @@
 status fill_bodies_with_particles(struct particles *p, const struct scene *s,
                                   const struct cells_without_particles *hollow, int optional_arrays);
 
-/* Computes the position of the first site of the lattice that fills the body with the index `body` (the site with the
- * smallest coordinates), from which the positions of all other sites follow, and stores its coordinates in X[dim] [m].
- * The body must not come from a particle list. Returns REFUSED, with a message, if the body has no lattice, for example
- * because the scene gives no spacing. */
+/* Computes the position of the first site of the lattice that fills the body with the index `body` of scene s (the site
+ * with the smallest coordinates), from which the positions of all other sites follow, and stores its coordinates in
+ * X[dim] [m]. The body must not come from a particle list. Returns REFUSED, with a message, if the body has no lattice,
+ * for example because the scene gives no spacing. */
 status fill_compute_lattice_site_position(const struct scene *s, int body, real *X);
 
 /* Finds the cells of the grid hollow->box in which all lattice sites (possible particle positions) are inside the body
- * of scene s with the index `body_index`. Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is
+ * with the index `body_index` of scene s. Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is
  * allocated here and released by the caller. hollow->box must be set before. */
 void fill_mark_cells_inside_body(struct cells_without_particles *hollow, const struct scene *s, int body_index);
 
-/* Compares the distances between neighbours in the particle list of each body with the particle spacing of the scene.
- * p: particles that were read from the lists. Returns REFUSED, with a message, if they differ so much that a list seems
- * to be in another length unit, or if there would be more bonds than memory can hold. */
+/* Compares the distances between neighbours in the particle list of each body with the particle spacing of scene s. p:
+ * particles that were read from the lists. Returns REFUSED, with a message, if they differ so much that a list seems to
+ * be in another length unit, or if there would be more bonds than memory can hold. */
 status fill_check_particle_lists_fit_spacing(const struct particles *p, const struct scene *s);
 
 /* Sets p->strength, the factor on the strength of each particle [1]: a random number if the scene s gives the material

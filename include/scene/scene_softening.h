@@ -10,11 +10,11 @@
  * horizon and the weights of bonds. */
 struct family scene_family(const struct scene *s);
 
-/* Returns the peridynamic model of the bonds of material m in the scene: bond-based, or state-based with its moduli
+/* Returns the peridynamic model of the bonds of material m in scene s: bond-based, or state-based with its moduli
  * divided by the modulus E' of uniaxial tension. */
 struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m);
 
-/* Returns the critical stretch [1] of bonds between the materials a and b of the scene. A crack along their joint
+/* Returns the critical stretch [1] of bonds between the materials a and b of scene s. A crack along their joint
  * releases the energy of the weaker of both materials: bonds of model bond have the stiffness of their two halves in
  * series, state-based ones the mean. If a material yields, the smaller one of both critical stretches. */
 real scene_critical_stretch_between_materials(const struct scene *s, const struct material *a,

@@ -59,7 +59,7 @@ struct static_body {
  * or moments are neither balanced nor carried by supports. Release with static_solver_free. */
 status static_solver_make(struct static_solver *s, const struct static_body *body, real ramp_time);
 
-/* Allocates and computes for `body` the vectors in *s that cg_step and relaxation_step need: weights of particles on
+/* Allocates and computes the vectors in *s that cg_step and relaxation_step need for `body`: weights of particles on
  * mirror planes, diagonal stiffness, round-off of the forces. static_solver_make must have been called.
  * conjugate_gradients: true to prepare for cg_step, false for relaxation_step. */
 void static_solver_make_iteration_vectors(struct static_solver *s, const struct static_body *body,

@@ -49,7 +49,7 @@ struct grid_method;
  * Compares them once in each fiftieth of the duration. Does nothing if the scene accepts large strains, and before the
  * plastic strain of a point exceeds 0.02. cells: search cells of the particles p; grid: grids of the points; t: current
  * time [s]; pairs: found at the first call. Returns true if the warning that points have come apart has been printed.
- */
+ * warning_list: receives the warning. */
 bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
                                      const struct grid_method *grid, const struct scene *s, real t,
                                      struct warnings *warning_list);

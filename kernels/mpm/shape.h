@@ -139,7 +139,8 @@ struct cell {
     real place[DIM_MAX]; /* lower corner of the cell, in node distances from the anchor */
 };
 
-/* Returns the cell of grid g that contains point i of p, with the lowest node that a point of the cell reaches. */
+/* Returns the cell of grid g that contains point i of p, with the lowest node that a point of the cell reaches. shape:
+ * shape function of the grid. */
 static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, const struct particles *p, int64_t i,
                                                        const int dim, const enum shape shape)
 {

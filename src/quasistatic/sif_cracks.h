@@ -77,7 +77,8 @@ bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const st
 
 /* Computes the end of the next increment of a tip and stores its two coordinates in the plane of the tips in
  * position[2] [m]. The increment has the direction tip->heading. It is 2 particle spacings long or, if the key
- * steps.energy is set, as long as that energy suffices for; it ends at the first other crack that it meets. */
+ * steps.energy is set, as long as that energy suffices for; it ends at the first other crack that it meets. l: all
+ * tips. */
 void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
                                            const struct sif_crack_tip *tip, real position[2]);
 

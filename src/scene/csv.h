@@ -42,8 +42,8 @@ void csv_detect_separator(struct csv_file *c);
  * line, or NULL after the last field. Returns NULL if *rest_of_line is NULL. */
 char *csv_cut_field(const struct csv_file *c, char **rest_of_line);
 
-/* Cuts the unit off column_name, the name of a column such as `time [us]` or `time (us)`, in place, and returns a
- * pointer to the unit; "" if there is none. */
+/* Cuts the unit off column_name, such as `time [us]` or `time (us)`, in place, and returns a pointer to the unit; "" if
+ * there is none. */
 char *csv_cut_unit_off_column_name(char *column_name);
 
 /* Returns REFUSED with the message `file:line:column: TEXT`. field: a field of the current line of c, whose location

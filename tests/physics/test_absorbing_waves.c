@@ -5,8 +5,9 @@
 #include "bench/absorbing/absorbing_bench.h"
 #include "tests/support/near.h"
 
-/* The closed form itself: no reflection at normal incidence; at other angles the reflected energy does not exceed the
- * incident one (energy flux of amplitude A: A^2 c cos); at 45 degrees and Poisson's ratio 1/4 the solution by hand. */
+/* Tests the closed form itself: no reflection at normal incidence; at other angles the reflected energy does not exceed
+ * the incident one (energy flux of amplitude A: A^2 c cos); at 45 degrees and Poisson's ratio 1/4 the solution by
+ * hand. */
 static void test_theory(void **state)
 {
     (void)state;
@@ -26,7 +27,7 @@ static void test_theory(void **state)
     assert_near(absorbing_reflection_in_closed_form(true, M_PI / 4, ratio).as_p, 0.420, 1e-3);
 }
 
-/* Normal incidence: at most 2 % of a pulse 32 spacings wide is reflected; slightly more for FLIP, whose steps are
+/* Tests normal incidence: at most 2 % of a pulse 32 spacings wide is reflected; slightly more for FLIP, whose steps are
  * longer than a cell, and for bonds in 1D. */
 static void test_right_angle(void **state)
 {
@@ -39,8 +40,8 @@ static void test_right_angle(void **state)
     }
 }
 
-/* Oblique incidence with 32 spacings per wavelength. Tolerance: a face displaced by 0.15 spacings reflects 0.015 of the
- * amplitude. */
+/* Tests oblique incidence with 32 spacings per wavelength. Tolerance: a face displaced by 0.15 spacings reflects 0.015
+ * of the amplitude. */
 static void test_angle(void **state)
 {
     (void)state;

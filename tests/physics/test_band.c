@@ -22,7 +22,7 @@ struct band {
     real width, growth, fracture;
 }; /* [m], [m], [J] */
 
-/* Returns the width of the new damage: its area over the growth of both tips. Particles behind the ends of the
+/* Returns the width of the new damage of e: its area over `growth`, that of both tips. Particles behind the ends of the
  * pre-crack, which are damaged from the start, are left out. */
 static real band_width(const struct run *e, real growth)
 {
@@ -50,10 +50,10 @@ static struct band band_of(const char *spacing, const char *method)
     return b;
 }
 
-/* Four spacings, coarse to fine. Width: a crack cuts the bonds across it, two horizons of 3.015 spacings rounded to
- * whole particles; 6 to 7.1 spacings measured. Fracture energy: with equal G_c within 10 % of the finest spacing. End:
- * within 0.8 mm, less than the coarsest spacing; pd grows by 4.53, 4.08, 3.76, 4.22 mm, adaptive by 3.54, 3.45, 3.76,
- * 4.22 mm, equally for any step up to 0.4 of the critical one. */
+/* Checks with `method` that a crack is the same at four spacings, coarse to fine. Width: a crack cuts the bonds across
+ * it, two horizons of 3.015 spacings rounded to whole particles; 6 to 7.1 spacings measured. Fracture energy: with
+ * equal G_c within 10 % of the finest spacing. End: within 0.8 mm, less than the coarsest spacing; pd grows by 4.53,
+ * 4.08, 3.76, 4.22 mm, adaptive by 3.54, 3.45, 3.76, 4.22 mm, equally for any step up to 0.4 of the critical one. */
 static void check_bands(const char *method)
 {
     static const struct {

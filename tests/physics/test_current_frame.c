@@ -47,7 +47,7 @@ struct held_run {
     struct scene s;
 };
 
-/* Creates a run. poisson: NULL for that of bonds; more: further keys, one per line. */
+/* Creates the run r of a block b. poisson: NULL for that of bonds; more: further keys, one per line. */
 static void run_make(struct held_run *r, const struct block *b, const char *method, const char *poisson,
                      const char *more)
 {
@@ -96,15 +96,16 @@ struct operators {
     real *Q, *W, *third;
 };
 
-/* Adds the current velocities over `unit` to column k. */
+/* Adds the current velocities of p over `unit` to column k of the n x n matrix `to`. */
 static void add_column(const struct particles *p, real *to, int n, int k, real unit)
 {
     for (int j = 0; j < n; j++) to[j * n + k] += p->v[j % p->dim][j / p->dim] / unit;
 }
 
-/* Measures column k. With interface damping, the velocities after a step with unit velocity of one unknown are column k
- * of Q; without damping, the velocity lost in the second step is column k of dt^2 W, and the velocities after the third
- * step are stored. Half the difference of both signs is used. */
+/* Measures column k of *o with the run r from rest at the places `was`, by velocities of sign `sign`. With interface
+ * damping, the velocities after a step with unit velocity of one unknown are column k of Q; without damping, the
+ * velocity lost in the second step is column k of dt^2 W, and the velocities after the third step are stored. Half the
+ * difference of both signs is used. */
 static void column(struct held_run *r, const struct places *was, int k, real sign, struct operators *o)
 {
     struct particles *p = &r->e.part;
@@ -123,8 +124,8 @@ static void column(struct held_run *r, const struct places *was, int k, real sig
     r->e.coupling->damping_share = share;
 }
 
-/* Measures Q and dt^2 W, scaled by the square roots of the masses, so that symmetry in the mass metric becomes
- * symmetry. */
+/* Measures Q and dt^2 W of r into *o, scaled by the square roots of the masses, so that symmetry in the mass metric
+ * becomes symmetry. */
 static void operators_make(struct held_run *r, struct operators *o)
 {
     struct particles *p = &r->e.part;
@@ -148,7 +149,7 @@ static void operators_make(struct held_run *r, struct operators *o)
     memory_free(was.volume);
 }
 
-/* Returns the largest |A - A^T| over the largest entry, and symmetrises A. */
+/* Returns the largest |A - A^T| over the largest entry of the n x n matrix A, and symmetrises A. */
 static real asymmetry(real *A, int n)
 {
     real largest = 0, odd = 0;
@@ -161,8 +162,8 @@ static real asymmetry(real *A, int n)
     return odd / largest;
 }
 
-/* Returns the largest difference between the third velocity and the leap-frog prediction v2 - W (v1 + v2), v1 = 1, v2 =
- * 1 - W, over the largest entry of W. */
+/* Returns the largest difference between the third velocity in *o and the leap-frog prediction v2 - W (v1 + v2), v1 =
+ * 1, v2 = 1 - W, over the largest entry of W. */
 static real unpredicted(const struct operators *o)
 {
     const int n = o->n;
@@ -177,7 +178,7 @@ static real unpredicted(const struct operators *o)
     return off / largest;
 }
 
-/* Returns true if the symmetric A + shift 1 is positive definite, by Cholesky factorisation. */
+/* Returns true if the symmetric n x n matrix A + shift 1 is positive definite, by Cholesky factorisation. */
 static bool positive(const real *A, int n, real shift)
 {
     real *L = NEW("test.factor", (int64_t)n * n, real);
@@ -253,7 +254,7 @@ static void test_one_energy(void **state)
         check_one_energy(one_energy[k].block, "adaptive", NULL, one_energy[k].more);
 }
 
-/* Bodies that have one dilatation in a cell (kernels/mpm/dilatation.h). */
+/* Tests bodies that have one dilatation in a cell (kernels/mpm/dilatation.h). */
 static void test_dilatation(void **state)
 {
     (void)state;
@@ -266,8 +267,8 @@ static void test_dilatation(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic energy after `steps` steps from random velocities of 1e-8 c over the initial one; infinite if the
- * run stopped. */
+/* Returns the kinetic energy of r after `steps` steps from random velocities of 1e-8 c over the initial one; infinite
+ * if the run stopped. */
 static real shaken(struct held_run *r, int steps)
 {
     struct particles *p = &r->e.part;
@@ -283,8 +284,7 @@ static real shaken(struct held_run *r, int steps)
     return most;
 }
 
-/* APIC dissipates energy and never gains any, also near nu = 1/2 in 3D, where an earlier automatic step was 1.02 of the
- * limit. */
+/* Checks that APIC dissipates energy and never gains any, also near nu = 1/2 in 3D. */
 static void test_apic(void **state)
 {
     (void)state;
@@ -312,8 +312,8 @@ static void test_apic(void **state)
     }
 }
 
-/* A coupled plate over 1e4 steps at 0.8 of the critical step: the energy balance closes, and the remaining energy is
- * less than the initial one. A step with the velocities of the first map diverges at step 1516. */
+/* Tests a coupled plate over 1e4 steps at 0.8 of the critical step: the energy balance closes, and the remaining energy
+ * is less than the initial one. A step with the velocities of the first map diverges at step 1516. */
 static void test_plate(void **state)
 {
     (void)state;
@@ -343,10 +343,10 @@ static void test_plate(void **state)
     memory_free(r);
 }
 
-/* Rigidly rotating bodies are not strained: bonds and points agree on the unstrained state, in 2D and about an oblique
- * axis in 3D. Two revolutions. With first-order strains a body of points would grow by pi w per revolution, w = 0.0016
- * the angle per step, and gain 13 to 32 % of its energy. Tolerance 1e-4: centrifugal stretch of at most (w r/c)^2 =
- * 1e-4, which vibrates, and quadrature errors of points that change cells. */
+/* Checks that rigidly rotating bodies are not strained: bonds and points agree on the unstrained state, in 2D and about
+ * an oblique axis in 3D. Two revolutions. With first-order strains a body of points would grow by pi w per revolution,
+ * w = 0.0016 the angle per step, and gain 13 to 32 % of its energy. Tolerance 1e-4: centrifugal stretch of at most (w
+ * r/c)^2 = 1e-4, which vibrates, and quadrature errors of points that change cells. */
 static void test_turning(void **state)
 {
     (void)state;

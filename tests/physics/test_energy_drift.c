@@ -13,7 +13,7 @@
 #include "../bench/stability/energy_drift.h"
 #include "tests/support/near.h"
 
-/* Returns the number of steps: `most` with LONG, else a quarter. */
+/* Returns the number of steps: `most` with the environment variable LONG, else a quarter. */
 static int64_t steps_of(int64_t most) { return getenv("LONG") ? most : most / 4; }
 
 static const struct drift_case *named(const char *name)
@@ -45,8 +45,8 @@ static void all_hold(const struct drift_case *sample, int n, int64_t steps)
 
 /* ---- growth is detected ------------------------------------------------------------------------------------------ */
 
-/* Check of the test itself: a bar of bonds with 1.03 times the critical step, 2 sqrt(m/k) of its stiffest mode, which
- * is known to 2 %, must be seen to grow. A sample in every step, since the run stops soon. */
+/* Checks that the test itself sees growth: a bar of bonds with 1.03 times the critical step, 2 sqrt(m/k) of its
+ * stiffest mode, which is known to 2 %. A sample in every step, since the run stops soon. */
 static void test_seen(void **state)
 {
     (void)state;
@@ -148,9 +148,9 @@ static void test_current(void **state)
     assert_true(holds(named("solid, apic, nu 0.49"), 2000));
 }
 
-/* Noise in a bar of FLIP points gains energy in proportion to its velocities (about 0.013 v/c per step), because
- * weights move with the points between forces and strains; no linear step gains energy. The test checks this known
- * property; the reference frame and APIC do not gain. */
+/* Checks a known property: noise in a bar of FLIP points gains energy in proportion to its velocities (about 0.013 v/c
+ * per step), because weights move with the points between forces and strains; no linear step gains energy. The
+ * reference frame and APIC do not gain. */
 static void test_noise(void **state)
 {
     (void)state;
@@ -185,7 +185,7 @@ static void test_slit(void **state)
     all_hold(slit, COUNT_OF(slit), 10000);
 }
 
-/* Scenes in which an earlier version gained energy, for as many steps as it needed to stop. */
+/* Tests four scenes that are prone to gain energy, over 10000 steps. */
 static void test_named(void **state)
 {
     (void)state;

@@ -14,7 +14,7 @@ static struct vortex vortex_of(enum vortex_law law)
     return v;
 }
 
-/* F = dx/dX, compared with finite differences: error 1e-9 at a distance of 1e-5. */
+/* Compares F = dx/dX with finite differences: error 1e-9 at a distance of 1e-5. */
 static void test_vortex_gradient(void **state)
 {
     (void)state;
@@ -32,8 +32,8 @@ static void test_vortex_gradient(void **state)
     assert_near(F[0][0] * F[1][1] - F[0][1] * F[1][0], 1, 1e-14);
 }
 
-/* For small strains the laws agree with Hooke's law: mesh exactly, bonds within 1.2 % of C11 and 3.5 % of the others
- * (anisotropy of a family of 3.015 spacings); a rotation of the body rotates the stress. */
+/* Checks that for small strains the laws agree with Hooke's law: mesh exactly, bonds within 1.2 % of C11 and 3.5 % of
+ * the others (anisotropy of a family of 3.015 spacings); a rotation of the body rotates the stress. */
 static void test_vortex_laws(void **state)
 {
     (void)state;
@@ -54,7 +54,7 @@ static void test_vortex_laws(void **state)
     }
 }
 
-/* Second order: half the spacing reduces the error by a factor of 3.8 to 4.4 between 0.1 and 0.05. */
+/* Tests second order: half the spacing reduces the error by a factor of 3.8 to 4.4 between 0.1 and 0.05. */
 static void test_vortex_order(void **state)
 {
     (void)state;
@@ -66,8 +66,8 @@ static void test_vortex_order(void **state)
     }
 }
 
-/* Fracture energy: bonds that cross the plane of the crack dissipate G_c, some beside it slightly more: 1.00 to 1.05 in
- * 30 runs. */
+/* Tests the fracture energy: bonds that cross the plane of the crack dissipate G_c, some beside it slightly more: 1.00
+ * to 1.05 in 30 runs. */
 static void test_surfing(void **state)
 {
     (void)state;
@@ -78,7 +78,8 @@ static void test_surfing(void **state)
     assert_near(f.speed / rayleigh, 0.2, 0.02);
 }
 
-/* A line of damage that branches at 50 mm into two lines at +-20 degrees: position and angle are found. */
+/* Checks that of a line of damage that branches at 50 mm into two lines at +-20 degrees position and angle are
+ * found. */
 static void test_branching(void **state)
 {
     (void)state;

@@ -33,8 +33,8 @@ static bool row_is_as_known(const struct limits_scene *s, const struct limits_ro
     return false;
 }
 
-/* Returns true for rows that take long and have a quicker equivalent: a million steps of a plate, and squares that
- * rotate at 100 m/s instead of 10. */
+/* Returns true if row r of the scene s takes long and has a quicker equivalent: a million steps of a plate, and squares
+ * that rotate at 100 m/s instead of 10. */
 static bool is_for_long(const struct limits_scene *s, const struct limits_row *r)
 {
     return s == &limits_million || (s == &limits_spin && r->given == 100);

@@ -30,10 +30,11 @@ static const char bar[] = "name: bar\nspace: solid\nduration: 80 us\nmethod: mpm
                           "  {name: front, mirror: {axis: y, at: 0}}]\n"
                           "initial: [{velocity: [0, 0, -190]}]\noutput: {frames: 0, samples: 1}\n";
 
-/* A copper bar at 190 m/s on a rigid wall, at rest after 80 us. MPM3D-F90 (Zhang, Chen, Liu 2016) with these cells and
- * points: the centre of the top layer at 16.24 mm, largest radius 6.56 mm, and a pressure of 1.36 GPa (root mean
- * square), of which most is a checkerboard: the flow stress is 0.5 GPa. With own dilatations of the points Cleave
- * has 1.24 GPa. With means of cells the foot is softer, by 3 % of its radius. */
+/* Tests a copper bar at 190 m/s on a rigid wall, at rest after 80 us, with `shape`. MPM3D-F90 (Zhang, Chen, Liu 2016)
+ * with these cells and points: the centre of the top layer at 16.24 mm, largest radius 6.56 mm, and a pressure of 1.36
+ * GPa (root mean square), of which most is a checkerboard: the flow stress is 0.5 GPa. With own dilatations of the
+ * points Cleave has 1.24 GPa. With means of cells the foot is softer, by 3 % of its radius. pressure_most: limit of the
+ * pressure [Pa]. */
 static void bar_case(const char *shape, real pressure_most)
 {
     struct held_run *r = NEW("test.run", 1, struct held_run);
@@ -82,7 +83,8 @@ static const struct {
              "{name: side, mirror: {axis: z, at: 0}}]\n",
              201.67}};
 
-/* Velocity of a beam that starts to bend [m/s]: cross-sections turn with the axis. */
+/* Computes the velocity v[] at X of a beam that starts to bend [m/s]: cross-sections turn with the axis. context: not
+ * used. */
 static void bending_velocity(const void *context, const real *X, real *v)
 {
     (void)context;
@@ -91,7 +93,7 @@ static void bending_velocity(const void *context, const real *X, real *v)
     v[0] = -1e-4 * (X[1] - 1) * X[0] / 50;
 }
 
-/* Returns the amplitude of the bending mode, the displacement weighted by the initial velocity. */
+/* Returns the amplitude of the bending mode of p, the displacement weighted by the initial velocity. */
 static real bending_amplitude(const struct particles *p)
 {
     real sum = 0;
@@ -99,7 +101,7 @@ static real bending_amplitude(const struct particles *p)
     return sum;
 }
 
-/* Returns the period of the beam [s], twice the time of its first return. */
+/* Returns the period of beam k with further keys [s], twice the time of its first return. */
 static real bending_period(int k, const char *keys)
 {
     char text[1024];

@@ -90,7 +90,8 @@ static void check_all(const struct body *b, int n)
     for (int k = 0; k < n; k++) check(b[k].name, &b[k].c, b[k].loose);
 }
 
-/* Every test starts with this function and ends with the number of its failures. */
+/* Begins a test: no failures so far, one thread, since bodies are small. Every test ends with the number of its
+ * failures. */
 static void begin(void)
 {
     omp_set_num_threads(1); /* bodies are small */
@@ -99,7 +100,7 @@ static void begin(void)
 
 /* ---- eigenvalue routines ----------------------------------------------------------------------------------------- */
 
-/* Known eigenvalues: a free chain of springs has 2 - 2 cos(k pi/n); a cyclic shift has the n-th roots of 1. */
+/* Tests known eigenvalues: a free chain of springs has 2 - 2 cos(k pi/n); a cyclic shift has the n-th roots of 1. */
 static void test_tools(void **state)
 {
     (void)state;
@@ -282,7 +283,7 @@ static struct stability_case coupled(struct stability_case law)
     return law;
 }
 
-/* Every law with every shape of the region: partial stress; every third one: handshake. */
+/* Tests every law with every shape of the region: partial stress; every third one: handshake. */
 static void test_coupled(void **state)
 {
     (void)state;

@@ -10,7 +10,8 @@
 
 #define STRAIN 1e-6 /* bonds stretch with finite deformation: relative deviations from linear theory of this order */
 
-/* Returns true if a particle is farther than `reach` spacings from every face of the lattice. */
+/* Returns true if particle i of p is farther than `reach` spacings from every face of the lattice of count[dim]
+ * particles. */
 static bool inside(const struct particles *p, int64_t i, const int *count, real reach)
 {
     for (int d = 0; d < p->dim; d++)
@@ -27,8 +28,8 @@ static const struct cloud_plan lattice[] = {
     {.space = SPACE_SOLID, .count = {9, 9, 9}, .horizon = 3.015},
 };
 
-/* Forces on inner particles over the sum of the magnitudes of bond forces. Tolerance: round-off of positions, 1e-15 of
- * a spacing, over strains of 1e-2. */
+/* Compares forces on inner particles with the sum of the magnitudes of bond forces. Tolerance: round-off of positions,
+ * 1e-15 of a spacing, over strains of 1e-2. */
 static void test_pd_rest(void **state)
 {
     (void)state;
@@ -55,7 +56,8 @@ static void test_pd_rest(void **state)
         }
 }
 
-/* Computes the stress of the bonds of the middle particle over C11 times the strain, component by component. */
+/* Computes the stress of the bonds of the middle particle of `plan` under `strain` over C11 times the strain, component
+ * by component. */
 static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     struct particle_cloud c;
@@ -95,7 +97,8 @@ static struct constants lattice_constants(const struct cloud_plan *plan)
     return result;
 }
 
-/* Lattice calibration: dilatational stiffness exact; the constants deviate only by the anisotropy of the lattice. */
+/* Tests the lattice calibration: dilatational stiffness exact; the constants deviate only by the anisotropy of the
+ * lattice. */
 static void test_pd_lattice(void **state)
 {
     (void)state;
@@ -112,7 +115,7 @@ static void test_pd_lattice(void **state)
     }
 }
 
-/* Isotropic weights: two weights for the directions make the lattice isotropic. */
+/* Tests isotropic weights: two weights for the directions make the lattice isotropic. */
 static void test_pd_isotropic(void **state)
 {
     (void)state;
@@ -131,7 +134,7 @@ static void test_pd_isotropic(void **state)
         }
 }
 
-/* Continuum and volume-modified calibration: dilatational energy over the classical one. */
+/* Tests the continuum and the volume-modified calibration: dilatational energy over the classical one. */
 static void test_pd_calibrations(void **state)
 {
     (void)state;
@@ -157,7 +160,7 @@ static void test_pd_calibrations(void **state)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Two points per cell and direction, aligned with the cells, under uniform stress: no force on inner nodes. */
+/* Tests two points per cell and direction, aligned with the cells, under uniform stress: no force on inner nodes. */
 static void test_mpm_rest(void **state)
 {
     (void)state;
@@ -186,10 +189,10 @@ static void test_mpm_rest(void **state)
         }
 }
 
-/* Points stretched by lambda under uniform stress: returns the largest residual of an inner node over sigma A, for the
- * worst position of the points in their cells. 1D, two points per cell initially. cpGIMP, with the exact mean of the
- * hat functions, has none up to lambda = 4, where its width is two cells; beyond, the width stays constant and points
- * separate. */
+/* Returns the largest residual of an inner node over sigma A for points of `shape`, stretched by lambda under uniform
+ * stress, for the worst position of the points in their cells. 1D, two points per cell initially. cpGIMP, with the
+ * exact mean of the hat functions, has none up to lambda = 4, where its width is two cells; beyond, the width stays
+ * constant and points separate. */
 static real crossing_residual(enum shape shape, real lambda)
 {
     real worst = 0;

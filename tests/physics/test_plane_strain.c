@@ -85,7 +85,7 @@ static void done(struct ran *r)
     assert_int_equal(system("rm -rf " FOLDER), 0);
 }
 
-/* Returns the value of a column in the last row of history.csv or of a profile; NAN if there is none. */
+/* Returns the value of the column `name` in the last row of `file`, history.csv or a profile; NAN if there is none. */
 static double last_value(const char *file, const char *name)
 {
     char head[4096], line[4096], last[4096] = "";
@@ -102,7 +102,7 @@ static double last_value(const char *file, const char *name)
     return title ? strtod(value, NULL) : NAN;
 }
 
-/* Returns the exact sigma_zz = lambda (eps_xx + eps_yy), with lambda = E nu/((1 + nu)(1 - 2 nu)). */
+/* Returns the exact sigma_zz = lambda (eps_xx + eps_yy) of the material m, with lambda = E nu/((1 + nu)(1 - 2 nu)). */
 static real across_of(const struct material *m)
 {
     return m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)) * TRACE;
@@ -114,8 +114,8 @@ static bool inside(const struct output_frame *f, int64_t i)
     return fabs(f->X[0][i] - centre) < INSIDE && fabs(f->X[1][i]) < INSIDE;
 }
 
-/* Checks sigma_zz in a frame. exact: the interior has its initial strain; else sigma_zz is compared with the in-plane
- * stress of the frame. */
+/* Checks sigma_zz in the frame `name` of r. exact: the interior has its initial strain; else sigma_zz is compared with
+ * the in-plane stress of the frame. kinds: adds the numbers of particles of each kind. */
 static void frame_holds(const struct ran *r, const char *name, bool exact, int64_t *kinds)
 {
     struct output_frame f;
@@ -131,7 +131,7 @@ static void frame_holds(const struct ran *r, const char *name, bool exact, int64
     frame_free(&f);
 }
 
-/* Uniform strain in every method. Ghost forces of couplings move particles near an interface, and bonds transmit
+/* Tests uniform strain in every method. Ghost forces of couplings move particles near an interface, and bonds transmit
  * disturbances of the edges faster than a wave: there a later frame is compared with its own strain. */
 static void uniform_strain(void **state)
 {
@@ -155,7 +155,7 @@ static void uniform_strain(void **state)
     done(&r);
 }
 
-/* Plane stress: sigma_zz is 0, and no column reports it. */
+/* Checks plane stress: sigma_zz is 0, and no column reports it. */
 static void plane_stress_has_none(void **state)
 {
     (void)state;

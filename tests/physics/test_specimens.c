@@ -40,9 +40,9 @@ static struct outcome outcome_of(const char *scene, struct bench_overrides *o, c
     return found;
 }
 
-/* Compares the largest load (tolerance 3 %), the last load (tolerance `last`) and the released energy G (3 %: bonds
- * that cross a lattice plane dissipate 0.987 G_c, and the first increment includes an earlier one) with the reference.
- * Returns the largest load. */
+/* Runs the scene with the overrides o and compares the largest load (tolerance 3 %), the last load (tolerance `last`)
+ * and the released energy G (3 %: bonds that cross a lattice plane dissipate 0.987 G_c, and the first increment
+ * includes an earlier one) with the reference of `specimen`. Returns the largest load. */
 static double check(const char *scene, struct bench_overrides *o, const struct specimen *specimen, double last)
 {
     const struct outcome found = outcome_of(scene, o, specimen);
@@ -55,7 +55,8 @@ static double check(const char *scene, struct bench_overrides *o, const struct s
     return found.peak;
 }
 
-/* To a/W = 0.65. Measured +1.8 and -5.1 %: first order in the spacing; 0.0 and -1.6 % with 80 spacings. */
+/* Tests a compact tension specimen to a/W = 0.65. Measured +1.8 and -5.1 %: first order in the spacing; 0.0 and -1.6 %
+ * with 80 spacings. */
 static void test_compact_tension(void **state)
 {
     const struct specimen specimen = {COMPACT_TENSION, 50e-3, 0, 10e-3, 25e-3, young, toughness};
@@ -65,7 +66,7 @@ static void test_compact_tension(void **state)
     check("inputs/compact_tension.yaml", &o, &specimen, 0.06);
 }
 
-/* Measured -2.3 and +0.9 %; the grips move back. */
+/* Tests an edge crack in grips, which move back. Measured -2.3 and +0.9 %. */
 static void test_edge_crack_in_grips(void **state)
 {
     const struct specimen specimen = {EDGE_CRACK_IN_GRIPS, 40e-3, 120e-3, 5e-3, 12e-3, young, toughness};
@@ -86,7 +87,7 @@ static void test_three_point_bend(void **state)
     check("inputs/bend_offset_notch.yaml", &o, &specimen, 0.03);
 }
 
-/* Arms of ten spacings. Measured 0.0 and -0.8 %. */
+/* Tests a double cantilever with arms of ten spacings. Measured 0.0 and -0.8 %. */
 static void test_double_cantilever(void **state)
 {
     const struct specimen specimen = {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness};
@@ -96,8 +97,8 @@ static void test_double_cantilever(void **state)
     check("inputs/cantilevers.yaml", &o, &specimen, 0.03);
 }
 
-/* Opening of 4 mm in load steps of different sizes: equal largest load, at the start of the crack, and no excess energy
- * from a late increment. In between loads vary by half an increment, 4 % for arms of ten spacings. */
+/* Tests an opening of 4 mm in load steps of different sizes: equal largest load, at the start of the crack, and no
+ * excess energy from a late increment. In between loads vary by half an increment, 4 % for arms of ten spacings. */
 static void test_control_load(void **state)
 {
     const struct specimen specimen = {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness};
@@ -115,9 +116,9 @@ static void test_control_load(void **state)
     assert_true(fabs(peak[1] / peak[0] - 1) < 0.005 && fabs(peak[2] / peak[0] - 1) < 0.005);
 }
 
-/* Bonds that yield at half of their critical stretch and harden with a tenth of their stiffness: the load is that of an
- * elastic body with G_c equal to the area under this curve, as in small-scale yielding (Rice 1968: J is the work of
- * separation). Measured -2.2 % at 40 spacings, as for elastic bonds. */
+/* Tests bonds that yield at half of their critical stretch and harden with a tenth of their stiffness: the load is that
+ * of an elastic body with G_c equal to the area under this curve, as in small-scale yielding (Rice 1968: J is the work
+ * of separation). Measured -2.2 % at 40 spacings, as for elastic bonds. */
 static void test_yielding(void **state)
 {
     const double critical = 6.805e-3, yield = 10e6 / young, beyond = critical - yield; /* stretches at a spacing of 1

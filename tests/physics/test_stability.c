@@ -51,7 +51,7 @@ static const struct stability_case bounds[] = {
     {.dim = 2, .method = "adaptive", .frame = "reference", .coupling = "handshake", .region = ISLANDS},
 };
 
-/* The automatic step is between 0.6 and 0.95 of the observed limit. */
+/* Checks that the automatic step is between 0.6 and 0.95 of the observed limit. */
 static void test_bounds(void **state)
 {
     (void)state;
@@ -66,7 +66,7 @@ static void test_bounds(void **state)
     }
 }
 
-/* Strains from velocities of the first map with linear shapes are unstable for any step: refused. */
+/* Checks that strains from velocities of the first map with linear shapes, unstable for any step, are refused. */
 static void test_no_limit(void **state)
 {
     (void)state;
@@ -78,7 +78,8 @@ static void test_no_limit(void **state)
     assert_non_null(strstr(status_message(), "its strains come from velocities that are not mapped again"));
 }
 
-/* Points that move through their cells: each position has another limit, and the automatic step is stable in all. */
+/* Tests points that move through their cells: each position has another limit, and the automatic step is stable in
+ * all. */
 static void test_drift(void **state)
 {
     (void)state;
@@ -93,9 +94,9 @@ static void test_drift(void **state)
 
 /* ---- beyond the limit -------------------------------------------------------------------------------------------- */
 
-/* 1.2 times the limit: the run stops within 1000 steps, with position, step and remedy. APIC with edges on nodes,
- * where the limit is that of the interior; slightly beyond nodes growth would move the edge to positions with
- * another limit. */
+/* Tests 1.2 times the limit: the run stops within 1000 steps, with position, step and remedy. APIC with edges on nodes,
+ * where the limit is that of the interior; slightly beyond nodes growth would move the edge to positions with another
+ * limit. */
 static void test_caught(void **state)
 {
     (void)state;
@@ -123,7 +124,8 @@ static double automatic_of(const char *text, const char *key, const char *value)
     return critical;
 }
 
-/* The step scales with the length; a body without bonds has a step, and so has one whose bonds are all cut. */
+/* Checks that the step scales with the length; a body without bonds has a step, and so has one whose bonds are all
+ * cut. */
 static void test_scales(void **state)
 {
     (void)state;
@@ -151,8 +153,8 @@ static void test_scales(void **state)
     }
 }
 
-/* Rows between mirrors, where images move against their sources; a thin plate; a stiff light material in a soft heavy
- * one: the estimate includes all modes. */
+/* Tests rows between mirrors, where images move against their sources; a thin plate; a stiff light material in a soft
+ * heavy one: the estimate includes all modes. */
 static void test_odd_bodies(void **state)
 {
     (void)state;
@@ -180,8 +182,8 @@ static void test_odd_bodies(void **state)
     }
 }
 
-/* A row between mirrors closer than the reach of its bonds, for which an earlier estimate was three times the limit:
- * refused. */
+/* Checks that a row between mirrors closer than the reach of its bonds is refused: no step is stable
+ * (loads/mirrors.h). */
 static void test_close_mirrors(void **state)
 {
     (void)state;

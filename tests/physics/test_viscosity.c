@@ -33,8 +33,8 @@ struct front {
     const char *name, *scene, *method;
 };
 
-/* Computes the largest velocity and the largest difference from v behind the front, over v, without a tenth of the
- * distance at the piston and the last spacings before the front. */
+/* Computes the largest velocity behind the front, *most, and the largest difference from v, *off, both over v, without
+ * a tenth of the distance at the piston and the last spacings before the front. e: run of the piston. */
 static void behind(const struct run *e, real *most, real *off)
 {
     const struct material *m = &e->scene->material[0];
@@ -47,8 +47,9 @@ static void behind(const struct run *e, real *most, real *off)
     }
 }
 
-/* Without viscosity a front oscillates by 20 % or more; with the default viscosity the overshoot is below 2e-3 and the
- * velocity behind it is v to 3e-3. The energy balance omits the first half step, in which the piston starts. */
+/* Checks that a front, which without viscosity oscillates by 20 % or more, has with the default viscosity an overshoot
+ * below 2e-3 and behind it the velocity v to 3e-3. The energy balance omits the first half step, in which the piston
+ * starts. */
 static void front_does_not_ring(void **state)
 {
     const struct front *f = *state;
@@ -72,8 +73,8 @@ static void front_does_not_ring(void **state)
     solution_free(&a);
 }
 
-/* Two peridynamic blocks in an eccentric collision: momentum and angular momentum are constant, because bond forces act
- * in pairs along the bonds. */
+/* Tests two peridynamic blocks in an eccentric collision: momentum and angular momentum are constant, because bond
+ * forces act in pairs along the bonds. */
 static void momenta_are_kept(void **state)
 {
     (void)state;
@@ -95,7 +96,7 @@ static void momenta_are_kept(void **state)
     solution_free(&a);
 }
 
-/* Random motion at 0.95 of the critical step: viscosity only dissipates energy. */
+/* Tests random motion at 0.95 of the critical step: viscosity only dissipates energy. */
 static void only_takes(void **state)
 {
     static const char *const block =
@@ -124,8 +125,8 @@ static void only_takes(void **state)
     solution_free(&a);
 }
 
-/* Four ways to drive an end at 2000 m/s, and the traction rho c v, give the same stable step: that of 5 m/s times the
- * ratio of sqrt(1 + q^2) - q. */
+/* Checks that four ways to drive an end at 2000 m/s, and the traction rho c v, give the same stable step: that of 5 m/s
+ * times the ratio of sqrt(1 + q^2) - q. */
 static void step_follows_every_drive(void **state)
 {
     static char *const drive[] = {
@@ -153,7 +154,7 @@ static void step_follows_every_drive(void **state)
     solution_free(&a);
 }
 
-/* Regions at rest: the key time.active_set changes no bit. */
+/* Tests regions at rest: the key time.active_set changes no bit. */
 static void rest_changes_no_bit(void **state)
 {
     struct solution a, b;

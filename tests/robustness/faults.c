@@ -39,7 +39,7 @@ void faults_arm(const struct fault_plan *p, long *count)
     counts = count;
 }
 
-/* Counts a call. Returns true if it must fail, with errno set. */
+/* Counts a call of the kind `call`. Returns true if it must fail, with errno set. */
 static bool hit(enum fault_call call)
 {
     if (!counts) return false;
@@ -52,7 +52,8 @@ static bool hit(enum fault_call call)
     return plan.deed == DO_FAIL;
 }
 
-/* Counts a call on a file; standard input, output and error are never disturbed. */
+/* Counts a call of the kind `call` on the file fd; returns true if it must fail. Standard input, output and error are
+ * never disturbed. */
 static bool hit_file(enum fault_call call, int fd) { return fd > STDERR_FILENO && hit(call); }
 
 /* Defines `next`, the C library's function of this name. */

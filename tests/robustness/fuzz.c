@@ -106,7 +106,8 @@ static void read_words(const char *path)
 
 /* ---- changes ----------------------------------------------------------------------------------------------------- */
 
-/* Inserts `gap` bytes at `at`, or removes -gap bytes; returns true if it was possible. */
+/* Inserts `gap` bytes at `at` in bytes[*n], or removes -gap bytes; returns true if it was possible within `most`
+ * bytes. */
 static bool shift(uint8_t *bytes, size_t *n, size_t at, long gap, size_t most)
 {
     if (gap > 0 && *n + (size_t)gap > most) return false;
@@ -124,7 +125,7 @@ static void put(uint8_t *bytes, size_t *n, size_t at, const void *piece, size_t 
     memmove(bytes + at, piece, length);
 }
 
-/* Writes a number at the limits of integers and reals. */
+/* Writes a number at the limits of integers and reals into bytes[n] at `at`. */
 static void put_number(uint8_t *bytes, size_t n, size_t at)
 {
     static const int64_t number[] = {
@@ -174,7 +175,7 @@ static void change(uint8_t *bytes, size_t *n, size_t most)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Returns memory for the bytes of a file, mapped so that they remain after a crash. */
+/* Returns memory for the bytes of a file for `target`, mapped so that they remain after a crash. */
 static uint8_t *make_room(const char *target)
 {
     char path[64];

@@ -24,7 +24,7 @@ static const char text[] =
 static struct scene scene;
 static struct output out;
 
-/* Creates a run of the scene with output in the folder `fuzz_run`. */
+/* Creates a run e of the scene with output in the folder `fuzz_run`. */
 static void begin(struct run *e)
 {
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
@@ -50,7 +50,7 @@ uint8_t *fuzz_checkpoint_seed(size_t *n)
     return seed;
 }
 
-/* Writes the bytes with a matching footer as checkpoint.h5; there is no other checkpoint. */
+/* Writes bytes[n] with a matching footer as checkpoint.h5; there is no other checkpoint. */
 static void put_checkpoint(const uint8_t *bytes, size_t n)
 {
     static const char path[] = "fuzz_run/checkpoint.h5";

@@ -45,7 +45,7 @@ void fuzz_exodus(const uint8_t *bytes, size_t n)
     }
 }
 
-/* Writes two squares, or with `spheres` their four lower nodes, with a side set and a node set. */
+/* Writes two squares to the file `to`, or with `spheres` their four lower nodes, with a side set and a node set. */
 static void seed_write(FILE *to, bool spheres)
 {
     struct netcdf_writer w = {.to = to};

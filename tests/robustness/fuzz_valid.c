@@ -22,7 +22,7 @@ struct maker {
     int dim;
 };
 
-/* Returns a number less than `below` from the next byte; 0 when the bytes are used up. */
+/* Returns a number less than `below` from the next byte of m; 0 when the bytes are used up. */
 static int choose(struct maker *m, int below) { return m->at < m->n ? m->bytes[m->at++] % below : 0; }
 
 static void add(struct maker *m, const char *format, ...)
@@ -34,7 +34,7 @@ static void add(struct maker *m, const char *format, ...)
     if (length > 0) m->length += (size_t)length < TEXT - m->length ? (size_t)length : TEXT - m->length - 1;
 }
 
-/* Appends one of several texts separated by |. */
+/* Appends one of several texts, `choices` separated by |, to the scene of m. */
 static void add_one(struct maker *m, const char *choices)
 {
     int count = 1;
@@ -43,7 +43,7 @@ static void add_one(struct maker *m, const char *choices)
     add(m, "%.*s", (int)strcspn(choices, "|"), choices);
 }
 
-/* Appends [a, b, ..] with components between low and high. */
+/* Appends [a, b, ..] with components between low and high to the scene of m. */
 static void add_vector(struct maker *m, double low, double high)
 {
     for (int d = 0; d < m->dim; d++) add(m, "%s%g", d ? ", " : "[", low + (high - low) * choose(m, 17) / 16);
@@ -59,7 +59,7 @@ static void add_box(struct maker *m, const double *from, const double *to)
     add(m, "]}}");
 }
 
-/* Appends a solid that is subtracted or kept, possibly moved and repeated. */
+/* Appends a solid that is subtracted or kept, possibly moved and repeated, to the scene of m. */
 static void add_cut(struct maker *m)
 {
     add(m, ", {"), add_one(m, "subtract|subtract|intersect"), add(m, ": {");
@@ -80,7 +80,8 @@ static void add_cut(struct maker *m)
     add(m, "}"), add_one(m, turns[m->dim - 1]), add(m, "}");
 }
 
-/* Appends the bodies. Lengths are in spacings of 1 m; waves travel about one spacing per second. */
+/* Appends the bodies to the scene of m. Lengths are in spacings of 1 m; waves travel about one spacing per second.
+ * edge: receives lengths of edges. */
 static void add_bodies(struct maker *m, double *edge)
 {
     static const double zero[DIM_MAX];
@@ -153,7 +154,7 @@ static void add_loads(struct maker *m, const double *edge)
     add(m, "output: {frames: 2, samples: 1000000}\n");
 }
 
-/* Fails if a result is not finite, unless the run reported it. */
+/* Fails if a result of e is not finite, unless the run reported it. when: for the message. */
 static void judge(const struct run *e, const char *when)
 {
     const struct particles *p = &e->part;

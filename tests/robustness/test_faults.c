@@ -54,7 +54,8 @@ static const struct sweep *sweeps = own_sweeps;
 static int sweep_count = COUNT_OF(own_sweeps);
 static struct place small_reference;
 
-/* Checks the end of a run after a fault: success, or one line that states what failed. */
+/* Checks the end of the run p after a fault: success, or one line that states what failed. what: for the message; end:
+ * exit status; cause: errno of the fault. */
 static void outcome(const char *what, const struct place *p, int end, int cause)
 {
     int lines;
@@ -114,7 +115,7 @@ static void failing_calls_lose_nothing(void **state)
     assert_int_equal(in_two(sweep_share), 0);
 }
 
-/* A text in memory is complete, or its end reports the loss, whichever allocation fails. */
+/* Checks that a text in memory is complete, or its end reports the loss, whichever allocation fails. */
 static void texts_in_memory_are_whole_or_refused(void **state)
 {
     enum { NUMBERS = 3000, EACH = 7 };
@@ -141,7 +142,8 @@ static void texts_in_memory_are_whole_or_refused(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* Breaks an invariant while a file is renamed, for each rename in turn, in the stepping or the writing thread. */
+/* Breaks an invariant while a file is renamed, for each rename in turn, in the stepping or the writing thread. worker:
+ * 0 or 1, half of the tests. */
 static void break_share(int worker)
 {
     const struct place p = place_of(worker ? "b" : "a", &small_scene);
@@ -186,8 +188,8 @@ static void every_probe_is_watched(void **state)
         if (!watched[kind]) fail_msg("no scene has probe %d", kind);
 }
 
-/* Ends a run `times` times by `deed` at the `number`-th call of `place` (0: a number for which the run completes), and
- * resumes it each time on another number of threads. */
+/* Ends a run of s `times` times by `deed` at the `number`-th call of `place` (0: a number for which the run completes),
+ * and resumes it each time on another number of threads. */
 static void disturb(const struct fault_scene *s, enum fault_call place, long number, enum fault_deed deed, int times)
 {
     const struct place reference = reference_of(s), p = place_of("disturbed", s);
@@ -219,7 +221,8 @@ static void stopped_runs_resume(void **state)
     assert_int_equal(in_two(stop_share), 0);
 }
 
-/* A resumed run couples once at its start, and again where it was killed. */
+/* Kills a run at calls; a resumed run couples once at its start, and again where it was killed. worker: 0 or 1, half of
+ * the tests. */
 static void kill_share(int worker)
 {
     if (worker == 0)
@@ -252,8 +255,8 @@ struct log_line {
     unsigned long hash;
 };
 
-/* Returns the line of the first sync of a path before line `from` (step -1) or after it (step 1); -1 if there is none
- * before a line of `end` (NULL: no limit). */
+/* Returns the line of the log line[lines] with the first sync of a path before line `from` (step -1) or after it (step
+ * 1); -1 if there is none before a line of `end` (NULL: no limit). */
 static int find_sync(const struct log_line *line, int lines, int from, int step, const char *path, const char *end)
 {
     for (int k = from; k >= 0 && k < lines; k += step) {
@@ -263,8 +266,8 @@ static int find_sync(const struct log_line *line, int lines, int from, int step,
     return -1;
 }
 
-/* Checks a rename: the file was synced before, and its folder is synced afterwards, before the next file of that
- * name. */
+/* Checks the rename in line[k] of the log: the file was synced before, and its folder is synced afterwards, before the
+ * next file of that name. */
 static void check_rename(const struct log_line *line, int lines, int k)
 {
     char folder[NAME], history[2 * NAME];
@@ -342,7 +345,7 @@ static bool flip(const char *path, uint64_t at)
 }
 
 /* Inverts half of 60 bits spread over the checkpoint of a run: none is accepted as whole, and the previous checkpoint
- * is used. */
+ * is used. worker: 0 or 1, half of the bits. */
 static void flip_share(int worker)
 {
     static const struct fault_plan stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
@@ -368,7 +371,8 @@ static void damaged_checkpoints_are_found(void **state)
     assert_int_equal(in_two(flip_share), 0);
 }
 
-/* Creates a folder of this process in TMPDIR, or beside the program, for all files of the tests. */
+/* Creates a folder of this process in TMPDIR, or beside `program`, for all files of the tests; its path is stored in
+ * `folder`. */
 static int enter(char *program, char *folder)
 {
     const char *place = getenv("TMPDIR");

@@ -33,7 +33,7 @@ struct small_scene {
  * some). */
 static const struct small_scene auto_scene = {.name = "auto", .file = "tests/robustness/scenes/auto.yaml"};
 
-/* Removes blanks at both ends of a text and returns its new beginning. */
+/* Removes blanks at both ends of `text` and returns its new beginning. */
 static char *trimmed(char *text)
 {
     while (*text == ' ') text++;
@@ -41,7 +41,7 @@ static char *trimmed(char *text)
     return text;
 }
 
-/* Reads the list and returns the number of scenes; the texts of settings are not freed. */
+/* Reads the list of small scenes into list[] and returns their number; the texts of settings are not freed. */
 static int list_read(struct small_scene *list)
 {
     FILE *f = fopen("tests/robustness/small_scenes.txt", "r");
@@ -117,7 +117,7 @@ static void key_walk(const struct key *k, const struct yaml_node *n)
         group_walk(n, group_below(k));
 }
 
-/* Records the keys of a group in a node; a word in a list stands for a kind, as for probes. */
+/* Records the keys of `group` in the node n; a word in a list stands for a kind, as for probes. */
 static void group_walk(const struct yaml_node *n, const char *group)
 {
     if (n->kind == NODE_LIST)
@@ -145,7 +145,8 @@ static bool group_is_here(const struct key *k)
     return false;
 }
 
-/* Records the keys of a scene after its includes and settings, and the words of the defaults of missing keys. */
+/* Records the keys of the scene `small` after its includes and settings, and the words of the defaults of missing
+ * keys. */
 static void scene_note(const struct small_scene *small)
 {
     char *text = NULL;
@@ -220,7 +221,7 @@ static void every_key_and_word_stands_in_a_small_scene(void **state)
     assert_int_equal(complaints, 0);
 }
 
-/* Writes the options in the usage of a command to `option` as " -o "; returns their number. */
+/* Writes the options in the usage of the command c to option[] as " -o "; returns their number. */
 static int options_of(const struct command *c, char option[WORDS_MOST][32])
 {
     char copy[LINE_MOST];
@@ -234,7 +235,7 @@ static int options_of(const struct command *c, char option[WORDS_MOST][32])
     return n;
 }
 
-/* Returns true if there is a line that calls the command, with this option unless it is "". */
+/* Returns true if there is a line that calls the command c, with this option unless it is "". */
 static bool is_called(const struct command *c, const char *option)
 {
     FILE *f = fopen("tests/robustness/small_commands.txt", "r");
@@ -249,7 +250,7 @@ static bool is_called(const struct command *c, const char *option)
     return found;
 }
 
-/* Every command and every option of its usage is called, except those of benches, which take minutes. */
+/* Checks that every command and every option of its usage is called, except those of benches, which take minutes. */
 static void every_command_and_option_is_called(void **state)
 {
     (void)state;

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 #include <hdf5.h>
 
-/* Returns the number of values in a list that are not finite. */
+/* Returns the number of values in value[n] that are not finite. */
 static hsize_t count_bad(const double *value, hsize_t n)
 {
     hsize_t bad = 0;
@@ -20,7 +20,7 @@ static hsize_t count_bad(const double *value, hsize_t n)
     return bad;
 }
 
-/* Reads all values of a dataset, allocated; NULL if it has no real numbers. */
+/* Reads all *n values of the dataset `list`, allocated; NULL if it has no real numbers. */
 static double *numbers_of(hid_t list, hsize_t *n)
 {
     const hid_t type = H5Dget_type(list), space = H5Dget_space(list);
@@ -58,7 +58,7 @@ static herr_t sync_near(hid_t file, const char *name, const H5O_info_t *info, vo
     return 0;
 }
 
-/* Counts the bad values of a file; a file that is not HDF5 has none. */
+/* Counts the bad values of the file `path`; a file that is not HDF5 has none. */
 static struct search look_through(const char *path)
 {
     struct search s = {.file = path};

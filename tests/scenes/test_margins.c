@@ -19,8 +19,8 @@ struct margins {
     unsigned left, right, upper, lower, width, height;
 };
 
-/* Returns the margins of a picture of 4 bytes a pixel, red, green, blue and opacity; all four are 0 if it has no ink.
- */
+/* Returns the margins of the picture pixel[4 width height], 4 bytes a pixel: red, green, blue and opacity; all four are
+ * 0 if it has no ink. */
 static struct margins margins_of(const uint8_t *pixel, unsigned width, unsigned height)
 {
     struct margins m = {width, width, height, height, width, height};
@@ -36,7 +36,8 @@ static struct margins margins_of(const uint8_t *pixel, unsigned width, unsigned 
     return m;
 }
 
-/* Reads a PNG and stores its margins. Returns 0, or -1 after a line that says what is wrong with the file. */
+/* Reads the PNG `path` and stores the margins of its picture in *m. Returns 0, or -1 after a line that says what is
+ * wrong with the file. */
 static int margins_of_file(const char *path, struct margins *m)
 {
     png_image image = {.version = PNG_IMAGE_VERSION};
@@ -53,8 +54,8 @@ static int margins_of_file(const char *path, struct margins *m)
     return read ? 0 : -1;
 }
 
-/* A white picture of 9 x 7 pixels with ink, and light grey that is none, has the margins of the ink; one that is cut
- * short is not read. */
+/* Checks that a white picture of 9 x 7 pixels with ink, and light grey that is none, has the margins of the ink; one
+ * that is cut short is not read. */
 static void margins_are_those_of_the_ink(void **state)
 {
     char path[] = "/tmp/test_margins.XXXXXX";

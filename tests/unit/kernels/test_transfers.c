@@ -161,8 +161,7 @@ static void check_fields(real *const *got, real *const *expected, int dim, int64
     for (int d = 0; d < dim; d++) assert_true(cloud_difference(got[d], expected[d], n) <= CLOSE);
 }
 
-/* Compares m v of the nodes of s, as velocities got[dim] have the relative error of a node's mass, which may be tiny.
- */
+/* Compares m v of the nodes of s, since velocities got[dim] have the relative error of a node's tiny mass. */
 static void check_motion(const struct scene *s, real *const *got, real *const *expected)
 {
     real *a = NEW("test.a", s->g.n, real), *b = NEW("test.b", s->g.n, real);
