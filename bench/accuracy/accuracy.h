@@ -189,19 +189,19 @@ bool accuracy_results_file_exists(void);
  * be read. */
 status accuracy_read_recorded_results(struct accuracy_plan *plan);
 
-/* Appends the result of a point (one run) to results/bench/accuracy.csv and closes the file, so that the results of an
- * interrupted bench are kept. Returns REFUSED or FAILED if the file cannot be written. */
+/* Appends the result of the point `entry` (one run) to results/bench/accuracy.csv and closes the file, so that the
+ * results of an interrupted bench are kept. Returns REFUSED or FAILED if the file cannot be written. */
 status accuracy_append_result_to_file(const struct accuracy_entry *entry);
 
-/* Writes all known results to results/bench/accuracy.csv and accuracy.json, and the problems with their errors to
- * accuracy_problems.csv. Returns REFUSED or FAILED if a file cannot be written. */
+/* Writes all known results of the plan to results/bench/accuracy.csv and accuracy.json, and the problems with their
+ * errors to accuracy_problems.csv. Returns REFUSED or FAILED if a file cannot be written. */
 status accuracy_write_all_results(const struct accuracy_plan *plan);
 
 /* Header of cost_accuracy.csv. keys: scene keys of the method besides spacing, horizon and step, as
  * key=value;key=value. */
 #define ACCURACY_TABLE_HEADER "problem,case,method,resolution,horizon,step,error,seconds,particles,steps,keys"
 
-/* Writes known points (runs) of the table to results/bench/cost_accuracy.csv. Points of one method at one horizon and
+/* Writes known points (runs) of the plan to results/bench/cost_accuracy.csv. Points of one method at one horizon and
  * time step form a line, related methods form a family (enum accuracy_family). A line is written if at least one of its
  * points is on the Pareto front of its family in some case. bench/accuracy/cost_accuracy.csv is a copy of the last
  * complete measurement. Returns FAILED if the file cannot be written. */
@@ -230,17 +230,17 @@ int accuracy_index_of_fastest_point(const struct accuracy_dot *dot, int dot_coun
  * and the horizon, and by `dt` and the fraction of the critical time step, if these are not the usual ones. */
 void accuracy_label(const struct accuracy_point *point, char *text, size_t capacity);
 
-/* Draws results/bench/accuracy_<problem>.png for every problem with known points, and the overview accuracy.png.
- * Returns FAILED if a picture cannot be drawn. */
+/* Draws results/bench/accuracy_<problem>.png for every problem of the plan with known points, and the overview
+ * accuracy.png. Returns FAILED if a picture cannot be drawn. */
 status accuracy_draw_all_pictures(const struct accuracy_plan *plan);
 
-/* Draws results/bench/accuracy.png: for each problem the runs and the Pareto fronts of peridynamics, of material points
- * and of both together, and above them the number of problems on which each of the three is cheapest
+/* Draws results/bench/accuracy.png: for each problem of the plan the runs and the Pareto fronts of peridynamics, of
+ * material points and of both together, and above them the number of problems on which each of the three is cheapest
  * (accuracy_chart.c). Returns FAILED if the picture cannot be drawn. */
 status accuracy_draw_overview_chart(const struct accuracy_plan *plan);
 
-/* Writes the overview page results/bench/accuracy.md and prints its table of the fastest methods. Returns FAILED if the
- * page cannot be written. */
+/* Writes the overview page of the plan, results/bench/accuracy.md, and prints its table of the fastest methods. Returns
+ * FAILED if the page cannot be written. */
 status accuracy_write_overview_page(const struct accuracy_plan *plan);
 
 /* Collects time and error of all known runs of a problem in dot[], and pointers to the entries of these runs in

@@ -58,7 +58,7 @@ static void chart_make(struct chart *c, const struct accuracy_plan *plan, const 
     memory_free(of);
 }
 
-/* Returns the height of the picture of all charts [pixel]. */
+/* Returns the height of the picture of all charts p [pixel]. */
 static int charts_height(const struct charts *p) { return p->rows * HEIGHT + HEADING + FOOT; }
 
 static void charts_free(struct charts *p)
@@ -69,8 +69,8 @@ static void charts_free(struct charts *p)
     }
 }
 
-/* Returns the class of methods that reaches the error `error` [1] in the least time on the problem of a chart; -1 if
- * no class does. */
+/* Returns the class of methods that reaches the error `error` [1] in the least time on the problem of chart c; -1 if no
+ * class does. */
 static int winner_of(const struct chart *c, double error)
 {
     int best = -1;
@@ -82,7 +82,7 @@ static int winner_of(const struct chart *c, double error)
     return best;
 }
 
-/* Sends the runs of chart number `number` to gnuplot as data blocks: $all<number> with all runs, then
+/* Sends the runs of chart c, number `number`, to gnuplot as data blocks: $all<number> with all runs, then
  * $f<number>_<class> with the Pareto front of each class of methods. Each block ends with a point without position,
  * since gnuplot refuses empty blocks. */
 static void chart_send(FILE *to, const struct chart *c, int number)
@@ -111,8 +111,8 @@ static void heading_line_write(FILE *to, int number, const char *text, double ab
     fprintf(to, " at screen 0.5,%.5g center font '%s' textcolor rgb '#111111'\n", 1 - above / height, font);
 }
 
-/* Writes the heading of the picture: the question, and as answer on how many problems each class of methods is the
- * cheapest for 5 % and 1 % error. */
+/* Writes the heading of the picture with the charts p to gnuplot: the question, and as answer on how many problems each
+ * class of methods is the cheapest for 5 % and 1 % error. */
 static void heading_write(FILE *to, const struct charts *p)
 {
     char text[256] = "";
@@ -158,7 +158,7 @@ static void chart_plot(FILE *to, const struct charts *p, int number)
     fputs("\nunset label 1\nunset label 2\nunset label 3\n", to);
 }
 
-/* Plots the legend in the first empty position among the charts, as a panel without axes. */
+/* Plots the legend in the first empty position among the charts p, as a panel without axes. */
 static void legend_plot(FILE *to, const struct charts *p)
 {
     const double width = COLUMNS * WIDTH, height = charts_height(p);

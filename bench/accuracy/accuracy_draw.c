@@ -29,18 +29,18 @@ static bool same_but_case(const struct accuracy_point *a, const struct accuracy_
            a->horizon == b->horizon && a->step == b->step;
 }
 
-/* Returns time and error of a result for a picture: its time on one thread [s], and its error or, for part >= 0, the
- * magnitude of this part of the error [1]. An unstable run has the error NAN. A part that is exactly 0 becomes 1e-9,
- * for the logarithmic axis. */
+/* Returns time and error of the result r for a picture: its time on one thread [s], and its error or, for part >= 0,
+ * the magnitude of this part of the error [1]. An unstable run has the error NAN. A part that is exactly 0 becomes
+ * 1e-9, for the logarithmic axis. */
 static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
 {
     const double error = part < 0 ? r->error : fmax(fabs(r->part[part]), 1e-9);
     return (struct accuracy_dot){r->seconds[0], r->stable ? error : NAN};
 }
 
-/* Computes *worst, the largest error and the longest time of the method of point p over all cases of its problem.
- * part: number of the part of the error, or -1 for the whole. Returns false if a case has not been run or does not
- * apply to the method. */
+/* Computes *worst, the largest error and the longest time of the method of point p over all cases of its problem in the
+ * plan. part: number of the part of the error, or -1 for the whole. Returns false if a case has not been run or does
+ * not apply to the method. */
 static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p, int part,
                       struct accuracy_dot *worst)
 {
@@ -139,7 +139,7 @@ static int group_of(const struct accuracy_point *p)
     return family == ACCURACY_REFERENCE ? REFERENCE_FRAME : CURRENT_FRAME;
 }
 
-/* Returns true if a run of family g of methods (an index of group[]) is on the Pareto front of a panel. */
+/* Returns true if a run of family g of methods (an index of group[]) is on the Pareto front of panel q. */
 static bool has_group(const struct panel *q, int g)
 {
     for (int k = 0; k < q->front_n; k++)
@@ -149,8 +149,8 @@ static bool has_group(const struct panel *q, int g)
 
 /* ---- content of a panel ------------------------------------------------------------------------------------------ */
 
-/* Sends two data blocks of a panel to gnuplot: the runs that are not on its Pareto front, and the unstable runs,
- * drawn at the upper edge. Each block ends with a point without position, since gnuplot refuses empty blocks. */
+/* Sends two data blocks of panel q to gnuplot: the runs that are not on its Pareto front, and the unstable runs, drawn
+ * at the upper edge. Each block ends with a point without position, since gnuplot refuses empty blocks. */
 static void put_others(FILE *to, const struct panel *q)
 {
     for (int unstable = 0; unstable < 2; unstable++) {
@@ -163,7 +163,7 @@ static void put_others(FILE *to, const struct panel *q)
     }
 }
 
-/* Sends the Pareto front of a panel to gnuplot as data blocks: first all its points for a line, then for each family of
+/* Sends the Pareto front of panel q to gnuplot as data blocks: first all its points for a line, then for each family of
  * methods its points with their labels. From the most accurate point on, a point gets its label if the label does not
  * overlap with the previous one; else an empty text. */
 static void put_front(FILE *to, const struct panel *q)
@@ -252,8 +252,8 @@ struct page {
     char title[PANELS_MAX][128];
 };
 
-/* Returns true if the last row of panels has an empty position for the key; else the key is to the right of all
- * panels. */
+/* Returns true if the last row of panels of page p has an empty position for the key; else the key is to the right of
+ * all panels. */
 static bool key_inside(const struct page *p) { return p->panels % p->columns != 0; }
 static int page_width(const struct page *p) { return p->columns * PANEL_WIDTH + (key_inside(p) ? 0 : KEY_PIXELS); }
 static int page_height(const struct page *p) { return p->rows * PANEL_HEIGHT; }

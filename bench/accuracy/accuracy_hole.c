@@ -68,8 +68,8 @@ static const char plate[] =
     "body: [{box: {from: [-5, -5], to: [5, 5]}}, {subtract: {disc: {centre: [0, 0], radius: 1}}}]\n"
     "particles: {spacing: 0.1}\npd: {region: {disc: {centre: [0, 0], radius: 2}}}\nconversion: {criteria: none}\n";
 
-/* Writes the scene of point p, the plate with a hole under tension: with a static solver or, in the reference frame,
- * with a load that grows as sin^2 over 30 transit times of a wave across the plate. */
+/* Writes the scene of point p into *s, the plate with a hole under tension: with a static solver or, in the reference
+ * frame, with a load that grows as sin^2 over 30 transit times of a wave across the plate. */
 static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double transit = 10 / sqrt(young / (1 - poisson * poisson)), duration = 30 * transit;

@@ -20,8 +20,8 @@ static const struct manufactured *accuracy_manufactured_motion_of(const struct a
     return p->problem->dim == 2 ? &square_motion : &cube_motion;
 }
 
-/* Writes the scene of point p with the body force of its manufactured solution. The run ends at 0.4 of the period T,
- * when displacement, velocity and strain are all large. */
+/* Writes the scene of point p into *s, with the body force of its manufactured solution. The run ends at 0.4 of the
+ * period T, when displacement, velocity and strain are all large. */
 static void accuracy_manufactured_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     static const char plane[] =

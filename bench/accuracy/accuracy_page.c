@@ -56,7 +56,7 @@ static void accuracy_page_put_table(FILE *to, const struct accuracy_plan *plan)
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a result of the problem q is known. */
+/* Returns true if the plan has a known result of the problem q. */
 static bool has_points(const struct accuracy_plan *plan, const struct accuracy_problem *q)
 {
     for (int k = 0; k < plan->n; k++)

@@ -120,7 +120,7 @@ static bool is_here(const struct accuracy_problem *q)
     return !s.path[0] || bench_scene_exists(s.path);
 }
 
-/* Creates the list of all points (runs) of the cost-accuracy table, from coarse to fine resolution, so that an
+/* Creates the list of all points (runs) of the cost-accuracy table in *plan, from coarse to fine resolution, so that an
  * interrupted table has every case and method. Returns REFUSED or FAILED if a scene cannot be read. Release with
  * accuracy_plan_free. */
 status accuracy_plan_make(struct accuracy_plan *plan)

@@ -98,7 +98,7 @@ bool accuracy_results_file_exists(void) { return path_is_file(STORE); }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes a number and a comma, or only the comma if the number is not finite. */
+/* Writes the number `value` and a comma to a CSV file, or only the comma if it is not finite. */
 static void accuracy_store_put_number(FILE *to, double value)
 {
     if (isfinite(value)) fprintf(to, "%.9g", value);

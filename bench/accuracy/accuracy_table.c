@@ -12,7 +12,7 @@
 
 /* ---- selection of lines ------------------------------------------------------------------------------------------ */
 
-/* Returns true if a point of the table has the known result of a stable run, with finite error and time. */
+/* Returns true if point e of the table has the known result of a stable run, with finite error and time. */
 static bool is_usable(const struct accuracy_entry *e)
 {
     return e->result.known && e->result.stable && isfinite(e->result.error) && isfinite(e->result.seconds[0]);

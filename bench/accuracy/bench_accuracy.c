@@ -32,9 +32,9 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Runs a point of the cost-accuracy table once on team + 1 threads. Lowers seconds[team] of its result to the time of
- * the time loop [s] if that is shorter than in earlier runs. Measures the error if it is not known yet. A run that
- * stops as unstable is a result, too, and OK is returned. Returns REFUSED or FAILED if the scene is invalid. */
+/* Runs the point `entry` of the cost-accuracy table once on team + 1 threads. Lowers seconds[team] of its result to the
+ * time of the time loop [s] if that is shorter than in earlier runs. Measures the error if it is not known yet. A run
+ * that stops as unstable is a result, too, and OK is returned. Returns REFUSED or FAILED if the scene is invalid. */
 static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct run e;
@@ -57,9 +57,9 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     return ran == FAILED ? OK : ran;
 }
 
-/* Runs a point of the cost-accuracy table on one thread and, unless it is 1D, on two threads. Repeats short runs up to
- * RUNS_MOST times, and appends the result to the file of results. The error is measured once, since it does not depend
- * on the number of threads. A run that fails is a result, too. Returns the first status that is not OK. */
+/* Runs the point `entry` of the cost-accuracy table on one thread and, unless it is 1D, on two threads. Repeats short
+ * runs up to RUNS_MOST times, and appends the result to the file of results. The error is measured once, since it does
+ * not depend on the number of threads. A run that fails is a result, too. Returns the first status that is not OK. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
@@ -79,7 +79,7 @@ static status run_point(struct accuracy_entry *entry)
 
 /* ---- all points -------------------------------------------------------------------------------------------------- */
 
-/* Returns the predicted time of all repetitions of a point [s], for comparison with other points of its problem: 100 ns
+/* Returns the predicted time of all repetitions of point p [s], for comparison with other points of its problem: 100 ns
  * per particle and step, more for long horizons, plus set-up. The absolute value is only approximate. */
 static double work_of(const struct accuracy_point *p)
 {
@@ -103,8 +103,8 @@ static int accuracy_number_of(const struct accuracy_problem *q)
     return k;
 }
 
-/* Returns the predicted time of the remaining points [s]: from the measured rate for problems with results, and from
- * their tabulated durations for others. quick: true to use the durations with --quick. */
+/* Returns the predicted time of the remaining points of g [s]: from the measured rate for problems with results, and
+ * from their tabulated durations for others. quick: true to use the durations with --quick. */
 static double seconds_left(const struct progress *g, bool quick)
 {
     double left = 0;
@@ -156,8 +156,8 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     return OK;
 }
 
-/* Writes tables and charts from the known results, without runs. If there are none, draws the charts of the stored
- * table. Returns the first status that is not OK. */
+/* Writes tables and charts from the known results of the plan, without runs. If there are none, draws the charts of the
+ * stored table. Returns the first status that is not OK. */
 static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));

@@ -102,19 +102,19 @@ static status scene_prepare(const struct circles *c, const struct circle_specime
     return file_write_whole(path, s->text, strlen(s->text));
 }
 
-/* Returns the coordinate x [m] at which a lattice that is turned by 45 degrees has a row of particles. Without a
- * pre-crack it is 0. With one it is such that the tip is a quarter of the distance of rows away from a row. All tips
- * between two rows cut the same bonds, and this one is in the middle of them. */
+/* Returns the coordinate x [m] at which the lattice of run r that is turned by 45 degrees has a row of particles.
+ * Without a pre-crack it is 0. With one it is such that the tip is a quarter of the distance of rows away from a row.
+ * All tips between two rows cut the same bonds, and this one is in the middle of them. */
 static double lattice_middle(const struct circle_run *r)
 {
     const double crack = r->of->crack;
     return crack > 0 ? 1e-3 * (crack + 0.25 * r->spacing / sqrt(2)) : 0;
 }
 
-/* Writes the particles of a run on a turned lattice to a file as a list, and appends overrides to *o that replace the
- * body of the scene by this list. Bonds then have uniform weights, because isotropic weights are made for lattices
- * along the axes. The load is scaled to the cross-section that the list has, which differs from that of the specimen.
- * Returns FAILED if the list cannot be written. */
+/* Writes the particles of run r on a turned lattice to a file in the folder of c as a list, and appends overrides to *o
+ * that replace the body of the scene by this list. Bonds then have uniform weights, because isotropic weights are made
+ * for lattices along the axes. The load is scaled to the cross-section that the list has, which differs from that of
+ * the specimen. Returns FAILED if the list cannot be written. */
 static status body_turn(const struct circles *c, struct circle_run *r, struct bench_overrides *o)
 {
     const struct circle_specimen *s = &circle_specimen[r->of->specimen];
@@ -175,8 +175,8 @@ static double case_turned_spacing(const struct circle_case *of, int j, bool quic
     return j == 0 && !repeats && of->turned[0] > QUICK_LEAST ? of->turned[0] : 0;
 }
 
-/* Adds the runs of the cases of the name `only` (NULL: all). quick: those of --quick. Returns FAILED if a file cannot
- * be written. */
+/* Adds the runs of the cases whose circle has the text `only` in its name (NULL: all) to c. quick: only those of
+ * --quick; table: receives a row for each run. Returns FAILED if a file cannot be written. */
 static status circles_add(struct circles *c, const char *only, bool quick, struct bench_table *table)
 {
     for (int k = 0; k < circle_cases_count; k++)
@@ -191,7 +191,7 @@ static status circles_add(struct circles *c, const char *only, bool quick, struc
     return OK;
 }
 
-/* Prints how many of the measured values to which an expected value applies are outside their tolerances. */
+/* Prints how many of the values measured in c to which an expected value applies are outside their tolerances. */
 static void missed_print(const struct circles *c)
 {
     int asked = 0, missed = 0;

@@ -141,7 +141,7 @@ static double column_peak(const char *folder, const char *column)
 }
 
 /* Returns the load of a notched strip [MPa] when the column `column` of the history first exceeds `limit`; NAN if it
- * does not. */
+ * does not. folder: output of the run r. */
 static double load_at(const char *folder, const struct circle_run *r, const char *column, double limit)
 {
     struct history h;
@@ -236,8 +236,8 @@ const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS] = {
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
 /* Adds one particle of a list at the height y [m], with the volume `volume` [m^3], to two sums: list->section, the mean
- * cross-section over that of the specimen, weighted by a triangle over the middle half of its height; and list->layer,
- * the same for the loaded layer at its upper end. */
+ * cross-section over that of the specimen s, weighted by a triangle over the middle half of its height; and
+ * list->layer, the same for the loaded layer at its upper end. */
 static void circle_list_add(struct circle_list *list, const struct circle_specimen *s, double y, double volume)
 {
     const double reach = 0.5 * s->to[1], width = s->to[0] - s->from[0], section = 1e-3 * width;

@@ -86,7 +86,7 @@ struct bench_results {
  * in the results. Returns REFUSED outside a source tree, FAILED if a file cannot be created. */
 status bench_results_begin(struct bench_results *r, const char *bench_name, bool quick);
 
-/* Ends the collection that bench_results_begin began and prints the collected output. If the bench succeeded
+/* Ends the collection r that bench_results_begin began and prints the collected output. If the bench succeeded
  * (`bench_status` is OK), also writes the output to bench/results/NAME.txt with NAME = bench_name. Returns
  * `bench_status` if it is not OK, else FAILED if the file cannot be written, else OK. */
 status bench_results_end(struct bench_results *r, const char *bench_name, status bench_status);

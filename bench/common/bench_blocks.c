@@ -20,8 +20,8 @@ const struct bench_block bench_blocks[BENCH_BLOCKS] = {
     {"adaptive reference", 3, "adaptive", "reference"},
 };
 
-/* Writes the scene keys for the crack through half of a block and, with the adaptive method, for a peridynamic
- * region around it, a tenth of the volume. Writes nothing with method mpm. edge: of the block [m]. */
+/* Writes the scene keys for the crack through half of block b and, with the adaptive method, for a peridynamic region
+ * around it, a tenth of the volume. Writes nothing with method mpm. edge: of the block [m]. */
 static void block_parts(FILE *to, const struct bench_block *b, double edge)
 {
     const double low = 0.45 * edge, high = 0.55 * edge, middle = 0.5 * edge;
@@ -38,14 +38,14 @@ static void block_parts(FILE *to, const struct bench_block *b, double edge)
         fprintf(to, "pd: {region: {box: {from: [%.9g, 0, 0], to: [%.9g, %.9g, %.9g]}}}\n", low, high, edge, edge);
 }
 
-/* Returns the number of particles along the edge of a block of about `particles` particles, at least 12. */
+/* Returns the number of particles along the edge of block b of about `particles` particles, at least 12. */
 static int64_t edge_of_block(const struct bench_block *b, double particles)
 {
     const int64_t n = (int64_t)round(pow(particles, 1.0 / b->dim));
     return n > 12 ? n : 12;
 }
 
-/* Writes the scene of a block for timing. particles: approximate number of particles; steps, frames: numbers of time
+/* Writes the scene of block b for timing. particles: approximate number of particles; steps, frames: numbers of time
  * steps and of frames. Every particle moves, because particles at rest may be skipped; displacements remain small, with
  * 1 m/s at the farthest corner. All grid cells of the reference frame have an edge of two spacings. With coarser cells
  * a run could only be stopped at steps at which all levels of cells have the same time, and parts of it could not be

@@ -15,7 +15,7 @@
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Initialises an empty table of results. name: "" for the main table of a bench; header: names of its columns,
+/* Initialises t as an empty table of results. name: "" for the main table of a bench; header: names of its columns,
  * separated by commas. Both are kept by reference. */
 void bench_table_make(struct bench_table *t, const char *name, const char *header)
 {
@@ -67,7 +67,7 @@ static void put_csv(FILE *to, const struct bench_table *t)
     }
 }
 
-/* Copies the name of column k from the header of a table into name[size]. */
+/* Copies the name of column k from the header of table t into name[size]. */
 static void output_column_name(const struct bench_table *t, int64_t k, char *name, size_t size)
 {
     const char *from = t->header;

@@ -106,7 +106,8 @@ status bench_results_copy_table(const char *file_name, const char *text)
 /* ---- standard output --------------------------------------------------------------------------------------------- */
 
 /* Begins to collect what the bench `bench_name` prints and the tables that it writes. quick: the bench runs with
- * --quick. Returns REFUSED outside a source tree, FAILED if no temporary file can be created. */
+ * --quick. Returns REFUSED outside a source tree, FAILED if no temporary file can be created. *r: state of the
+ * collection. */
 status bench_results_begin(struct bench_results *r, const char *bench_name, bool quick)
 {
     if (!path_exists("bench"))

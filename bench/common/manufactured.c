@@ -51,9 +51,9 @@ struct manufactured_values manufactured_at(const struct manufactured *m, const r
     return v;
 }
 
-/* Writes one plane wave of the body force as an entry of `boundary` in a scene. The spatial part of the force, a
- * product of a sine and cosines, is the mean of 2^(dim - 1) such waves. sign[dim]: direction of the wave, 1 or -1
- * per axis; beats: true for the part proportional to sin^2(pi t/T), false for the constant part. */
+/* Writes one plane wave of the body force of m as an entry of `boundary` in a scene. The spatial part of the force, a
+ * product of a sine and cosines, is the mean of 2^(dim - 1) such waves. sign[dim]: direction of the wave, 1 or -1 per
+ * axis; beats: true for the part proportional to sin^2(pi t/T), false for the constant part. */
 static void put_wave(FILE *to, const struct manufactured *m, const int *sign, bool beats)
 {
     const int waves = 1 << (m->dim - 1);

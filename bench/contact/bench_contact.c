@@ -47,7 +47,7 @@ bool contact_case_holds(const struct contact_case *c, const double *measured)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Prints the measured values figure[CONTACT_FIGURES] of a case, and a remark if one is outside its required range. */
+/* Prints the measured values figure[CONTACT_FIGURES] of case c, and a remark if one is outside its required range. */
 static void contact_print(const struct contact_case *c, const double *figure)
 {
     const bool holds = contact_case_holds(c, figure);

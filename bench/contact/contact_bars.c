@@ -48,9 +48,9 @@ static status bars_run(struct run *e, struct contact_course *seen)
     return report_finish_after_last_step(e);
 }
 
-/* Runs two equal bars that approach each other with opposite velocities. given[] of the case: lengths of the first and
- * the second bar [spacings], speed of each [wave speeds], and again the negative speed. Stores the relative velocity
- * after the collision, the duration of contact and the largest force, each over its exact value, in measured[0] to
+/* Runs two equal bars that approach each other with opposite velocities. c->given[]: lengths of the first and the
+ * second bar [spacings], speed of each [wave speeds], and again the negative speed. Stores the relative velocity after
+ * the collision, the duration of contact and the largest force, each over its exact value, in measured[0] to
  * measured[2], and the largest energy error [1] in measured[3]. Returns FAILED if a step fails. */
 status contact_measure_bar_collision(const struct contact_case *c, double *measured)
 {
@@ -70,10 +70,9 @@ status contact_measure_bar_collision(const struct contact_case *c, double *measu
     return ran;
 }
 
-/* Runs a bar that hits a bar of twice its length at rest. given[] of the case: lengths of both [spacings], speed of the
- * first [wave speeds]. Stores the velocities of both bars after the collision over the initial velocity, exactly 0 and
- * 1/2, in measured[0] and measured[1], and the largest energy error [1] in measured[2]. Returns FAILED if a step fails.
- */
+/* Runs a bar that hits a bar of twice its length at rest. c->given[]: lengths of both [spacings], speed of the first
+ * [wave speeds]. Stores the velocities of both bars after the collision over the initial velocity, exactly 0 and 1/2,
+ * in measured[0] and measured[1], and the largest energy error [1] in measured[2]. Returns FAILED if a step fails. */
 status contact_measure_striker_bar(const struct contact_case *c, double *measured)
 {
     struct run e;
@@ -91,8 +90,8 @@ status contact_measure_striker_bar(const struct contact_case *c, double *measure
     return ran;
 }
 
-/* Runs a plane bar between two rigid walls, until it has hit them given[1] times in total. The gaps at its two ends sum
- * to 5 spacings. given[0]: particles along the bar, with a fifth of this number across it; given[2]: speed [wave
+/* Runs a plane bar between two rigid walls, until it has hit them c->given[1] times in total. The gaps at its two ends
+ * sum to 5 spacings. given[0]: particles along the bar, with a fifth of this number across it; given[2]: speed [wave
  * speeds]. Stores the largest error of the energy [1] in measured[0], and that of the momentum in measured[1]. Returns
  * FAILED if a step fails. */
 status contact_measure_bouncing_bar(const struct contact_case *c, double *measured)

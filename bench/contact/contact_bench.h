@@ -32,7 +32,7 @@ extern const struct contact_case contact_cases[];
 /* Number of entries of the table contact_cases. */
 extern const int contact_cases_count;
 
-/* Returns true if all quantities measured[CONTACT_FIGURES] of the case are within their required ranges. */
+/* Returns true if all quantities measured[CONTACT_FIGURES] of the case c are within their required ranges. */
 bool contact_case_holds(const struct contact_case *c, const double *measured);
 
 /* Creates the run e of a scene and stores the scene in *s. text: the scene, a format of printf followed by its

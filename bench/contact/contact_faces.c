@@ -64,7 +64,7 @@ status contact_measure_cut_block(const struct contact_case *c, double *measured)
 
 /* ---- Hertz ------------------------------------------------------------------------------------------------------- */
 
-/* Runs a ball of radius R = given[0] spacings that hits a rigid plane at the speed v = given[1] wave speeds.
+/* Runs a ball of radius R = c->given[0] spacings that hits a rigid plane at the speed v = c->given[1] wave speeds.
  * measured[0]: exponent of the force over the approach (Hertz: 3/2), fitted above a tenth of the largest force;
  * measured[1]: duration over that of Hertz, 2.87 (m^2/(R E*^2 v))^(1/5) with the mass m and E* = E/(1 - nu^2);
  * measured[2]: speed afterwards over v; measured[3]: energy error [1]. Returns FAILED if a step fails. */

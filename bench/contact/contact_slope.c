@@ -5,9 +5,9 @@
 #include "probes/diagnostics.h"
 #include "step/report.h"
 
-/* Runs a block of 12 x 8 particles on a slope with the tangent given[0] and the coefficient of friction given[1], on a
- * rigid floor if given[2] > 0, else on a deformable one. measured[0]: its acceleration over g sin(slope); measured[1]:
- * distance it has moved [spacings]; measured[2]: energy error [1]. Returns FAILED if a step fails. */
+/* Runs a block of 12 x 8 particles on a slope with the tangent c->given[0] and the coefficient of friction given[1], on
+ * a rigid floor if given[2] > 0, else on a deformable one. measured[0]: its acceleration over g sin(slope);
+ * measured[1]: distance it has moved [spacings]; measured[2]: energy error [1]. Returns FAILED if a step fails. */
 status contact_measure_sliding_block(const struct contact_case *c, double *measured)
 {
     struct run e;

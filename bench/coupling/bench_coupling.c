@@ -55,8 +55,8 @@ static status bar_add(struct bar_table *t, struct bar_run r)
 }
 
 /* Runs the bar with all couplings and several widths of the pulse, with a grid node at the interface between bonds and
- * material points, and adds the results to the table. quick: true for fewer widths. Returns FAILED or REFUSED if a run
- * does. */
+ * material points, and adds the results to the table t. quick: true for fewer widths. Returns FAILED or REFUSED if a
+ * run does. */
 static status measure_pulses(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant < VARIANTS; variant++)
@@ -68,8 +68,8 @@ static status measure_pulses(struct bar_table *t, bool quick)
 enum { PLACES = 4 };
 
 /* Runs the bar with the couplings partial stress and handshake for several distances between the interface and the next
- * node of the grid, whose cells have two spacings, and adds the results to the table. quick: fewer widths of the pulse.
- * Returns FAILED or REFUSED if a run does. */
+ * node of the grid, whose cells have two spacings, and adds the results to the table t. quick: fewer widths of the
+ * pulse. Returns FAILED or REFUSED if a run does. */
 static status measure_places(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
@@ -84,7 +84,7 @@ static status measure_places(struct bar_table *t, bool quick)
 }
 
 /* Runs the bar with the couplings partial stress and handshake, with one particle per cell and with the transfer APIC,
- * and adds the results to the table. With APIC, partial stress is run once only, since only FLIP damps the interface.
+ * and adds the results to the table t. With APIC, partial stress is run once only, since only FLIP damps the interface.
  * quick: fewer combinations. Returns FAILED or REFUSED if a run does. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
@@ -114,8 +114,8 @@ static double share_of(const struct pulse_result *r, int share)
     return share == REFLECTED ? r->reflected : share == TRANSMITTED ? r->transmitted : r->energy_change;
 }
 
-/* Prints a line for each coupling with its results for all widths of the pulse. Runs of one coupling must be
- * consecutive in the table. */
+/* Prints a line of table t for each coupling with its results for all widths of the pulse. Runs of one coupling must be
+ * consecutive in it. */
 static void print_pulses(const struct bar_table *t)
 {
     static const char *const format[SHARES] = {" %7.2f", " %7.1f", " %+7.2f"};

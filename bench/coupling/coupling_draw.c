@@ -27,7 +27,8 @@ static const char *const variant_title[VARIANTS] = {
     [VARIANT_PGG] = "pgg",
 };
 
-/* Begins one of four panels of the picture, with its key on the right. column, row: its position, each 0 or 1. */
+/* Begins one of four panels of the picture, titled `title`, with its key on the right. column, row: its position, each
+ * 0 or 1. */
 static void coupling_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.055 + 0.5 * column, above = 0.945 - 0.5 * row;
@@ -47,7 +48,8 @@ static void set_logarithmic(FILE *to)
 
 /* ---- the bar ----------------------------------------------------------------------------------------------------- */
 
-/* Draws the amplitude that the interface in the bar reflects over the width of the pulse, a line for each coupling. */
+/* Draws, from table t, the amplitude that the interface in the bar reflects over the width of the pulse, a line for
+ * each coupling. */
 static void draw_pulses(FILE *to, const struct bar_table *t)
 {
     for (int variant = 0; variant < VARIANTS; variant++) {
@@ -94,8 +96,8 @@ static bool of_series(const struct plane_row *r, const struct series *s)
            !strcmp(r->weights, "isotropic");
 }
 
-/* Draws a panel with the reflected amplitude over the width of the pulse, with a line for each entry of `series`. The
- * amplitude is that of means over blocks of particles, which can travel as a wave. */
+/* Draws, from table t, a panel with the reflected amplitude over the width of the pulse, with a line for each entry of
+ * `series`. The amplitude is that of means over blocks of particles, which can travel as a wave. */
 static void draw_plane(FILE *to, const struct plane_table *t)
 {
     bool there[SERIES] = {false};
@@ -141,8 +143,8 @@ static void plot_bars(FILE *to, const char *block, int members, const char *cons
     fputs("NaN notitle\n", to);
 }
 
-/* Draws bars of the reflected amplitude for three couplings and each width of the pulse. A bar is the maximum over all
- * positions of the interface in its grid cell, with a line for the interface on a node. */
+/* Draws, from table t, bars of the reflected amplitude for three couplings and each width of the pulse. A bar is the
+ * maximum over all positions of the interface in its grid cell, with a line for the interface on a node. */
 static void draw_places(FILE *to, const struct bar_table *t)
 {
     static const int variant[] = {VARIANT_HANDSHAKE, VARIANT_DAMPED, VARIANT_UNDAMPED};
@@ -173,8 +175,9 @@ static void draw_places(FILE *to, const struct bar_table *t)
     plot_bars(to, "place", 3, colour, title);
 }
 
-/* Draws bars of the largest nodal force in the patch test, for each shape of the interface and each coupling. A bar is
- * the maximum over all loads and positions of the grid, with a line for the interface on a grid node. */
+/* Draws, from table t, bars of the largest nodal force in the patch test, for each shape of the interface and each
+ * coupling. A bar is the maximum over all loads and positions of the grid, with a line for the interface on a grid
+ * node. */
 static void draw_patch(FILE *to, const struct patch_table *t)
 {
     static const char *const shape[] = {"flat", "45 degrees", "circle, r = 8 D", "square, 6 x 6 D"};

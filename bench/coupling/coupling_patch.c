@@ -114,14 +114,14 @@ status patch_test_measure_nodal_forces(struct patch_table *table, bool quick)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if two rows of the patch test are printed in one line because they differ only in their load. */
+/* Returns true if the rows a and b of the patch test are printed in one line because they differ only in their load. */
 static bool coupling_patch_same_line(const struct patch_row *a, const struct patch_row *b)
 {
     return !strcmp(a->shape, b->shape) && !strcmp(a->coupling, b->coupling) && !strcmp(a->weights, b->weights) &&
            a->cell == b->cell;
 }
 
-/* Prints the results of the patch test, one line for all loads of an interface and coupling. */
+/* Prints the results of the patch test in `table`, one line for all loads of an interface and coupling. */
 void patch_print(const struct patch_table *table)
 {
     printf(

@@ -156,7 +156,7 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
 }
 
 /* Runs the strip once without interface, then with all couplings and weights of bonds, and adds the results to the
- * table. interface: FLAT or OBLIQUE; width: of the pulse [spacings]; transfer: value of the scene key mpm.transfer,
+ * table t. interface: FLAT or OBLIQUE; width: of the pulse [spacings]; transfer: value of the scene key mpm.transfer,
  * "flip" or "apic". Returns FAILED or REFUSED if a run does. */
 static status group_measure(struct plane_table *t, int interface, double width, const char *transfer)
 {

@@ -132,7 +132,7 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }
 
-/* Returns the median over the repetitions of a run of its loop time without the time spent on `part`, such as samples
+/* Returns the median over the repetitions of run r of its loop time without the time spent on `part`, such as samples
  * or conversion [s]. */
 static double median_without(const struct run_times *r, enum loop_part part, int repetitions)
 {
@@ -141,7 +141,7 @@ static double median_without(const struct run_times *r, enum loop_part part, int
     return median_by_sorting(t, repetitions);
 }
 
-/* Returns the median over the repetitions of a run of the share of its loop time that is spent on conversion and
+/* Returns the median over the repetitions of run r of the share of its loop time that is spent on conversion and
  * samples, hence neither on bonds nor on material points [1]. */
 static double median_rest(const struct run_times *r, int repetitions)
 {
@@ -191,9 +191,9 @@ static void efficiency_print_header(int repetitions)
            "angles", "starts", "PD share", "rest_share", "aim", "in the way");
 }
 
-/* Finds the part of the loop (bonds, points, conversion or samples) that takes most time in an adaptive run, writes its
- * name and its time over that of full peridynamics to text[room], and returns text. Returns "" if the run saves as much
- * time as required, or if nothing is required. variant: index of the adaptive run. */
+/* Finds the part of the loop (bonds, points, conversion or samples) that takes most time in an adaptive run of x,
+ * writes its name and its time over that of full peridynamics to text[room], and returns text. Returns "" if the run
+ * saves as much time as required, or if nothing is required. variant: index of the adaptive run. */
 static const char *variant_obstacle(const struct result *x, int variant, char *text, size_t room)
 {
     int most = 0;
@@ -354,8 +354,8 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     fputs("set yrange [*:*]\n", to);
 }
 
-/* Returns the number of panels that show shares of peridynamic particles over time. Each bond-based scene at its own
- * spacing has a panel; these scenes come first in the list and are the only ones in Zeng et al. 2022. */
+/* Returns the number of panels of `all` that show shares of peridynamic particles over time. Each bond-based scene at
+ * its own spacing has a panel; these scenes come first in the list and are the only ones in Zeng et al. 2022. */
 static int panels(const struct efficiency *all)
 {
     int n = 0;

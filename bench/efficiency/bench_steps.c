@@ -162,7 +162,7 @@ static status stepped_method(struct bench_table *t, const struct breaking_method
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 /* Runs all scenes, peridynamic models, methods and rules for the last force of a breaking bond, and adds their figures
- * to the table. quick: short scenes and one model only. Returns REFUSED if no scene exists, FAILED if a run fails. */
+ * to the table t. quick: short scenes and one model only. Returns REFUSED if no scene exists, FAILED if a run fails. */
 static status stepped_all(struct bench_table *t, bool quick)
 {
     int done = 0;

@@ -31,7 +31,7 @@ static int by_y(const void *a, const void *b)
     return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Divides a frame into columns, slices one spacing wide from x = 0 on, and returns them as an allocated array with the
+/* Divides frame f into columns, slices one spacing wide from x = 0 on, and returns them as an allocated array with the
  * branches of the crack in each. columns: receives their number; spacing [m]. The caller releases the array with
  * memory_free. */
 static struct branch_column *columns_of(const struct output_frame *f, double spacing, int *columns)

@@ -7,11 +7,12 @@
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the factor on the rotation at time t [s]: sin^2(pi t/(2 T)), which grows from 0 to 1 over the time T. */
+/* Returns the factor on the rotation of the vortex v at time t [s]: sin^2(pi t/(2 T)), which grows from 0 to 1 over the
+ * time T. */
 static double vortex_growth(const struct vortex *v, double t) { return square(sin(M_PI * t / (2 * v->period))); }
 
-/* Returns the rotation angle alpha of the vortex at X[2] [m] and time t [s] in rad, and stores alpha'/R in *slope, its
- * derivative along the radius R over R [1/m^2]. */
+/* Returns the rotation angle alpha of the vortex v at X[2] [m] and time t [s] in rad, and stores alpha'/R in *slope,
+ * its derivative along the radius R over R [1/m^2]. */
 static double vortex_angle(const struct vortex *v, const double *X, double t, double *slope)
 {
     const double rest = 1 - X[0] * X[0] - X[1] * X[1], grown = v->turn * vortex_growth(v, t);
@@ -93,8 +94,8 @@ void vortex_compute_piola_stress(const struct vortex *v, double F[2][2], double 
 
 /* ---- force ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the derivatives of the stresses P_ab along axis b at X[2] [m] and time t [s] to sum[a], for a = 0 and 1 [N/m^3],
- * by fourth-order central differences. The sum over b = 0 and 1 is the divergence Div P. */
+/* Adds the derivatives of the stresses P_ab of the vortex v along axis b at X[2] [m] and time t [s] to sum[a], for a =
+ * 0 and 1 [N/m^3], by fourth-order central differences. The sum over b = 0 and 1 is the divergence Div P. */
 static void divergence_add(const struct vortex *v, const double *X, double t, int b, double *sum)
 {
     static const double place[] = {-2, -1, 1, 2}, share[] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};

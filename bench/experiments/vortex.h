@@ -30,19 +30,19 @@ struct vortex {
  * bulk modulus of the plane. longest_bond: length of the longest bond [spacings]. */
 void vortex_fill_bonds_of_lattice(struct vortex *v, double longest_bond);
 
-/* Computes the deformation gradient F of the vortex at the reference position position[2] [m] and time t [s]. */
+/* Computes the deformation gradient F of the vortex v at the reference position position[2] [m] and time t [s]. */
 void vortex_compute_deformation_gradient(const struct vortex *v, const double *position, double t, double F[2][2]);
 
 /* Computes the first Piola-Kirchhoff stress P [Pa] at the deformation gradient F by the law v->law. */
 void vortex_compute_piola_stress(const struct vortex *v, double F[2][2], double P[2][2]);
 
-/* Computes the position present_position[2] [m] at time t [s] of the material point at the reference position
- * reference_position[2] [m]. */
+/* Computes the position present_position[2] [m] at time t [s] of the material point of the vortex v at the reference
+ * position reference_position[2] [m]. */
 void vortex_compute_present_position(const struct vortex *v, const double *reference_position, double t,
                                      double *present_position);
 
-/* Computes the body force body_force[2] per reference volume [N/m^3] that the motion requires at the reference position
- * position[2] [m] and time t [s]. */
+/* Computes the body force body_force[2] per reference volume [N/m^3] that the motion v requires at the reference
+ * position position[2] [m] and time t [s]. */
 void vortex_compute_body_force(const struct vortex *v, const double *position, double t, double *body_force);
 
 #endif

@@ -330,8 +330,8 @@ static void find_limits(struct kernel_bench *b)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Times all kernels, and the whole runs that have targets, computes lower limits of the times, and prints and writes
- * the results. quick: few repetitions. Returns FAILED if a run or a file fails. */
+/* Times all kernels, and the whole runs that have targets, computes lower limits of the times, stores all in *b, and
+ * prints and writes the results. quick: few repetitions. Returns FAILED if a run or a file fails. */
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_targets_measure_memory(&b->targets));

@@ -116,8 +116,8 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the set-up time of a block over the time of a step of full peridynamics on a block of the same dimension and
- * size [1]. which: index in bench_blocks; size: index in size_of. */
+/* Returns the set-up time of a block of b over the time of a step of full peridynamics on a block of the same dimension
+ * and size [1]. which: index in bench_blocks; size: index in size_of. */
 static double setup_steps(const struct scale_bench *b, int which, int size)
 {
     int pd = which;
@@ -222,8 +222,8 @@ static void scale_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures the block bench_blocks[which] at the first `sizes` sizes, as far as the memory of the machine allows, and
- * prints the results. quick: small sizes. Returns FAILED if a run fails. */
+/* Measures the block bench_blocks[which] at the first `sizes` sizes, as far as the memory of the machine allows, stores
+ * the results in *b and prints them. quick: small sizes. Returns FAILED if a run fails. */
 static status measure_block(struct scale_bench *b, int which, int sizes, bool quick)
 {
     const struct bench_block *block = &bench_blocks[which];

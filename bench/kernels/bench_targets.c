@@ -124,7 +124,7 @@ static status time_everything(struct targets_bench *b, int repetitions)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Appends a measured quantity with its target to f, unless f is full. */
+/* Appends `figure`, a measured quantity with its target, to f, unless f is full. */
 static void add_figure(struct targets *f, struct target_figure figure)
 {
     if (f->figures < SPEED_TARGETS_MAX) f->figure[f->figures++] = figure;

@@ -87,10 +87,11 @@ static inline double job_bonds_per_particle(const struct job *job, const struct 
     return job_visits_bonds(job) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
 }
 
-/* Prints the limits of the machine, the times of all kernels and the targets (kernels_draw.c). */
+/* Prints the limits of the machine, the times of all kernels and the targets in b (kernels_draw.c). */
 void kernels_print(const struct kernel_bench *b);
 
-/* Writes the tables and draws the picture of the bench (kernels_draw.c). Returns FAILED if a file cannot be written. */
+/* Writes the tables and draws the picture of the bench b (kernels_draw.c). Returns FAILED if a file cannot be
+ * written. */
 status kernels_write(const struct kernel_bench *b);
 
 #endif

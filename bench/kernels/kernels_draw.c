@@ -13,7 +13,7 @@ static const char *const job_name[JOB_KINDS] = {
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints the measured limits of the machine for one thread: time of the arithmetic of a bond, memory bandwidth, and
+/* Prints the measured limits l of the machine for one thread: time of the arithmetic of a bond, memory bandwidth, and
  * time of a step of a simple material point method per particle. */
 static void print_limits(const struct limits *l)
 {
@@ -86,8 +86,8 @@ static void kernels_draw_put_label(FILE *to, const char *variant, const char *mo
     fprintf(to, "%s\"", more);
 }
 
-/* Sends two data blocks for each dimension D: $bD with the times of bond kernels per bond, $pD with the times of
- * transfers per particle, one row per shape function [ns]. */
+/* Sends two data blocks of b to gnuplot for each dimension D: $bD with the times of bond kernels per bond, $pD with the
+ * times of transfers per particle, one row per shape function [ns]. */
 static void send_data(FILE *to, const struct kernel_bench *b)
 {
     for (int d = 1; d <= DIM_MAX; d++) {

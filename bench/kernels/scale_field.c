@@ -155,8 +155,8 @@ static double field_off(const struct field_row *r, const struct field_row *direc
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns how many of the largest cells of run k the rising front of the pulse spans; the front is half of the length
- * of the pulse. */
+/* Returns how many of the largest cells of run k the rising front of the pulse of b spans; the front is half of the
+ * length of the pulse. */
 static double cells_in_front(const struct field_bench *b, int k)
 {
     return 0.5 * b->pulse * b->speed / (1e-3 * b->spacing * (2 << field_runs[k].levels));
@@ -186,9 +186,9 @@ static enum timer largest_timer(const struct field_row *r)
     return (enum timer)most;
 }
 
-/* Prints the fastest of the runs whose K_I deviates by at most K_AIM from direct run number `direct`, and whether its
- * time is shorter by the required factor. part: true for runs of the part between absorbing faces, false for those of
- * the whole plate. */
+/* Prints the fastest of the runs of b whose K_I deviates by at most K_AIM from direct run number `direct`, and whether
+ * its time is shorter by the required factor. part: true for runs of the part between absorbing faces, false for those
+ * of the whole plate. */
 static void field_print_aim(const struct field_bench *b, int direct, bool part)
 {
     int best = -1;
@@ -268,8 +268,8 @@ static void field_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Makes all runs, prints a row for each with its differences from the direct runs (bonds, or cells of two spacings,
- * everywhere), and writes table and picture. Returns FAILED if a run or a file fails. */
+/* Makes all runs of b, prints a row for each with its differences from the direct runs (bonds, or cells of two
+ * spacings, everywhere), and writes table and picture. Returns FAILED if a run or a file fails. */
 static status field_measure(struct field_bench *b)
 {
     printf("  spacing %g mm, half plate of %.0f by %.0f spacings; pulse of %.0f spacings, its front %.0f; %d samples; "

@@ -179,9 +179,9 @@ static int rows_of(const struct growth_row *row)
     return n;
 }
 
-/* Computes the exponents by which particles, memory and time of the series s grow, and finds the section of a step that
- * exceeds its goal most. The goal for the finest run is the time of the section in the coarsest run, extrapolated with
- * the required exponent. row[]: runs of the series from coarse to fine. */
+/* Computes into *f the exponents by which particles, memory and time of the series s grow, and finds the section of a
+ * step that exceeds its goal most. The goal for the finest run is the time of the section in the coarsest run,
+ * extrapolated with the required exponent. row[]: runs of the series from coarse to fine. */
 static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, const struct growth_series *s)
 {
     const int n = rows_of(row);
@@ -306,8 +306,8 @@ static void growth_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures all series of runs, prints a row for each spacing, fits the exponents, and writes table and picture. quick:
- * few and short runs; finest: true to include the finest spacings. Returns FAILED if a run or a file fails. */
+/* Measures all series of runs into *b, prints a row for each spacing, fits the exponents, and writes table and picture.
+ * quick: few and short runs; finest: true to include the finest spacings. Returns FAILED if a run or a file fails. */
 static status growth_measure(struct growth_bench *b, bool quick, bool finest)
 {
     bool any = false;

@@ -311,8 +311,8 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints numbers of particles and bonds, times of a step, and the difference between the results of Cleave and LAMMPS
- * for case c. */
+/* Prints the result r of case c: numbers of particles and bonds, times of a step, and the difference between the
+ * results of Cleave and LAMMPS. */
 static void print_result(const struct peer_case *c, const struct peer_result *r)
 {
     printf("  %-15s %s %8.5f %9.0f %10.0f %6.0f", c->name, c->law, c->reach, r->particles, r->bonds, r->cut);

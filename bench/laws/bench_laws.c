@@ -114,8 +114,8 @@ bool laws_figure_holds(const struct laws_figure *expected, double measured)
     return fabs(measured - expected->expected) <= expected->tolerance;
 }
 
-/* Prints the measured values found[LAWS_FIGURES] of a case beside the expected ones, and adds a row for each to the
- * table. */
+/* Prints the measured values found[LAWS_FIGURES] of case c beside the expected ones, and adds a row for each to the
+ * table `rows`. */
 static void laws_rows(const struct laws_case *c, const double *found, struct bench_table *rows)
 {
     for (int k = 0; k < LAWS_FIGURES && c->asked[k].what; k++) {

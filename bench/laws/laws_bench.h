@@ -51,19 +51,19 @@ struct law laws_steel(enum flow flow);
  * duration 0, so that the strain rate has no effect. */
 struct law_points laws_points_at_rest(void);
 
-/* Adds the elastic stress of a strain increment to the stress of all points in `points`, and keeps the previous stress
- * in points->before. strain_increment[SYM_MAX]: tensor components of the increment [1]; normal components out of a
- * plane or across a bar are not used if `space` leaves them free. */
+/* Adds the elastic stress of a strain increment by `law` to the stress of all points in `points`, and keeps the
+ * previous stress in points->before. strain_increment[SYM_MAX]: tensor components of the increment [1]; normal
+ * components out of a plane or across a bar are not used if `space` leaves them free. */
 void laws_add_elastic_stress_of_increment(const struct law *law, struct law_points *points,
                                           const real *strain_increment, enum space space);
 
 /* Returns the elastic energy density [J/m^3] of the first of the eight points in `points`. law: their material law. */
 real laws_elastic_energy_density(const struct law *law, const struct law_points *points);
 
-/* Strains an element with the material law `law` by 500 random increments of up to 0.2 %, with an explicit law update
- * after each. Returns the relative error of the energy, which should be 0: the work of the strains minus elastic energy
- * and plastic work, divided by the sum of the absolute values of the work of all increments. Returns NAN if the element
- * has hardly yielded. */
+/* Strains an element with the law `law` in the plane or body `space` by 500 random increments of up to 0.2 %, with an
+ * explicit law update after each. Returns the relative error of the energy, which should be 0: the work of the strains
+ * minus elastic energy and plastic work, divided by the sum of the absolute values of the work of all increments.
+ * Returns NAN if the element has hardly yielded. */
 double laws_energy_error_of_random_strains(const struct law *law, enum space space);
 
 /* Pulls a bar of laws_steel and measures, for the case c, the stress at the strains 0.01 and 0.05 [MPa] and the plastic

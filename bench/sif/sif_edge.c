@@ -50,7 +50,7 @@ static double speed_of(const struct edge_row *r) { return r->steps * r->side * r
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Prints the result of a run of the edge crack, beside the steps and time that Table 2 of doi
+/* Prints the result r of a run of the edge crack, beside the steps and time that Table 2 of doi
  * 10.1007/s11804-026-00791-z states for it, if it does. */
 static void sif_edge_print_row(const struct edge_row *r)
 {

@@ -136,7 +136,7 @@ static const struct path_row path_row[PATHS] = {
     {.name = "0.5 mm", .key = "particles.spacing", .value = "0.5 mm"},
 };
 
-/* Returns the root mean square of K_II/K_I over the rows of a history in which the crack grows, without its first 2 mm
+/* Returns the root mean square of K_II/K_I over the rows of history h in which the crack grows, without its first 2 mm
  * of growth. */
 static double modes_ratio(const struct history *h)
 {

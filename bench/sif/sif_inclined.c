@@ -62,8 +62,8 @@ static status sif_inclined_take_row(void *row, const char *folder)
 }
 
 /* Runs the inclined crack of case c, of half length 3 mm around the point (10, 5) mm, with the rule variant[v] for the
- * constants of bonds and a probe at its upper tip, and appends the result to the table. quick: coarse spacing. Returns
- * FAILED if the run fails. */
+ * constants of bonds and a probe at its upper tip, and appends the result to the table t. quick: coarse spacing.
+ * Returns FAILED if the run fails. */
 static status inclined_add(struct inclined_table *t, const struct inclined_case *c, int v, bool quick)
 {
     const double phi = c->angle * 3.14159265358979 / 180, x = 3 * sin(phi), y = 3 * cos(phi);

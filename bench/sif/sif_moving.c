@@ -191,8 +191,8 @@ static struct bench_job job_of(struct moving_row *r, const struct moving_case *c
     return job;
 }
 
-/* Makes all runs, as many at a time as there are threads, each on one thread, so that times are those of one thread.
- * quick: only the first QUICK cases. Returns FAILED if a run fails. */
+/* Makes all runs of t, as many at a time as there are threads, each on one thread, so that times are those of one
+ * thread. quick: only the first QUICK cases. Returns FAILED if a run fails. */
 static status sif_moving_run_all(struct moving_table *t, bool quick)
 {
     struct bench_job job[CASES];
@@ -249,8 +249,8 @@ static bool is_sudden(const struct moving_case *c)
     return false;
 }
 
-/* Sends K_I over sigma (pi a)^(1/2) for all runs of the figures `groups` and the exact curves to gnuplot. sigma: stress
- * on the crack plane; a = 12 mm, as in Imachi et al. (2019); groups: figures of that paper, as bits. */
+/* Sends K_I over sigma (pi a)^(1/2) for all runs in t of the figures `groups` and the exact curves to gnuplot. sigma:
+ * stress on the crack plane; a = 12 mm, as in Imachi et al. (2019); groups: figures of that paper, as bits. */
 static void put_curves(FILE *to, const struct moving_table *t, int groups)
 {
     const double size = stress * sqrt(3.14159265358979 * 12e-3);
@@ -280,9 +280,9 @@ static bool is_shown(const struct moving_case *c, int groups, int column)
     return (c->groups & groups) && (release_methods(groups) || is_sudden(c) == (column == 2));
 }
 
-/* Draws one of two panels with K_I over time. column: 1 for the upper panel, K_I by the probe without the process zone;
- * 2 for the lower panel, K_I by the sum over the whole disc around the tip, as in Imachi et al. (2019). groups: figures
- * of that paper whose cases are drawn, as bits; what: title. */
+/* Draws one of two panels with K_I over time in the runs of t. column: 1 for the upper panel, K_I by the probe without
+ * the process zone; 2 for the lower panel, K_I by the sum over the whole disc around the tip, as in Imachi et al.
+ * (2019). groups: figures of that paper whose cases are drawn, as bits; what: title. */
 static void sif_moving_draw_panel(FILE *to, const struct moving_table *t, int groups, int column, const char *what)
 {
     const double above = column < 2 ? 0.93 : 0.45;
@@ -338,8 +338,9 @@ static status draw_groups(const struct moving_table *t)
 /* Returns the largest relative deviation of K_I from the exact value in the run r [1]. */
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
-/* Adds the goals for stationary and moving cracks to *asked. Those for moving cracks apply to spacings of 0.25 mm
- * and less. A release of bonds over a whole horizon has a goal of its own, as it delays the start of the crack. */
+/* Adds the goals for stationary and moving cracks to *asked. Those for moving cracks apply to spacings of 0.25 mm and
+ * less. A release of bonds over a whole horizon has a goal of its own, as it delays the start of the crack. t:
+ * results. */
 static void sif_moving_ask(struct bench_goals *asked, const struct moving_table *t)
 {
     double worst = 0, slow = 0;

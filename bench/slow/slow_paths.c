@@ -18,7 +18,7 @@ struct path_row {
     double found, expected, apart; /* angles found and expected, and their difference [degree] */
 };
 
-/* Finds the next row of the history, from row *from on, in which the columns path_x and path_y, the position of the
+/* Finds the next row of history h, from row *from on, in which the columns path_x and path_y, the position of the
  * farthest crack tip, differ from place[2] [m]. Stores this position in place[2] and the row in *from. Returns false if
  * there is none; place[2] is then the last position. */
 static bool path_next(const struct history *h, int64_t *from, double place[2])
@@ -34,7 +34,7 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
 
 /* ---- kinks ------------------------------------------------------------------------------------------------------- */
 
-/* Stores the position of the crack tip in row 1 of the history, before the crack grows, in place[2] [m]. */
+/* Stores the position of the crack tip in row 1 of history h, before the crack grows, in place[2] [m]. */
 static void path_start(const struct history *h, double place[2])
 {
     place[0] = history_value_at(h, 1, history_find_column(h, "path_x"));
@@ -68,7 +68,7 @@ static status kink_take(void *row, const char *folder)
     return OK;
 }
 
-/* Adds a row called `name` with the results r to the table. Raises *worst to r->apart, the deviation of the angle
+/* Adds a row called `name` with the results r to the table t. Raises *worst to r->apart, the deviation of the angle
  * [degree], or sets it to NAN if that is NAN. */
 static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
 {

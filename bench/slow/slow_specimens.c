@@ -175,7 +175,7 @@ static status slow_add(struct slow_table *t, int of, int model, double fine)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the results of all specimens as the table slow_specimens.csv. Returns FAILED if it cannot be written. */
+/* Writes the results of all specimens in t as the table slow_specimens.csv. Returns FAILED if it cannot be written. */
 static status slow_rows_write(const struct slow_table *t)
 {
     struct bench_table rows;

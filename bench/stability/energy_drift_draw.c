@@ -42,8 +42,8 @@ static double decades(double rate)
     return copysign(log10(fmin(MOST_RATE, fmax(fabs(rate), LEAST_RATE)) / LEAST_RATE), rate);
 }
 
-/* Sends the growth rates of the cases of group g to gnuplot as data blocks, one each for cases that hold, fail and have
- * stopped. at: position of the first case on the axis. Returns the position of the next group. */
+/* Sends the growth rates of the cases of group g in table t to gnuplot as data blocks, one each for cases that hold,
+ * fail and have stopped. at: position of the first case on the axis. Returns the position of the next group. */
 static int put_group(FILE *to, const struct bench_table *t, int g, int at)
 {
     static const char *const verdict[] = {"holds", "fails", "stopped"};
@@ -102,7 +102,7 @@ static void energy_drift_draw_put_label(FILE *to, const char *text, double x, do
     fprintf(to, " at screen %g,%g %s\n", x, y, style);
 }
 
-/* Draws a line of text for each named scene with its largest change of energy, growth rate and verdict. */
+/* Draws a line of text for each named scene of table t with its largest change of energy, growth rate and verdict. */
 static void put_named(FILE *to, const struct bench_table *t)
 {
     double y = 0.94;

@@ -83,7 +83,7 @@ static status stability_cases_published(const struct taker *t)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Sets quoted_low and quoted_high of a case to the published range of its stability limit, if there is one. In one
+/* Sets quoted_low and quoted_high of case c to the published range of its stability limit, if there is one. In one
  * dimension ranges are published for whole numbers of points per cell. */
 static void quote(struct stability_case *c)
 {

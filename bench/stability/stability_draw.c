@@ -6,7 +6,8 @@
 #include "plot/gnuplot.h"
 #include "stability.h"
 
-/* Begins one of four panels of the picture, with its key on the right. column, row: its position, each 0 or 1. */
+/* Begins one of four panels of the picture, titled `title`, with its key on the right. column, row: its position, each
+ * 0 or 1. */
 static void stability_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.052 + 0.5 * column, above = 0.95 - 0.5 * row;

@@ -15,7 +15,7 @@ enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, REMEDY, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,remedy";
 
 /* Measures all quantities of scene s with the method of row r, prints them, and adds a row with verdict and remedy for
- * each to the table. Returns FAILED or REFUSED if the scene cannot be run. */
+ * each to the table t. Returns FAILED or REFUSED if the scene cannot be run. */
 static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
@@ -77,8 +77,8 @@ static bool fails(const struct bench_table *t, int64_t row)
     return !strcmp(stability_scenes_text_of(t, row, VERDICT), "fails");
 }
 
-/* Returns true if a scene begins in row number `row` of the table: the previous row belongs to another scene, or there
- * is none. */
+/* Returns true if a scene begins in row number `row` of table t: the previous row belongs to another scene, or there is
+ * none. */
 static bool begins(const struct bench_table *t, int64_t row)
 {
     return row == 0 || strcmp(stability_scenes_text_of(t, row, SCENE), stability_scenes_text_of(t, row - 1, SCENE));
@@ -108,7 +108,7 @@ static void stability_scenes_put_label(FILE *to, const char *text, double x, int
     fprintf(to, " at screen %g, first %d %s\n", x, -line, style);
 }
 
-/* Writes the failure in row r of the table as line number `line` of the picture: method, quantity, measured value,
+/* Writes the failure in row r of table t as line number `line` of the picture: method, quantity, measured value,
  * threshold and remedy. */
 static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int line)
 {
@@ -122,7 +122,7 @@ static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int li
     stability_scenes_put_label(to, stability_scenes_text_of(t, r, REMEDY), 0.745, line, "left textcolor rgb '#1b6b3a'");
 }
 
-/* Writes the name of the scene that begins in row r of the table, and how many of its quantities meet their thresholds,
+/* Writes the name of the scene that begins in row r of table t, and how many of its quantities meet their thresholds,
  * as line number `line` of the picture. */
 static void put_scene(FILE *to, const struct bench_table *t, int64_t r, int line)
 {

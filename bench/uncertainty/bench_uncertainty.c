@@ -81,7 +81,7 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the absolute difference between the mean of a figure at the finest spacing and its exact value. */
+/* Returns the absolute difference between the mean of figure r at the finest spacing and its exact value. */
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
 /* Returns the share of the values in rows [1] whose error interval contains the exact value. nominal: probability with
