@@ -86,6 +86,8 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
+/* Returns the source of the mirror image j (an index of the particle arrays of b): a particle of the body, possibly
+ * through several mirrors, with the axes that these mirrors reverse (bit d: axis d). */
 struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t j)
 {
     struct seen to = {image_source_particle(b->p, b->source->image, j), 0};

@@ -75,6 +75,9 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
+/* Marks (FLAG_NEAR) the points beside the slits and voids n whose faces approach each other, so that they convert
+ * before the faces touch: moves these points of p with the mesh of `frame` first. loads: with the mirror images of the
+ * points; spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if n has faces. */
 bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
                                   const struct loads *loads, real spacing, real time_ahead)
 {

@@ -275,6 +275,8 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
 
 /* ---- rates ------------------------------------------------------------------------------------------------------- */
 
+/* Interpolates a quantity that is table_values[k] at the strain rate r->rate[k] to the strain rate `rate` [1/s] and
+ * returns it: linear in the logarithm of the rate, constant beyond the table. */
 real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate)
 {
     int k = 0;

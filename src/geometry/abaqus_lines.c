@@ -67,6 +67,7 @@ status abaqus_parse_label(const struct source *s, const char *field, int32_t *la
 
 /* ---- keywords ------------------------------------------------------------------------------------------------- */
 
+/* Copies the word `from` to to[FIELD] in capitals and without blanks; a longer word is cut. */
 void abaqus_plain_word(char *to, const char *from)
 {
     size_t n = 0;

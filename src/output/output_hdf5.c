@@ -222,6 +222,8 @@ void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type t
 
 /* ---- links ------------------------------------------------------------------------------------------------------- */
 
+/* Creates in f the external link `name` to the dataset of the same path in the file target_file, a path relative to the
+ * folder of f. A failure is stored in f->failed. */
 void hdf_create_external_link(struct hdf *f, const char *name, const char *target_file)
 {
     if (ready(f)) good(f, H5Lcreate_external(target_file, name, f->file, name, H5P_DEFAULT, H5P_DEFAULT));
@@ -398,6 +400,8 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
 
 /* ---- files of other programs ------------------------------------------------------------------------------------- */
 
+/* Returns true if the data of `dataset` are in its own file, neither in an external one nor in those of a virtual
+ * dataset. */
 bool hdf_dataset_is_in_its_file(hid_t dataset)
 {
     hid_t made = H5Dget_create_plist(dataset);

@@ -124,6 +124,8 @@ void particles_file_create_links(struct hdf *frame, const struct particles_file 
 
 /* ---- checking ---------------------------------------------------------------------------------------------------- */
 
+/* Reads the hash of the contents of the particles file `path` into *content_hash, 0 if the file is a frame or another
+ * file of a run. Returns false if the file cannot be read. */
 bool particles_file_read_content_hash(const char *path, int64_t *content_hash)
 {
     struct hdf h;

@@ -41,6 +41,8 @@ enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 
 /* ---- area of a crack increment ----------------------------------------------------------------------------------- */
 
+/* Returns the fraction of a crack area whose energy belongs to the modelled body: 1/2 if all cracks `tips` lie on
+ * planes of symmetry of bond_source, else 1. plane_axis: only planes perpendicular to this axis count; -1: all. */
 real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
                                     int plane_axis)
 {

@@ -248,6 +248,8 @@ static status read_series(struct reader *r, const struct key *k, const struct ya
 
 /* ---- references by name ------------------------------------------------------------------------------------------ */
 
+/* Returns REFUSED with the message that node n names no existing `what`, such as a material, and the most similar name,
+ * `nearest`. */
 static status fault_reference(struct reader *r, const struct yaml_node *n, const char *what, const char *nearest)
 {
     return fault(r, n, "there is no %s %s; the nearest is %s", what, node_text(r, n), nearest);
@@ -290,6 +292,8 @@ static status scene_value_read_body(struct reader *r, const struct yaml_node *n,
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
+/* Reads the value of key k from node n into group_values, the structure of the group of k, by the type of k. Returns
+ * REFUSED, with a message, for an invalid value. */
 status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *group_values)
 {
     char none[16];
