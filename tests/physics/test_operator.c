@@ -33,6 +33,7 @@ static int asks, done, wrong;
 
 /* ---- one case ---------------------------------------------------------------------------------------------------- */
 
+/* Returns the number of rigid motions that the support of the case c leaves to `bodies` bodies. */
 static int rigid_of(const struct stability_case *c, int bodies)
 {
     static const int rigid[][DIM_MAX + 1] = {[FREE] = {0, 1, 3, 6},

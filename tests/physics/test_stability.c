@@ -112,6 +112,8 @@ static void test_caught(void **state)
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 
+/* Returns the critical time step that Cleave computes for the scene `text` with the override key=value [s]; key NULL:
+ * without. */
 static double automatic_of(const char *text, const char *key, const char *value)
 {
     struct run e;

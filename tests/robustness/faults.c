@@ -63,6 +63,8 @@ static bool hit_file(enum fault_call call, int fd) { return fd > STDERR_FILENO &
 
 /* ---- the log ----------------------------------------------------------------------------------------------------- */
 
+/* Returns a hash of the bytes of the file `path`, read by system calls that are not counted; 0 if there is no such
+ * file. */
 unsigned long fault_hash(const char *path)
 {
     unsigned char bytes[4096];
@@ -96,6 +98,7 @@ static void log_sync(int fd)
 
 /* ---- the whole process ------------------------------------------------------------------------------------------- */
 
+/* Returns the argument `mode` of open() with these flags, which is in `rest` only if a file may be created; else 0. */
 static mode_t mode_of(int flags, va_list rest) { return flags & (O_CREAT | O_TMPFILE) ? va_arg(rest, mode_t) : 0; }
 
 int open(const char *path, int flags, ...)

@@ -75,6 +75,7 @@ static uint64_t draw(uint64_t below)
 
 /* ---- inputs ------------------------------------------------------------------------------------------------------ */
 
+/* Adds a copy of bytes[n] to the pool of inputs, in place of a random one if the pool is full. */
 static void pool_add(const uint8_t *bytes, size_t n)
 {
     const int at = pooled < POOL ? pooled++ : (int)draw(POOL);

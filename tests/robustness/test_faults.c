@@ -172,6 +172,7 @@ static void broken_invariants_lose_nothing(void **state)
 
 /* ---- stopped and killed ------------------------------------------------------------------------------------------ */
 
+/* Checks that every kind of probe is in one of the scenes that are disturbed. */
 static void every_probe_is_watched(void **state)
 {
     bool watched[64] = {false};
@@ -240,6 +241,7 @@ static void killed_runs_resume(void **state)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
+/* Copies the path of the folder of the file `path` to folder[NAME]; "." if it names none. */
 static void folder_of(const char *path, char *folder)
 {
     snprintf(folder, NAME, "%s", path);

@@ -13,6 +13,7 @@
 
 /* ---- status and memory ------------------------------------------------------------------------------------------- */
 
+/* Returns REFUSED with a message that is composed of a text and a number, for tests of status_set. */
 static status inner(void) { return status_set(REFUSED, "%s: %d is %s", "x.yaml:3:1", 7, "too large"); }
 static status outer(void)
 {
@@ -148,6 +149,7 @@ static void broken_invariants_leave_one_line(void **state)
 
 /* ---- team -------------------------------------------------------------------------------------------------------- */
 
+/* Returns term i of the harmonic series from 1 on, times the factor *context, for tests of sums. */
 static real harmonic(const void *context, int64_t i) { return *(const real *)context / (real)(i + 1); }
 
 static void sums_do_not_depend_on_threads(void **state)
@@ -278,6 +280,7 @@ static void bounds_hold_the_added_solids(void **state)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
+/* Checks values of all kinds of functions of time between, at and beyond their times, jumps included. */
 static void time_functions_follow_their_definitions(void **state)
 {
     (void)state;
@@ -302,6 +305,7 @@ static void time_functions_follow_their_definitions(void **state)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
+/* Checks that crack c cuts the bond between a and b, if `cut` is true, or does not, in both directions. */
 static void check_cut(const struct crack *c, const real *a, const real *b, int dim, bool cut)
 {
     assert_int_equal(crack_cuts_bond(c, a, b, dim), cut);
@@ -375,6 +379,8 @@ static void cracks_are_symmetric_at_their_tips(void **state)
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
+/* Compares elastic constants in every space with closed forms, to round-off, and wave speeds with those of Imachi et
+ * al. 2019, to the digits given. */
 static void elastic_constants_agree_with_closed_forms(void **state)
 {
     (void)state;

@@ -33,6 +33,8 @@ static void scenes_are_sound(void **state)
 
 /* ---- the plate with a hole --------------------------------------------------------------------------------------- */
 
+/* Checks that the solution for a plate with a hole has a free hole and edges under its tension, within 3e-4 of it, and
+ * the factor 3.36 at the hole. */
 static void hole_is_free_and_edges_are_pulled(void **state)
 {
     (void)state;

@@ -12,6 +12,8 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
+/* Compares the particles of p within `radius` of X that the cells c find, without `skip`, with a test of all
+ * particles. */
 static void search_equals_all_pairs(const struct particles *p, const struct cells *c, const real *X, real radius,
                                     int32_t skip)
 {

@@ -121,6 +121,7 @@ static real plain_pairs(const struct run *e, real *f)
 
 /* ---- law `surface` ----------------------------------------------------------------------------------------------- */
 
+/* Returns Wendland's kernel at the distance q of its range [1], 0 beyond it. */
 static real wendland(real q) { return q < 1 ? pow(1 - q, 4) * (1 + 4 * q) : 0; }
 
 /* Returns the density of a face at the height s [spacings] above a particle of a layer: the number of particles nearby,

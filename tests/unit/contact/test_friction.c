@@ -52,6 +52,7 @@ static void spring_follows_its_face(void **state)
 
 /* ---- in a body --------------------------------------------------------------------------------------------------- */
 
+/* Reads the scene `text` into s and returns its run before the first step. */
 static struct run *body_begin(struct scene *s, const char *text)
 {
     struct run *e = NEW("test.engine", 1, struct run);

@@ -188,6 +188,7 @@ static void test_surfaces(void **state)
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
+/* Returns the distance of particles i and j of p in the reference state [spacings]. */
 static real distance(const struct particles *p, int64_t i, int64_t j)
 {
     real sum = 0;

@@ -87,6 +87,7 @@ static void force(struct stage *s, enum pd_model model) { force_with(s, model, &
 
 /* ---- crossed bonds and their weights ----------------------------------------------------------------------------- */
 
+/* Returns twice the area of the triangle a, b, x, positive if x is to the left of the line from a to b. */
 static real side(const real *a, const real *b, const real *x)
 {
     return (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
@@ -161,6 +162,7 @@ static void test_law(void **state)
 
 /* ---- energy and momentum ----------------------------------------------------------------------------------------- */
 
+/* Computes the forces of s with `model` and returns the energy of its bonds [J]. */
 static real energy_of(struct stage *s, enum pd_model model)
 {
     struct kernels k;
@@ -247,6 +249,7 @@ static void test_energy_of_breaking(void **state)
 
 /* ---- start and direction of growth ------------------------------------------------------------------------------- */
 
+/* Checks that a crack begins to grow in the step of its start, at its speed, and stops at its length. */
 static void test_length(void **state)
 {
     (void)state;

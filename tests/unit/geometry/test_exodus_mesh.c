@@ -272,6 +272,7 @@ static void spheres(void **state)
 
 /* ---- what is refused --------------------------------------------------------------------------------------------- */
 
+/* Asserts that bad.e is refused with a message that has the text `message`. */
 static void refused(const char *message)
 {
     struct geometry g;

@@ -22,6 +22,7 @@ static int64_t soft_forces(struct soft_body *s)
 
 /* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
+/* Creates s, two particles with a bond that softens by `law`. */
 static void pair_make(struct soft_body *s, enum softening law)
 {
     memset(s, 0, sizeof *s);
@@ -134,6 +135,7 @@ static void test_at_once(void **state)
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
+/* Creates s, an irregular body of two materials whose bonds soften by `law`. seed: of its positions. */
 static void body_make(struct soft_body *s, enum space space, enum softening law, uint64_t seed)
 {
     memset(s, 0, sizeof *s);

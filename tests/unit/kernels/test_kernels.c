@@ -53,6 +53,8 @@ static void body_make(struct particle_cloud *c, int dim, int way)
 
 /* ---- force and breaking ------------------------------------------------------------------------------------------ */
 
+/* Compares the forces of c with the plain implementation, with the weights w; those of particles without bonds must be
+ * as in `before`. */
 static void check_force(const struct particle_cloud *c, const struct particles *before, const real *w)
 {
     const struct particles *p = &c->p;
@@ -251,6 +253,7 @@ static void test_column_kinds(void **unused)
 
 /* ---- energy and stress ------------------------------------------------------------------------------------------- */
 
+/* Compares the energy of bonds with the plain implementation, for all models, dimensions and kinds of bodies. */
 static void test_bond_energy(void **state)
 {
     (void)state;
@@ -298,6 +301,8 @@ static void test_bond_stress(void **state)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
+/* Compares positions and velocities after a step with the plain leap-frog, in all dimensions and kinds of bodies, to
+ * two roundings of each. */
 static void test_pd_move(void **state)
 {
     (void)state;
@@ -327,6 +332,7 @@ static void test_pd_move(void **state)
 
 /* ---- threads ----------------------------------------------------------------------------------------------------- */
 
+/* Checks that energy, forces, stresses and motion on one thread and on two are bitwise equal. */
 static void test_bond_threads(void **state)
 {
     (void)state;

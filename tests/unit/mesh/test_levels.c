@@ -307,6 +307,7 @@ static void test_changes(void **state)
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
+/* Makes n steps of b; finite: with finite strains. */
 static void steps_make(struct plate *b, int64_t n, bool finite)
 {
     for (int64_t k = 0; k < n; k++, b->step++) {

@@ -23,6 +23,7 @@ static const char scene_text[] = "name: toy\nspace: plane stress\n";
 
 /* ---- helpers ----------------------------------------------------------------------------------------------------- */
 
+/* Opens the output o in `folder`, whose previous contents it removes. */
 static void open_fresh(struct output *o, const char *folder)
 {
     remove_tree(folder);
@@ -127,6 +128,7 @@ static void flip(const char *path, int64_t at)
 
 /* ---- restored data ----------------------------------------------------------------------------------------------- */
 
+/* Checks that a checkpoint restores the state of a run and of its output, and that there is none before. */
 static void state_comes_back(void **state)
 {
     (void)state;
@@ -173,6 +175,7 @@ static void hdf5_ignores_the_footer(void **state)
 
 /* ---- damage ------------------------------------------------------------------------------------------------------ */
 
+/* Checks that a checkpoint with one changed byte, at 4000 places and each of the last 100, is refused. */
 static void every_flip_is_found(void **state)
 {
     (void)state;

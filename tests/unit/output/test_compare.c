@@ -122,6 +122,8 @@ static void unsound_files_are_refused(void **state)
 
 /* ---- history.csv ------------------------------------------------------------------------------------------------- */
 
+/* Checks that columns of a history are found by name, also by earlier names, and that an incomplete line is left
+ * out. */
 static void history_is_read_by_name(void **state)
 {
     (void)state;

@@ -82,6 +82,7 @@ static void assert_message(const char *part)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
+/* Asserts that the frame f has the particles p, in the order of ids, in single precision. */
 static void check_frame(const struct output_frame *f, const struct particles *p)
 {
     assert_int_equal(f->n, p->n);
@@ -276,6 +277,8 @@ static void damaged_frames_are_refused(void **state)
 
 /* ---- folder ------------------------------------------------------------------------------------------------------ */
 
+/* Checks that folders of another scene, or that hold a run, files, and names longer than paths or names may be are
+ * refused; an empty folder is not. */
 static void folders_of_others_are_refused(void **state)
 {
     (void)state;

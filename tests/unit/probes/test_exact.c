@@ -111,6 +111,8 @@ static void step_bar_fronts_and_plateaus(void **state)
 
 /* ---- plastic bar: jump conditions -------------------------------------------------------------------------------- */
 
+/* Checks a plastic bar loaded at either end: jump conditions of momentum and continuity at both fronts, stress and
+ * strain behind them, and ranges of constant stress as in the published figures, to a tenth of a spacing. */
 static void plastic_bar_jumps(void **state)
 {
     (void)state;

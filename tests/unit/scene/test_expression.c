@@ -148,6 +148,7 @@ static void constants_are_folded(void **state)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
+/* Checks the messages for formulas that are invalid or of the wrong unit, with the position of the fault. */
 static void faults_are_placed(void **state)
 {
     (void)state;
@@ -227,6 +228,7 @@ static void size_is_bounded(void **state)
 
 /* ---- fuzz -------------------------------------------------------------------------------------------------------- */
 
+/* Returns a pseudo-random number of 31 bits and advances *seed. */
 static uint32_t random_next(uint64_t *seed)
 {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;

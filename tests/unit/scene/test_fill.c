@@ -10,6 +10,7 @@
 
 /* ---- lattices ---------------------------------------------------------------------------------------------------- */
 
+/* Checks number, positions and volumes of the particles of a box in every space. */
 static void boxes_are_filled_in_every_space(void **state)
 {
     (void)state;
@@ -228,6 +229,7 @@ static void threads_change_no_bit(void **state)
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
+/* Checks that of overlapping initial entries the later one sets velocity and gradient. */
 static void later_initial_entries_overwrite(void **state)
 {
     (void)state;
@@ -328,6 +330,8 @@ static void initial_strain_is_hooke(void **state)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
+/* Checks the messages for bodies that cannot be filled: with no particle, with too many, without bounds or spacing,
+ * overlapping, or strained inside out. */
 static void bad_bodies_are_refused(void **state)
 {
     (void)state;

@@ -14,6 +14,7 @@
 
 /* ---- every key --------------------------------------------------------------------------------------------------- */
 
+/* Checks the values of all scalar keys of the scene `plate`. */
 static void test_plate_scalars(void **state)
 {
     (void)state;
@@ -199,6 +200,7 @@ static void test_turn(void **state)
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */
 
+/* Checks numbers with units of every spelling, exact to the last bit. */
 static void test_units(void **state)
 {
     (void)state;
@@ -271,6 +273,7 @@ static void test_units(void **state)
 
 /* ---- overrides --------------------------------------------------------------------------------------------------- */
 
+/* Checks overrides that change, empty and remove keys of the scene `plate`; elements of lists have indices or names. */
 static void test_overrides(void **state)
 {
     (void)state;

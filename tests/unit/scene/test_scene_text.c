@@ -60,6 +60,7 @@ static void test_round_trip(void **state)
 
 /* ---- any bytes --------------------------------------------------------------------------------------------------- */
 
+/* Returns a pseudo-random number of 31 bits and advances *seed. */
 static unsigned draw(uint64_t *seed)
 {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;
@@ -125,6 +126,7 @@ static void test_mutations(void **state)
 
 /* ---- help -------------------------------------------------------------------------------------------------------- */
 
+/* Returns the help on `key`, allocated, and asserts that its status is `expected`. */
 static char *help_of(const char *key, status expected)
 {
     char *text = NULL;

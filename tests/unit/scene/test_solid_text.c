@@ -136,6 +136,7 @@ static void test_round_trip_of_solids(void **state)
 
 /* ---- filling ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the number of particles of a body with `shape` and named regions, in dim dimensions. */
 static int64_t filled(const char *regions, const char *shape, int dim)
 {
     char text[2000];
@@ -215,6 +216,7 @@ static void test_names(void **state)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
+/* Checks the messages for invalid solids in two and three dimensions. */
 static void test_refusals(void **state)
 {
     (void)state;

@@ -342,6 +342,7 @@ static void iterations_do_not_grow(void **state)
 
 /* ---- the operator ------------------------------------------------------------------------------------------------ */
 
+/* Checks that the preconditioner is symmetric and positive for random vectors, as conjugate gradients require. */
 static void operator_is_symmetric_and_positive(void **state)
 {
     (void)state;

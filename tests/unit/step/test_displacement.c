@@ -308,6 +308,7 @@ static void faces_hold_nodes(void **state)
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
+/* Returns the status of making the run of the scene with the overrides `key=value`, terminated by NULL. */
 static status refusal(const char *scene, ...)
 {
     struct scene_run a;

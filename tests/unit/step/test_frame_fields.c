@@ -356,6 +356,7 @@ static void yielding_sheet(void **state)
 
 /* ---- fields that are not requested ------------------------------------------------------------------------------- */
 
+/* Checks that of the fields that must be requested a frame has only those of the scene. */
 static void only_what_is_asked_for(void **state)
 {
     (void)state;

@@ -13,6 +13,7 @@
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
+/* Asserts that the varied key `text` has the values value[n]. */
 static void check_values(const char *text, int n, const char *const *value)
 {
     struct varied_key k;
@@ -64,6 +65,7 @@ static void wrong_values_are_refused(void **state)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
+/* Checks the names of runs: folder of the study, and varied keys with their values, unique and valid for files. */
 static void runs_have_names_of_their_own(void **state)
 {
     (void)state;
