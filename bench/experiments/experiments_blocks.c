@@ -125,8 +125,8 @@ static double disc_stress(const char *folder, double spacing)
 
 /* Returns the largest load P on a compressed disc over (pi D t/2) E s_c, with diameter D, thickness t and Young's
  * modulus E. Under that load the tensile stress 2 P/(pi D t) in its middle is E s_c, the stress at which bonds break,
- * where s_c = sqrt(4 pi G_c/(9 E delta)). folder: of the run; spacing [m]. Returns NAN if the results cannot be
- * read. */
+ * where s_c = sqrt(4 pi G_c/(9 E delta)) with the horizon delta. folder: of the run; spacing [m]. Returns NAN if the
+ * results cannot be read. */
 static double disc_strength(const char *folder, double spacing)
 {
     struct history h;

@@ -84,33 +84,34 @@ status reference_frame_make_mesh(struct run *e, const struct mesh_source *source
  * by conversion count, too. */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
-/* Finds again the points of p in the mesh that have bonds, loads or mirror images (exposed points), and the nodes on
- * which the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
+/* Finds again the points of the mesh r that have bonds, loads or mirror images (exposed points), and the nodes on which
+ * the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
 void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads);
 
-/* Updates the exposed points of the mesh, i.e. the material points with bonds, loads or mirror images: their positions
- * and velocities from the nodes and, if they have state-based bonds to peridynamic particles, their strains. */
+/* Updates the exposed points of the mesh r, i.e. the material points with bonds, loads or mirror images: their
+ * positions and velocities from the nodes and, if they have state-based bonds to peridynamic particles, their
+ * strains. */
 void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p);
 
-/* Computes the nodal forces of the mesh in step number `step`: the forces of bonds on its points, taken from p->f and
+/* Computes the nodal forces of the mesh r in step number `step`: the forces of bonds on its points, taken from p->f and
  * distributed to the nodes, plus the forces of all cells whose coarsening level acts in this step. Level L, 0 for the
  * finest cells, acts every 2^L steps. */
 void reference_frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Integrates the motion of the nodes under the forces of reference_frame_compute_forces, then updates the points of p
- * in the mesh that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and
- * reactions those of this step are added; clock: step number and time step; t_middle: time in the middle of the step
- * [s]; dt_velocity: interval over which velocities are advanced [s]. */
+/* Integrates the motion of the nodes under the forces of reference_frame_compute_forces, then updates the points of the
+ * mesh r that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and reactions
+ * those of this step are added; clock: step number and time step; t_middle: time in the middle of the step [s];
+ * dt_velocity: interval over which velocities are advanced [s]. */
 void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                                 const struct run_clock *clock, real t_middle, real dt_velocity);
 
-/* Updates positions, velocities and stresses of all material points of the mesh from the nodes, then those of the
+/* Updates positions, velocities and stresses of all material points of the mesh r from the nodes, then those of the
  * mirror images of particles, which `loads` lists. */
 void reference_frame_update_motion_and_stress(struct reference_frame *r, struct particles *p,
                                               const struct loads *loads);
 
-/* Updates positions and velocities of all material points of the mesh from the nodes, then those of the mirror images
+/* Updates positions and velocities of all material points of the mesh r from the nodes, then those of the mirror images
  * of particles, which `loads` lists. */
 void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
@@ -119,23 +120,22 @@ void reference_frame_update_point_motion(struct reference_frame *r, struct parti
 void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
                                           const int32_t *point_list, int64_t point_count);
 
-/* Updates the mesh after `converted_count` particles (0: none) have become peridynamic and the partial stresses of the
- * points listed in partial->touched have changed. The kinetic energy that the nodes lose by this is added to
+/* Updates the mesh r after `converted_count` particles (0: none) have become peridynamic and the partial stresses of
+ * the points listed in partial->touched have changed. The kinetic energy that the nodes lose by this is added to
  * *energy_lost [J]. Returns true if points may have left the mesh; the caller must then call
  * reference_frame_list_bonded_or_loaded_points. Returns false if only the stiffness of cells has changed. */
 bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted_count,
                                              const struct partial_stress *partial, real *energy_lost);
 
-/* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the
- * mesh. Momentum is conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
+/* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the mesh
+ * r. Momentum is conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
 void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
                                    int64_t inserted_count, real *energy_lost);
 
 /* Returns the kinetic energy of all nodes of the reference frame, of all coarsening levels [J]. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference);
 
-/* Returns the strain energy of all cells of the reference frame r with the particles p, of all coarsening levels
- * [J]. */
+/* Returns the strain energy of all cells of the reference frame r, of all coarsening levels [J]. */
 real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load with the shortest rise time, which requires the smallest cells. RISE_NONE: there is no load;
@@ -180,8 +180,8 @@ struct levels_choice {
 void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
                                                    int64_t particle_count);
 
-/* Returns the number of levels of coarse cells for scene s with particles p, and the reason. The number is given by the
- * scene or chosen from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
+/* Returns the number of levels of coarse cells for scene s, and the reason. The number is given by the scene or chosen
+ * from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. r: the mesh. */
 struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
                                                     const struct scene *s, real dt_critical);
 
@@ -190,9 +190,9 @@ struct levels_choice mesh_levels_choose_level_count(const struct reference_frame
 void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text,
                                       size_t capacity);
 
-/* Returns true if the scene s gives more levels of coarse cells in `frame` than its loads or the thickness of the body
- * allow, and writes why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason,
- * from mesh_levels_choose_level_count. */
+/* Returns true if the scene s gives more levels of coarse cells than its loads or the thickness of the body allow, and
+ * writes why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
+ * mesh_levels_choose_level_count. */
 bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                        const struct scene *s, char *reason, size_t capacity);
 
@@ -201,14 +201,14 @@ bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const stru
  * level would have too many nodes. */
 status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint);
 
-/* Returns true if coarsening levels may change before step number `step`: if there are coarse levels, step > 0, and all
- * levels have reached the same time. */
+/* Returns true if the coarsening levels of l may change before step number `step`: if there are coarse levels, step >
+ * 0, and all levels have reached the same time. */
 bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step);
 
-/* Computes the coarsening levels of cells (0: finest) for the next steps from stress, cracks and present motion. p:
- * particles; loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array that
- * the caller frees, with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no
- * level changes. */
+/* Computes the coarsening levels of cells of r (0: finest) for the next steps from stress, cracks and present motion.
+ * loads: boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller
+ * frees, with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level
+ * changes. */
 uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
                                            const struct loads *loads, int64_t step, real mass);
 
@@ -217,12 +217,12 @@ uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const stru
  * particles (levels_need_more_particles). The energy that the change removes is added to e->damped. */
 void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level);
 
-/* Postpones the conversion of material points of p that are too close to coarse cells of l: clears the flags by which
- * they would convert, and requests finer cells there. To be called before points convert. */
+/* Postpones the conversion of material points that are too close to coarse cells of l: clears the flags by which they
+ * would convert, and requests finer cells there. To be called before points convert. */
 void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p);
 
 /* Updates, after coarsening levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
- * of points of p in the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
+ * of points of the mesh r with bonds, loads or mirror images, and of nodes on which loads act. */
 void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                    struct loads *loads);
 

@@ -115,8 +115,8 @@ bool scene_file_has_text(const char *path, const char *scene_text);
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
 bool scene_text_is_from_cleave(const char *text);
 
-/* Writes `length` bytes of `text` to the file `file_name` in the folder of the run, o->folder, first under a temporary
- * name, which is then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be
+/* Writes `length` bytes of `text` to the file `file_name` in the folder of the run o, first under a temporary name,
+ * which is then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be
  * written. */
 status output_write_text(const struct output *o, const char *file_name, const char *text, size_t length);
 
@@ -180,12 +180,12 @@ struct frame_extra {
  * Returns when the files are complete, FAILED if one cannot be written. */
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
-/* Starts to write the next frame of a series at time t [s] after `step` time steps, in a separate thread. series: 0 for
- * the whole body, 1 .. n_series for regions; extra: quantities that p does not store, NULL for none. The fields of p
- * and *extra are copied before the function returns; scene_text must stay valid until output_wait_for_frame. Contact
- * forces are left out if they are 0 everywhere. Only one frame is written at a time: the next frame, checkpoints and
- * output_close wait for it. Returns FAILED if the previous frame, for which it waits, could not be written. A failure
- * of this frame is returned by the call that waits for it. */
+/* Starts to write to o the next frame of a series at time t [s] after `step` time steps, in a separate thread. series:
+ * 0 for the whole body, 1 .. n_series for regions; extra: quantities that p does not store, NULL for none. The fields
+ * of p and *extra are copied before the function returns; scene_text must stay valid until output_wait_for_frame.
+ * Contact forces are left out if they are 0 everywhere. Only one frame is written at a time: the next frame,
+ * checkpoints and output_close wait for it. Returns FAILED if the previous frame, for which it waits, could not be
+ * written. A failure of this frame is returned by the call that waits for it. */
 status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
                           real t, int64_t step, const char *scene_text);
 
@@ -198,7 +198,7 @@ status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_tex
  * they lack the frames of a run that continues. */
 void output_remove_vtkhdf_of_all_frames(const struct output *o);
 
-/* Discards the order of rows, particles by ascending id, that is stored for all series of frames, so that the next
+/* Discards the order of rows, particles by ascending id, that is stored for all series of frames of o, so that the next
  * frame determines it again. Must be called when the number of particles or their ids have changed, after
  * output_wait_for_frame. */
 void output_discard_particle_order(struct output *o);
@@ -207,9 +207,9 @@ void output_discard_particle_order(struct output *o);
  * it was written or there was no frame in progress. */
 status output_wait_for_frame(struct output *o);
 
-/* Opens history.csv and writes its header `name [unit],...` from column[column_count], of which the first two are time
- * and step. If `resume` is true, opens the existing file instead and cuts it to the length that output_save_or_load has
- * restored. Returns FAILED if the file cannot be opened or written. */
+/* Opens history.csv of o and writes its header `name [unit],...` from column[column_count], of which the first two are
+ * time and step. If `resume` is true, opens the existing file instead and cuts it to the length that
+ * output_save_or_load has restored. Returns FAILED if the file cannot be opened or written. */
 status output_history_open(struct output *o, const struct column *column, int column_count, bool resume);
 
 /* Appends one line with value[columns] in SI units to history.csv of o, with 9 significant digits each, and flushes it.
@@ -270,9 +270,9 @@ status run_list_frames(const char *folder, int *frame_count, struct listed_frame
  * written or read. */
 typedef status archive_all_fn(void *context, struct archive *a);
 
-/* Writes the file checkpoint.h5 in the folder of o after renaming the previous one to checkpoint.previous.h5. The file
- * contains the format version, scene_text, the state that save_or_load_all(context, archive) saves, and a footer with a
- * hash by which damage is detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be
+/* Writes the file checkpoint.h5 of o after renaming the previous one to checkpoint.previous.h5. The file contains the
+ * format version, scene_text, the state that save_or_load_all(context, archive) saves, and a footer with a hash by
+ * which damage is detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be
  * written. */
 status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
 
@@ -285,7 +285,7 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
 /* Returns true if `folder`, the folder of a run, holds a checkpoint: checkpoint.h5 or checkpoint.previous.h5. */
 bool checkpoint_exists(const char *folder);
 
-/* Saves the state of the output (number and times of frames, length and hash of history.csv) to the archive a if
+/* Saves the state of the output o (number and times of frames, length and hash of history.csv) to the archive a if
  * a->saving is true, else restores it from a. Returns FAILED if an entry is missing or does not agree with the files of
  * the run. */
 status output_save_or_load(struct output *o, struct archive *a);

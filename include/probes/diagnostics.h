@@ -63,7 +63,7 @@ void diagnostics_update_angular_momentum(struct diagnostics *w, const struct par
  * diagnostics_update_momentum; its first call defines the energy and momentum at the start. */
 void diagnostics_update_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
 
-/* Returns the relative energy change (E - E_0 - work)/E_0 [1] of w at the last sample. E is the sum of all energies
+/* Returns the relative energy change (E - E_0 - work)/E_0 [1] at the last sample of w. E is the sum of all energies
  * except the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN
  * if E_0 is not positive. */
 real diagnostics_relative_energy_change(const struct diagnostics *w);
@@ -91,7 +91,7 @@ bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particl
 status diagnostics_check_divergence(const struct particles *p, bool check_peridynamic, bool check_mesh_points,
                                     real max_speed, int64_t step, real t);
 
-/* Saves the diagnostics to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is
+/* Saves the diagnostics w to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is
  * missing or has another size. */
 status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
 
@@ -101,7 +101,7 @@ status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
 bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
 
 /* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored: minus the
- * fracture energy of the last sample in w if that is negative, else 0. Only bonds of state-based models can have such
+ * fracture energy of the last sample of w if that is negative, else 0. Only bonds of state-based models can have such
  * an excess. */
 real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
 

@@ -172,9 +172,9 @@ bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, st
 bool probes_locate_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real tip_position[2],
                                real *outer_radius);
 
-/* Saves the state of the probes, such as times and positions of first breaks and largest forces so far, to the archive
- * a if a->saving is set, else restores it from a. Returns FAILED if an entry is missing or its size does not fit the
- * probes. */
+/* Saves the state of the probes s, such as times and positions of first breaks and largest forces so far, to the
+ * archive a if a->saving is set, else restores it from a. Returns FAILED if an entry is missing or its size does not
+ * fit the probes. */
 status probes_save_or_load(struct probes *s, struct archive *a);
 
 #endif

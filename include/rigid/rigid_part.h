@@ -78,8 +78,8 @@ void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
  * the sample. */
 void rigids_average_velocities_for_sample(struct rigid_set *rigid);
 
-/* Replaces the velocities of `rigid` stored by rigids_store_motion_for_sample by those at time t [s], extrapolated from
- * the current ones, for the sample (line of history.csv) after the last time step. dt: time step [s]. */
+/* Replaces the velocities stored by rigids_store_motion_for_sample by those at time t [s], extrapolated from the
+ * current ones, for the sample (line of history.csv) after the last time step. dt: time step [s]. rigid: the bodies. */
 void rigids_extrapolate_velocities_for_sample(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body number `body` at time t [m/s], dim components: for a free body from its

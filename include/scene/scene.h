@@ -250,7 +250,7 @@ struct scene_override {
     const char *key, *value;
 };
 
-/* Returns true if the run of the scene integrates in time, false if it solves one equilibrium or load steps. */
+/* Returns true if the run of the scene s integrates in time, false if it solves one equilibrium or load steps. */
 static inline bool scene_is_dynamic(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
 
 /* Returns the number, from 0, of the part of the duration that contains the time t [s], if there are `parts` equal
@@ -260,7 +260,7 @@ static inline int scene_part_of_duration(const struct scene *s, real t, int part
     return (int)(parts * t / s->duration * (1 + 1e-9));
 }
 
-/* Returns true if the run of the scene solves a single static equilibrium, without load steps. */
+/* Returns true if the run of the scene s solves a single static equilibrium, without load steps. */
 static inline bool scene_is_single_equilibrium(const struct scene *s)
 {
     return s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG;
@@ -269,7 +269,7 @@ static inline bool scene_is_single_equilibrium(const struct scene *s)
 /* Returns true if a run of the scene s solves a sequence of load steps (solver: static). */
 static inline bool scene_has_load_steps(const struct scene *s) { return s->solver == SOLVER_STATIC; }
 
-/* Returns true if a rigid body of the scene has a velocity, from the start or prescribed. */
+/* Returns true if a rigid body of the scene s has a velocity, from the start or prescribed. */
 static inline bool scene_has_moving_rigid_body(const struct scene *s)
 {
     bool moves = false;
@@ -287,7 +287,7 @@ static inline bool scene_bonds_break(const struct scene *s)
     return breaks;
 }
 
-/* Returns true if at least one material of the scene has bulk viscosity. */
+/* Returns true if at least one material of the scene s has bulk viscosity. */
 static inline bool scene_has_viscosity(const struct scene *s)
 {
     bool viscous = false;
@@ -295,7 +295,7 @@ static inline bool scene_has_viscosity(const struct scene *s)
     return viscous;
 }
 
-/* Returns true if at least one material of the scene has a random strength, which differs between particles. */
+/* Returns true if at least one material of the scene s has a random strength, which differs between particles. */
 static inline bool scene_strength_scatters(const struct scene *s)
 {
     bool scatters = false;
@@ -303,7 +303,7 @@ static inline bool scene_strength_scatters(const struct scene *s)
     return scatters;
 }
 
-/* Returns true if the scene has a probe that evaluates broken bonds (kinds TIP, BREAK, SPALL, GROWTH). */
+/* Returns true if the scene s has a probe that evaluates broken bonds (kinds TIP, BREAK, SPALL, GROWTH). */
 static inline bool scene_probes_broken_bonds(const struct scene *s)
 {
     static const bool watches[PROBES] = {
@@ -325,8 +325,8 @@ static inline bool scene_can_crack(const struct scene *s)
     return s->cracks > 0 || s->growths > 0 || scene_bonds_break(s);
 }
 
-/* Returns true if bodies of the scene can come into contact: there are rigid bodies, or several deformable bodies that
- * interfaces do not join to a single one. */
+/* Returns true if bodies of the scene s can come into contact: there are rigid bodies, or several deformable bodies
+ * that interfaces do not join to a single one. */
 static inline bool scene_bodies_can_meet(const struct scene *s)
 {
     bool several = s->rigids > 0;
@@ -371,7 +371,7 @@ status scene_prepend_location(const struct scene *s, status result);
 void scene_find_location_of_message(const void *scene, const char *text, char *place);
 
 /* Returns the reason why shape functions of the body with the index `body` cannot be evaluated at the reference
- * positions of its material points (frame `reference`), with the method, solver, coupling and materials of the scene.
+ * positions of its material points (frame `reference`), with the method, solver, coupling and materials of the scene s.
  * Returns NULL if they can. The text is static. */
 const char *scene_why_reference_frame_unsupported(const struct scene *s, int body);
 

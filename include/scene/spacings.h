@@ -12,7 +12,7 @@ real spacing_that_fits_box_edges(const struct scene *s, real largest, bool even_
 
 /* Returns a spacing [m] at which each length that a solution must resolve has a few spacings: edges of bodies, radii,
  * cracks and their ligaments, pulses and wavelengths, contours of probes of stress-intensity factors. Returns 0 if the
- * scene has no such length. */
+ * scene s has no such length. */
 real spacing_that_resolves_all_lengths(const struct scene *s);
 
 #endif

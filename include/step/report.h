@@ -81,9 +81,9 @@ int64_t report_step_number_of_frame(const struct scene *s, const struct run_cloc
 struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers);
 
 /* Returns the set of frame series (each the frames of the whole body or of a region) that must be written after `step`
- * time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of scene s. clock: time
- * step. Returns 0 if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg,
- * relaxation`) writes frames at its start and its end only. */
+ * time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the scene s. Returns
+ * 0 if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg, relaxation`) writes
+ * frames at its start and its end only. */
 unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                                          int64_t step);
 
@@ -117,7 +117,7 @@ void warn_of_unconserved_quantities(struct run *e);
 
 struct crack_tips;
 
-/* Warns of the fastest crack tip of t whose largest speed is above the Rayleigh speed of every material of the scene:
+/* Warns of the fastest crack tip of t whose largest speed is above the Rayleigh speed of every material of the scene s:
  * the energy release rate of an opening crack is 0 there (Freund 1990, section 5.3). Call it at the end of the run. The
  * warning is added to *warning_list and printed. */
 void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct scene *s,

@@ -82,10 +82,10 @@ status convergence_study_run(struct convergence_study *s, const struct convergen
 /* Frees the scene, runs and table of the convergence study *s, which convergence_study_run has filled. Files remain. */
 void convergence_study_free(struct convergence_study *s);
 
-/* Determines the convergence of the figures (scalar results) of a study that describe the body and have values at all
- * spacing levels. wanted_names[wanted_count]: names of the figures to be treated; if wanted_count is 0, all are. Stores
- * an allocated array in *figure, which the caller releases with memory_free, and its length in *figure_count. Returns
- * REFUSED if a named figure does not exist, FAILED if no figure has values at all levels. */
+/* Determines the convergence of the figures (scalar results) of the study s that describe the body and have values at
+ * all spacing levels. wanted_names[wanted_count]: names of the figures to be treated; if wanted_count is 0, all are.
+ * Stores an allocated array in *figure, which the caller releases with memory_free, and its length in *figure_count.
+ * Returns REFUSED if a named figure does not exist, FAILED if no figure has values at all levels. */
 status scalar_results_determine_convergence(const struct convergence_study *s, const char *const *wanted_names,
                                             int wanted_count, struct scalar_result_study **figure, int *figure_count);
 

@@ -122,23 +122,22 @@ void study_print_shell_word(FILE *out, const char *word);
 /* Frees the runs, texts and name table of the study *s and unlocks its folder. The files in the folder remain. */
 void study_free(struct study *s);
 
-/* Adds a run to the study, with copies of override[overrides], its overrides of keys of the scene. name: desired name
+/* Adds a run to the study s, with copies of override[overrides], its overrides of keys of the scene. name: desired name
  * of its folder, which is restricted to characters that every file system accepts. If it is too long or already taken,
  * the name case-HASH is used, with a hash of the overrides that does not depend on their order. Returns the run, which
  * belongs to the study; the pointer is valid until the next call. */
 struct study_case *study_add_case(struct study *s, const char *name, const struct scene_override *override,
                                   int overrides);
 
-/* Adds one run to the study for every combination of the values of the keys key[keys]; the values of the last key vary
- * fastest. Returns REFUSED if there would be more than CASES_MOST runs. */
+/* => */
 status study_add_combinations(struct study *s, const struct varied_key *key, int keys);
 
-/* Reads the scene of every run of the study and sets the states of the runs: CASE_SAME if another run has an equal
+/* Reads the scene of every run of the study s and sets the states of the runs: CASE_SAME if another run has an equal
  * scene, CASE_DONE_BEFORE if the folder of the run holds its results and, if `keep_failed` is true, CASE_FAILED if it
  * holds a failed run, which the study would otherwise run again. Returns REFUSED if the scene of a run is invalid. */
 status study_determine_case_states(struct study *s, bool keep_failed);
 
-/* Prints to `out` how many runs of the study have the same scene as another run (CASE_SAME). Prints nothing if there
+/* Prints to `out` how many runs of the study s have the same scene as another run (CASE_SAME). Prints nothing if there
  * are none. */
 void study_print_equal_scene_count(const struct study *s, FILE *out);
 
@@ -147,7 +146,7 @@ void study_print_equal_scene_count(const struct study *s, FILE *out);
 const char *study_case_value_of_key(const struct study_case *c, const char *key);
 
 /* Closes the memory stream `stream` (open_memstream) and writes its contents, *length bytes of *text, to the file
- * `name` in the folder of the study; then releases *text. stream: NULL if it could not be opened. Returns FAILED if
+ * `name` in the folder of the study s; then releases *text. stream: NULL if it could not be opened. Returns FAILED if
  * `stream` is NULL or the file cannot be written. */
 status study_write_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
                                   const size_t *length);
@@ -172,19 +171,19 @@ struct study_options {
                                         * started */
 };
 
-/* Locks the folder of the study for this process and writes the file STUDY_SCENE. Returns REFUSED if the folder does
+/* Locks the folder of the study s for this process and writes the file STUDY_SCENE. Returns REFUSED if the folder does
  * not exist, is that of a single run, contains files that Cleave did not write, or is in use by another process. Also
  * returns REFUSED if it contains a study of another scene, unless `overwrite` is true. */
 status study_lock_folder(struct study *s, bool overwrite);
 
-/* Creates and locks the folder of the study and executes all runs whose state is CASE_WAITING, each as a separate
+/* Creates and locks the folder of the study s and executes all runs whose state is CASE_WAITING, each as a separate
  * process. options: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
  * appears on standard error, and the study continues. Returns REFUSED if the folder cannot be used (see
  * study_lock_folder), FAILED if a process cannot be started, INTERRUPTED if *options.stop is set. */
 status study_execute_waiting_runs(struct study *s, struct study_options options);
 
 /* Prints to `out` the shell command that executes run c alone. It is valid in any current folder, with quotes where the
- * shell requires them. options: options of the study. */
+ * shell requires them. options: of the study s. */
 void study_print_command(const struct study *s, const struct study_case *c, struct study_options options, FILE *out);
 
 /* ---- results (study_table.c, study_draw.c) ----------------------------------------------------------------------- */
@@ -197,8 +196,8 @@ struct study_table {
     int figures, cases;
 };
 
-/* Reads all numbers from the summaries of the finished runs of a study into *t. Returns FAILED if a summary cannot be
- * read. Release t with study_table_free. */
+/* Reads all numbers from the summaries of the finished runs of the study s into *t. Returns FAILED if a summary cannot
+ * be read. Release t with study_table_free. */
 status study_table_read(struct study_table *t, const struct study *s);
 
 /* Frees the names and values in the table *t, which study_table_read has allocated. */
@@ -215,8 +214,8 @@ status result_name_check_is_known(const struct scene *s, const char *name);
  * (run time, number of particles) instead of the body. */
 bool study_result_is_technical(const char *name);
 
-/* Reads the header line of history.csv of the first run of the study that has such a file into header[capacity]; "" if
- * there is none. study_write_unit_of_result takes units from it. */
+/* Reads the header line of history.csv of the first run of the study s that has such a file into header[capacity]; ""
+ * if there is none. study_write_unit_of_result takes units from it. */
 void study_read_history_header(char *header, size_t capacity, const struct study *s);
 
 /* Determines the SI unit of the figure (a number in summary.json) called `result_name` and writes it to unit[capacity];
@@ -224,28 +223,29 @@ void study_read_history_header(char *header, size_t capacity, const struct study
  * returns it. */
 void study_write_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name);
 
-/* Prints each kind of warning of the runs of a study to `out`: the number of runs that have it, and the text of the
+/* Prints each kind of warning of the runs of the study s to `out`: the number of runs that have it, and the text of the
  * first one. Warnings that differ only in numbers are of one kind. */
 void study_print_warnings(const struct study *s, FILE *out);
 
-/* Writes the table sweep.csv to the folder of the study, one line for each run: name, state, values of the keys
+/* Writes the table sweep.csv to the folder of the study s, one line for each run: name, state, values of the keys
  * key[keys], figures. Returns FAILED if the file cannot be written. */
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 
-/* Checks that the table sweep.csv and the pictures of the study may be written, one picture for each of the keys
+/* Checks that the table sweep.csv and the pictures of the study s may be written, one picture for each of the keys
  * key[keys]. Returns REFUSED if the folder is that of a study and contains one of these files although Cleave did not
  * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys);
 
-/* If the only varied key of the study is a random seed, prints to `to` a line for each figure (number in summary.json)
- * with mean, standard deviation and half of the 95 % interval of the mean over the runs; else prints nothing. t: table
- * of the results; key[keys]: varied keys of the study and their values; result[results]: names of the figures; if
- * results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no such figure. */
+/* If the only varied key of the study s is a random seed, prints to `to` a line for each figure (number in
+ * summary.json) with mean, standard deviation and half of the 95 % interval of the mean over the runs; else prints
+ * nothing. t: table of the results; key[keys]: varied keys of the study and their values; result[results]: names of the
+ * figures; if results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no such
+ * figure. */
 status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
                                     const struct varied_key *key, int keys, const char *const *result, int results);
 
 /* Draws figures of a study (numbers in summary.json) against the values of each of its varied keys, as pictures/KEY.png
- * in the folder of the study, and over two keys as pictures/map.png. t: table of the results; key[keys]: keys of the
+ * in the folder of the study s, and over two keys as pictures/map.png. t: table of the results; key[keys]: keys of the
  * study and their values; result[results]: names of the figures, up to six; if results is 0, the first ones that differ
  * between runs are drawn. Returns REFUSED if there is no such figure, FAILED if a picture cannot be drawn. */
 status study_draw_results_over_keys(const struct study_table *t, const struct study *s, const struct varied_key *key,

@@ -173,7 +173,7 @@ void print_volume_filled_by_particles(const struct run *e);
 
 /* ---- check_idle.c ------------------------------------------------------------------------------------------------ */
 
-/* Adds one line to *warning_list with those keys of the scene that have no effect in it. Adds further lines for
+/* Adds one line to *warning_list with those keys of the scene s that have no effect in it. Adds further lines for
  * materials of which no body consists, and for fracture criteria in scenes without bonds. No line about keys is added
  * for a scene that gives all keys, as the scene.yaml of a run does. */
 void hint_keys_without_effect(const struct scene *s, struct warnings *warning_list);

@@ -19,9 +19,9 @@ static inline void grid_advance_to_next_node_indices(const struct grid *g, int64
     for (int d = 0; d < g->dim && ++axis_index[d] == g->count[d]; d++) axis_index[d] = 0;
 }
 
-/* Returns the index of the cell of coarsening level `level` that contains a cell of level 0 (the finest). fine_index:
- * dim indices of the cell of level 0 along the axes; coarse_index: receives the dim indices of the coarse cell, NULL if
- * they are not needed. */
+/* Returns the index of the cell of coarsening level `level` of l that contains a cell of level 0 (the finest).
+ * fine_index: dim indices of the cell of level 0 along the axes; coarse_index: receives the dim indices of the coarse
+ * cell, NULL if they are not needed. */
 static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *l, int level, const int64_t *fine_index,
                                                       int64_t *coarse_index)
 {
@@ -58,7 +58,7 @@ static inline bool levels_fine_cell_is_at_lower_corner(const struct mesh_levels 
     return lowest;
 }
 
-/* Returns the number of cells of level 0 (the finest) in one cell of coarsening level `level`. */
+/* Returns the number of cells of level 0 (the finest) in one cell of coarsening level `level` of l. */
 static inline int levels_fine_cells_per_cell(const struct mesh_levels *l, int level)
 {
     return 1 << l->fine->grid.dim * level;
@@ -116,9 +116,9 @@ void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level
  * among its corners). The transfer of mass between levels follows in levels_add_masses_of_dependent_nodes. */
 void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p);
 
-/* Finds the nodes at interfaces of coarsening levels: ghosts, at the position of a node of the next finer level, and
- * hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose inertia is
- * matched to the dispersion of the bonds (levels_match_wave_dispersion_of_bonds). */
+/* Finds the nodes at interfaces of the coarsening levels of l: ghosts, at the position of a node of the next finer
+ * level, and hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose
+ * inertia is matched to the dispersion of the bonds (levels_match_wave_dispersion_of_bonds). */
 void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
 
 /* Adds the masses of ghosts (nodes at the position of a node of the next finer level) and hanging nodes (in the middle
@@ -126,21 +126,21 @@ void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
  * their momentum in grid.momentum [kg m/s], too. */
 void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta);
 
-/* Finds the runs of all coarsening levels (rows of consecutive cells of equal material), the spans of nodes with mass,
- * and the active blocks of nodes. To be called after levels_add_masses_of_dependent_nodes. */
+/* Finds the runs of all coarsening levels of l (rows of consecutive cells of equal material), the spans of nodes with
+ * mass, and the active blocks of nodes. To be called after levels_add_masses_of_dependent_nodes. */
 void levels_make_cell_rows_and_node_spans(struct mesh_levels *l);
 
-/* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no
- * cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent cell. */
+/* Interpolates displacement and velocity of coarse cells of l to nodes of level 0 (the finest) inside them that belong
+ * to no cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent cell. */
 void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
 
-/* Computes grid.momentum of the nodes of the coarse cells of l, their momentum divided by their mass [m/s], from their
+/* Computes grid.momentum of the nodes of coarse cells of l, their momentum divided by their mass [m/s], from their
  * velocities: inverts mesh_velocity iteratively up to round-off, then sets the velocities to the result of
  * mesh_velocity. The nodal forces serve as working memory and are 0 afterwards. */
 void levels_compute_momenta_from_velocities(struct mesh_levels *l);
 
-/* Returns true if the coarsening levels are consistent: all cells of level 0 in a coarse cell have its level, and
- * coarse cells are completely filled. */
+/* Returns true if the coarsening levels of l are consistent: all cells of level 0 in a coarse cell have its level,
+ * and coarse cells are completely filled. */
 bool levels_are_consistent(const struct mesh_levels *l);
 
 /* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,

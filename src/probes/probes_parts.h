@@ -133,15 +133,16 @@ static inline real probe_particle_velocity_component(const struct probe *q, cons
 /* Names of the axes: x, y, z. */
 extern const char *const axis_name[DIM_MAX];
 
-/* Returns the index of the particle of run o nearest to the reference position `position`, dim components [m]. Returns
- * -1 if `position` is outside the bodies, i.e. if no particle is within 3/4 of the diagonal of a lattice cell. */
+/* Returns the index of the particle nearest to the reference position `position`, dim components [m]. Returns -1 if
+ * `position` is outside the bodies, i.e. if no particle is within 3/4 of the diagonal of a lattice cell. o: view of the
+ * run. */
 int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
 /* Computes the reference position of station number `station` of a LINE probe, position[dim] [m]. Stations 0 ..
  * q->request.points - 1 are equidistant from one end of the line to the other. */
 void line_probe_compute_station_position(const struct probe *q, int dim, int station, real *position);
 
-/* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *tips. */
+/* Returns the crack tip that the TIP probe q follows at present, or NULL if there is none. The tip belongs to *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips);
 
 /* Computes the sum of the reactions of all supports (in load steps also loads) of the probe's boundary, force[dim]
@@ -157,11 +158,11 @@ struct energies {
 /* Returns the kinetic, strain and fracture energy [J] of the particles of probe q in the current state o of the run. */
 struct energies probe_energies(const struct probe *q, const struct observed_run *o);
 
-/* Returns the kinetic energy [J] of the particles of a probe, with the velocities of probe_particle_velocity_component.
- */
+/* Returns the kinetic energy [J] of the particles of the probe q, with the velocities of
+ * probe_particle_velocity_component. */
 real probe_kinetic_energy(const struct probe *q, const struct particles *p);
 
-/* Computes the momentum of the particles of a probe, momentum[dim] [kg m/s], with the velocities of
+/* Computes the momentum of the particles of the probe q, momentum[dim] [kg m/s], with the velocities of
  * probe_particle_velocity_component. */
 void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum);
 
@@ -172,20 +173,20 @@ struct pulse_shares {
     real reflected, transmitted, energy_change;
 };
 
-/* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q. Returns REFUSED
- * if nothing moves at the start. */
+/* Stores the largest initial speed of the body as the incident amplitude of the PULSE probe q. Returns REFUSED if
+ * nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
 
-/* Returns the reflected and transmitted amplitudes of a PULSE probe, relative to its incident amplitude, and the
+/* Returns the reflected and transmitted amplitudes of the PULSE probe q, relative to its incident amplitude, and the
  * energy change of the present state relative to that of the run on material points alone. */
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
-/* Tests whether broken bonds separate the bar of the SPALL probe q in run o into two parts along x. If so, stores the
- * position of the plane of separation and the time in q->memory; else changes nothing. */
+/* Tests whether broken bonds separate the bar of a SPALL probe into two parts along x. If so, stores the position of
+ * the plane of separation and the time in q->memory; else changes nothing. o: view of the run. */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
-/* Computes the mean velocities along x of the two parts of the bar of a SPALL probe, which broken bonds have separated:
- * *lighter_part_speed and *remaining_part_speed [m/s]. NAN for a part without particles. */
+/* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q, which broken bonds have
+ * separated: *lighter_part_speed and *remaining_part_speed [m/s]. NAN for a part without particles. */
 void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
                                      real *remaining_part_speed);
 
@@ -196,8 +197,8 @@ enum { GROWTH_FIGURES = 5 };
 /* Names and units of the quantities that a GROWTH probe reports: x, y, length, speed, K_eq. */
 extern const struct column growth_figure[GROWTH_FIGURES];
 
-/* Computes the reported quantities of a growing crack (position of its tip, length, speed, equivalent stress-intensity
- * factor) and stores them in value[GROWTH_FIGURES], in the order of growth_figure[]. */
+/* Computes the reported quantities of the growing crack g (position of its tip, length, speed, equivalent
+ * stress-intensity factor) and stores them in value[GROWTH_FIGURES], in the order of growth_figure[]. */
 void growing_crack_compute_probe_values(const struct growing_crack *g, real *value);
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
@@ -209,17 +210,17 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 /* Names and units of the quantities that a SIF probe reports: K_I, K_II, J, contour_spread. */
 extern const struct column sif_figure[SIF_FIGURES];
 
-/* Finds the crack tip of the SIF probe q in run o, its integration contours, and the material around the tip. Returns
- * REFUSED if the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or
- * contain another crack tip or material. */
+/* Finds the crack tip of the SIF probe q, its integration contours, and the material around the tip. Returns REFUSED if
+ * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
+ * another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
 /* Frees w, the crack tip and the contours of a SIF probe, which sif_probe_find_tip_and_contours has made; w may be
  * NULL. */
 void sif_probe_free(struct sif_tracked *w);
 
-/* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of a SIF probe, before the
- * time step. */
+/* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of the SIF probe q, before
+ * the time step. */
 void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
 
 /* Computes K_I, K_II, J and their spread between the integration contours of the SIF probe q in run o at the time of
@@ -244,18 +245,18 @@ static inline real sif_probe_result(const struct probe *q, int figure)
  * of angular momentum and kinetic energy. */
 extern const struct column rigid_figure[RIGID_FIGURES];
 
-/* Stores the angular momentum and the kinetic energy of the particles of the RIGID probe q in run o at the start.
- * Returns REFUSED if the scene is not plane. */
+/* Stores the angular momentum and the kinetic energy of the particles of the RIGID probe q at the start. Returns
+ * REFUSED if the scene is not plane. */
 status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
-/* Computes the rotation angle value[0] of the body of the RIGID probe q in run o [rad], its largest absolute principal
- * stress value[1] and its largest in-plane shear stress value[2] [Pa] at the present positions, and updates
- * q->memory.rigid. */
+/* Computes the rotation angle value[0] of the body of a RIGID probe [rad], its largest absolute principal stress
+ * value[1] and its largest in-plane shear stress value[2] [Pa] at the present positions, and updates q->memory.rigid.
+ * o: view of the run. */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
 
-/* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body (particles of
- * p) of the RIGID probe q relative to the values at the start [1]; both should be conserved. NAN if the value at the
- * start is 0. Call this function when the velocities at the time of the sample are known. */
+/* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
+ * probe q relative to the values at the start [1]; both should be conserved. NAN if the value at the start is 0. Call
+ * this function when the velocities at the time of the sample are known. */
 void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
@@ -269,15 +270,15 @@ struct bar {
     real *flux, *strain;           /* [n] by rank: stress by bond flux [Pa]; strain du/dx [1] */
 };
 
-/* Finds the particles, ends, material and load of the bar of the EXACT probe q in run o and allocates q->bar. Returns
- * REFUSED if the bar or its loads differ from what the closed-form solution describes. */
+/* Finds the particles, ends, material and load of the bar of an EXACT probe and allocates q->bar. Returns REFUSED if
+ * the bar or its loads differ from what the closed-form solution describes. o: view of the run. */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
 /* Frees the bar of an EXACT probe, which bar_probe_find_bar_and_load has made, with its arrays; `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
-/* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar in run o and stores them in
- * the arrays of *bar. */
+/* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
+ * arrays of *bar. o: view of the run. */
 void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
 
 /* Computes the stress by bond flux of each particle of `bar` in run o, flux[n] by rank from left to right [Pa]: the sum
@@ -296,9 +297,9 @@ int bar_probe_value_count(enum exact_form closed_form);
  * value_number < bar_probe_value_count(closed_form). */
 struct column bar_probe_value_column(enum exact_form closed_form, int value_number);
 
-/* Updates the measured fields of `bar` in run o (bar_probe_measure_fields), compares them with the closed-form
- * solution, and stores the reported quantities in value[bar_probe_value_count], in the order of
- * bar_probe_value_column. */
+/* Updates the measured fields of a bar (bar_probe_measure_fields), compares them with the closed-form solution, and
+ * stores the reported quantities in value[bar_probe_value_count], in the order of bar_probe_value_column. o: view of
+ * the run. */
 void bar_probe_compute_values(struct bar *bar, const struct observed_run *o, real *value);
 
 /* Number of columns of the profile of a bar, the table of values along the bar that is written with each frame. */

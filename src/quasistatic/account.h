@@ -16,17 +16,15 @@ struct account {
  * particle of the body [N]; 0 before the first solution. The caller frees the arrays. */
 void applied_forces_copy(real **applied, const struct statics *s, const struct particles *particles);
 
-/* Copies the present positions, displacements and forces of the nodes s and the particles into *account, for
- * work_account_end_and_estimate_error. The storage is freed by work_account_end_and_estimate_error or
- * work_account_free. */
+/* Copies the present positions, displacements and forces of s into *account, for work_account_end_and_estimate_error.
+ * The storage is freed by work_account_end_and_estimate_error or work_account_free. */
 void work_account_start(struct account *account, const struct statics *s, const struct particles *particles);
 
-/* Adds the work of supports and of applied forces of s on the particles p since work_account_start to the work in
- * `loads`: the mean of the initial and final force times the displacement (trapezoidal rule), and `curved_path_work`,
- * the work of loads beyond that mean along the curved path of the solver [J]. Frees the storage of *account. Returns an
- * estimate of the error of the work [J]: its difference from the work with the initial or the final force alone, plus
- * the largest work of the round-off of forces, without which a body that a rigid one carries along without load seems
- * to gain energy. */
+/* Adds the work of supports and of applied forces of s since work_account_start to that of the loads: the mean of the
+ * initial and final force times the displacement (trapezoidal rule), and `curved_path_work`, the work of loads beyond
+ * that mean along the curved path of the solver [J]. Frees the storage of *account. Returns an estimate of the error of
+ * the work [J]: its difference from the work with the initial or the final force alone, plus the largest work of the
+ * round-off of forces, without which a body that a rigid one carries along without load seems to gain energy. */
 real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
                                          struct loads *loads, real curved_path_work);
 

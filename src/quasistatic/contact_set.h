@@ -8,11 +8,12 @@
 struct contact;
 struct rigid_set;
 
-/* Returns true if contact forces act between any two particles of a body, so that crack faces can press on each other,
- * and some particles are in contact at present. */
+/* Returns true if contact forces of c act between any two particles of a body, so that crack faces can press on each
+ * other, and some particles are in contact at present. */
 bool crack_faces_are_in_contact(const struct contact *c);
 
-/* Returns true if any particles or rigid bodies were in contact before the present solution s or are in contact now. */
+/* Returns true if any particles or rigid bodies were in contact before the present solution of s or are in contact
+ * now. */
 bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact of run e before its first solution. Does nothing in scenes without contact and rigid

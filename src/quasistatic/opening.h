@@ -14,7 +14,7 @@ status gauge_check_positions(const struct scene *scene, const struct particles *
  * crack) since the start [m]. */
 real gauge_opening(const struct particles *part, const struct statics *statics);
 
-/* Returns true if material points of `part` or bonds of the body may yield (have plastic strain). */
+/* Returns true if material points or bonds of the body `part` may yield (have plastic strain). */
 bool body_may_yield(const struct particles *part, const struct bonds *bonds);
 
 /* Finds the equilibrium of run e at which the opening between the two gauge particles equals `wanted` [m], by varying

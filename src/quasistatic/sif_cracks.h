@@ -96,14 +96,14 @@ void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct part
  * sets `ended` of the tip if it has reached a surface of the body p or another crack. */
 void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct particles *p, int tip);
 
-/* Computes the stress-intensity factors of the tip that has grown most among those that can still grow, and stores them
- * in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call
+/* Computes the stress-intensity factors of the tip of `cracks` that has grown most among those that can still grow, and
+ * stores them in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call
  * sif_cracks_initialise_and_can_grow before. */
 void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                                bool faces_in_contact, real K[2]);
 
-/* Stores the reference position of the tip that has grown most in position[], dim components [m]; in three dimensions
- * that of the middle of the crack front. Stores NAN if there is no tip. */
+/* Stores the reference position of the tip of `cracks` that has grown most in position[], dim components [m]; in three
+ * dimensions that of the middle of the crack front. Stores NAN if there is no tip. */
 void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real position[DIM_MAX]);
 
 /* Sets `ended` of all tips, so that none grows any more. Call this function if bonds have broken away from the tips,
@@ -125,8 +125,8 @@ void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
  * statics.due. Returns FAILED if an equilibrium is not found. */
 status sif_increment_find(struct run *e);
 
-/* Moves all tips that take part in the present crack increment (member `selected` of struct sif_crack_tip) to the ends
- * of their increments in the body p, and clears `selected`. */
+/* Moves all tips of `cracks` that take part in the present crack increment (member `selected` of struct sif_crack_tip)
+ * to the ends of their increments, and clears `selected`. */
 void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p);
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */

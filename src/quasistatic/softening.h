@@ -28,17 +28,17 @@ struct softening_list {
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
                          real stretch_divisor);
 
-/* Returns the energy [J] that the bonds of the list would have dissipated by softening since the last equilibrium if
+/* Returns the energy [J] that the bonds of the list l would have dissipated by softening since the last equilibrium if
  * their stretches were `stretch_factor` times the stretches stored in the list. */
 real softening_list_dissipated_energy(const struct softening_list *l, real stretch_factor);
 
-/* Returns the smallest factor on the stretches of the list, between 0 and `max_factor`, at which the bonds have
+/* Returns the smallest factor on the stretches of the list l, between 0 and `max_factor`, at which the bonds have
  * dissipated the energy `energy` since the last equilibrium [J] (softening_list_dissipated_energy). At the factor
  * `max_factor` they must have dissipated at least `energy`. */
 real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor);
 
-/* Sets the largest stretch of each bond of the list to that of the last equilibrium or, if larger, to `stretch_factor`
- * times the stretch stored in the list. */
+/* Sets the largest stretch of each bond of the list l to that of the last equilibrium or, if larger, to
+ * `stretch_factor` times the stretch stored in the list. */
 void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor);
 
 /* Stores the present largest stretches of the bonds b of the particles p as those of the last equilibrium, from which

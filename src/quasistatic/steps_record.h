@@ -14,7 +14,7 @@ int statics_list_history_columns(const struct run *e, struct column *column);
  * for each column of statics_list_history_columns. Call this function once after each load step. */
 void statics_compute_history_values(struct run *e, real *record);
 
-/* Stores the present numbers of search directions and equilibria of the solver. The next call of
+/* Stores the present numbers of search directions and equilibria of the solver s. The next call of
  * statics_compute_history_values reports the numbers since then. */
 void statics_reset_history_counts(struct statics *s);
 

@@ -23,8 +23,8 @@ void unknowns_free(struct statics *s);
 void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                         int64_t unknown_number, real *position);
 
-/* Sets the positions of the particles and mesh nodes of s and the mirror images of nodes to their reference positions
- * plus the displacements `displacement` [m]. */
+/* Sets in s the positions of particles, mesh nodes and the mirror images of nodes to their reference positions plus the
+ * displacements `displacement` [m]. */
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
                                   const struct field *displacement);
 
@@ -44,7 +44,7 @@ real applied_forces_norm(const struct statics *s, const struct particles *p, con
                          const struct contact *contact);
 
 /* Computes the reactions and mean displacements of the supports and the sums of applied forces in the present
- * equilibrium s of the particles p, and stores them in *loads. */
+ * equilibrium of s, and stores them in *loads. */
 void reactions_compute_and_store(const struct statics *s, const struct particles *p, struct loads *loads);
 
 #endif

@@ -28,8 +28,8 @@ struct compile {
     size_t room;
 };
 
-/* Writes a message about a fault in the expression, composed as by printf, to c->what, which has space for c->room
- * bytes. Always returns false, so that callers can return the result. */
+/* Writes a message about a fault in the expression, composed as by printf from `format`, to c->what, which has space
+ * for c->room bytes. Always returns false, so that callers can return the result. */
 bool compile_write_fault_and_return_false(struct compile *c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -185,8 +185,8 @@ const char *unit_without_kelvin(const char *text, enum unit kind_of_unit, char *
  * message[capacity], as the rest of a sentence that begins with the text of the value. */
 bool quantity_has_unit(const struct quantity *q, enum unit kind_of_unit, char *message, size_t capacity);
 
-/* Returns true if `value` [SI] is finite and inside the bounds of kind_of_unit. Otherwise returns false and writes the
- * fault to message[capacity], as the rest of a sentence that begins with the text of the value. */
+/* Returns true if `value` [SI] is finite and inside the bounds of `kind_of_unit`. Otherwise returns false and writes
+ * the fault to message[capacity], as the rest of a sentence that begins with the text of the value. */
 bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, size_t capacity);
 
 /* Describes a unit for messages, as `a length`, or as `in m^2 s^-1` if its kind has no name, in text[capacity]. twice:
@@ -355,13 +355,14 @@ const char *foreign_word_equivalent_keys(const char *foreign_word);
 
 /* ---- messages (scene_faults.c), forms (scene_expect.c, scene_unknown.c) and values (scene_value.c) --------------- */
 
-/* Sets a message about node `at`, composed as by printf, and returns REFUSED. The message begins with
+/* Sets a message about node `at`, composed as by printf from `format`, and returns REFUSED. The message begins with
  * `file:line:column: key: `, or with `-s key=value: key: ` if an override gave the node. */
 status fault(const struct reader *r, const struct yaml_node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Sets a message, composed as by printf, and returns REFUSED. The message begins with `file:line:column: `, or with the
- * text of the override. origin: file or override (see struct yaml_node); line, column: location in the file. */
+/* Sets a message, composed as by printf from `format`, and returns REFUSED. The message begins with `file:line:column:
+ * `, or with the text of the override. origin: file or override (see struct yaml_node); line, column: location in the
+ * file. */
 status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 

@@ -159,7 +159,7 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
  * have one curve. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
-/* Returns the first material of the scene for which has(material) returns true; NULL if there is none. */
+/* Returns the first material of the scene s for which has(material) returns true; NULL if there is none. */
 const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *));
 
 /* Returns REFUSED if bonds of one material soften while another material yields, and for keys that state-based models
@@ -197,7 +197,7 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
  * does not support. root: tree of the scene. */
 status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
 
-/* Returns true if the scene is solved in load steps and has a material whose bonds soften. */
+/* Returns true if the scene s is solved in load steps and has a material whose bonds soften. */
 bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
 
 /* Returns REFUSED if the scene gives settings of load steps but has another solver, unless all of them have their

@@ -32,7 +32,7 @@ status refuse_unsupported_rigid_bodies(struct reader *r, const struct yaml_node 
 status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yaml_node *interfaces_node);
 
 /* Returns a static text for the end of a message, which advises to check the units of a strength, if that strength
- * requires a horizon `required_horizon` [m] of less than a thousandth of the horizon of the scene. Otherwise returns
+ * requires a horizon `required_horizon` [m] of less than a thousandth of the horizon of the scene s. Otherwise returns
  * "". */
 const char *strength_unit_hint(const struct scene *s, real required_horizon);
 

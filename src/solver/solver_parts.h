@@ -15,8 +15,8 @@ void static_body_compute_bond_forces(const struct static_body *body);
 void static_body_compute_tangent_product(const struct static_body *body, const struct field *displacement,
                                          struct field *force, real strain_ratio);
 
-/* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
- * components, those with prescribed displacement in s. */
+/* Computes the Euclidean norms of the forces p->f of s [N]: norm[0] over free components, norm[1] over constrained
+ * components, those with prescribed displacement. */
 void static_solver_compute_force_norms(const struct static_solver *s, const struct particles *p, real *norm);
 
 /* Computes the residual s->residual of a static solution and the force s->scale to which it refers, from the forces

@@ -9,7 +9,7 @@
  * of 10 `coarsest`. */
 struct unit unit_for_spacings(double coarsest);
 
-/* Returns the unit in which the spacings of the study are printed and drawn (unit_for_spacings). */
+/* Returns the unit in which the spacings of the study s are printed and drawn (unit_for_spacings). */
 struct unit convergence_spacing_unit(const struct convergence_study *s);
 
 /* Returns the unit in which the means and errors of the figure (scalar result) f are printed and drawn. */
