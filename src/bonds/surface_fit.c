@@ -406,7 +406,7 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
  * particles (f->thin): to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle
  * rotations. Bonds at ends of cracks also get the factor 1 if bonds may break: they break next, and the critical
  * stretch is calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated
- * last, so that a bond between both does not depend on the order of its particles. */
+ * last, so that a bond between both does not depend on the order of its particles. b: particles near faces. */
 static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

@@ -24,9 +24,9 @@ real material_micro_modulus_of_discrete_family(const struct material *m, enum sp
 }
 
 /* Returns the micro-modulus c of bonds (force per stretch and squared volume) [N/m^6] of material m at which bonds and
- * continuum have equal energy densities under a uniform expansion in `space`, with the integral over the horizon in
- * place of a sum over neighbours. horizon: length of the longest bonds [m]; section: cross-section in 1D [m^2],
- * thickness in 2D [m], not used in 3D. */
+ * continuum have equal energy densities under a uniform expansion, with the integral over the horizon in place of a sum
+ * over neighbours. horizon: length of the longest bonds [m]; space: line, plane or solid; section: cross-section in 1D
+ * [m^2], thickness in 2D [m], not used in 3D. */
 real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {

@@ -40,9 +40,9 @@ real strength_surface_strength_along(const struct strength_surface *s, const rea
     return share > 0 ? 1 / share : INFINITY;
 }
 
-/* Sets stress[2], the principal stress normal to the plane, from stress[0] and stress[1] [Pa]: 0 in plane stress, nu
- * (stress[0] + stress[1]) in plane strain, with Poisson's ratio nu of material m. Unchanged if `space` is another
- * one. */
+/* Sets stress[2], the principal stress normal to the plane of `space`, from stress[0] and stress[1] [Pa]: 0 in plane
+ * stress, nu (stress[0] + stress[1]) in plane strain, with Poisson's ratio nu of material m. Unchanged in other
+ * spaces. */
 static void complete_state(const struct material *m, enum space space, real *stress)
 {
     if (space == SPACE_PLANE_STRESS) stress[2] = 0;

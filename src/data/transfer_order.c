@@ -160,7 +160,7 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
     count[key] += (int32_t)(chunk_start(s, chunk + 1) - from);
 }
 
-/* Finds blocks and cells of the points in chunk number `chunk` of the list s->list (the part of one thread). Calls the
+/* Finds blocks and cells of the points in chunk number `chunk` of the list in s (the part of one thread). Calls the
  * copy of find_blocks that is compiled for the dimensions of the grid. */
 static void find_blocks_of(const struct sorting *s, int chunk)
 {

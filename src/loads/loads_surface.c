@@ -503,7 +503,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area of s along axis d of particle number k of the load [m^2], a sum over the corners near it. */
+/* Returns the inward area along axis d of particle number k of the load s [m^2], a sum over the corners near it. */
 static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;

@@ -210,7 +210,7 @@ static status refuse_leaving(const struct sif_tracked *w, const char *name, cons
 }
 
 /* Returns REFUSED, with a message, if a contour of w is narrower than NARROWEST spacings, leaves the body, or contains
- * another crack tip. r: request of the probe. */
+ * another crack tip. r: request of the probe. o: view of the run. */
 static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     real position[2], narrowest = INFINITY;

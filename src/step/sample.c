@@ -63,8 +63,8 @@ static bool is_free(const struct scene *s, const struct reference_frame *frame)
            frame->levels.n == 0;
 }
 
-/* Stores names and units of the history columns of angular momentum in column[], unless it is NULL. Returns the number
- * of columns: 0 if angular momentum need not be conserved in scene s with the mesh of `frame` (is_free). */
+/* Stores names and units of the history columns of angular momentum of scene s in column[], unless it is NULL. Returns
+ * the number of columns, which is 0 if a load acts on the bodies, so that angular momentum need not be conserved. */
 static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
@@ -336,8 +336,8 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* Returns true if forces alone change the velocities of the particles p of scene s in the first step. On a grid, APIC,
- * prescribed velocities other than 0 and contact between bodies change the velocities of points as well. */
+/* Returns true if forces alone change velocities in the first step of scene s. With material points on the grid, APIC,
+ * prescribed velocities other than 0 and contact between bodies on the grid change them as well. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
@@ -388,8 +388,8 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power_of_coarse_nodal_forces(&reference->levels);
 }
 
-/* Returns the power v . f [W] of the forces on nodes of the mesh of `reference` whose motion loads prescribe (walls).
- * power_now includes this power, which is work of the loads. */
+/* Returns the power v . f [W] of the forces on nodes (of grids and of the mesh `reference`) whose motion loads
+ * prescribe (walls). power_now includes this power, which is work of the loads. */
 static real power_of_walls(const struct reference_frame *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
@@ -413,7 +413,7 @@ static void reactions_add(struct loads *l, const struct grid *g)
 }
 
 /* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads in l [N], after
- * those on particles. grid: grids of the current frame; NULL: no particle is on them. */
+ * those on particles. grid: grids of the current frame; NULL: no particle is on them. clock: step and its number. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {

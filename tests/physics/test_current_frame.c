@@ -47,7 +47,7 @@ struct held_run {
     struct scene s;
 };
 
-/* Creates the run r of a block b. poisson: NULL for that of bonds; more: further keys, one per line. */
+/* Creates the run r of a block b by `method`. poisson: NULL for that of bonds; more: further keys, one per line. */
 static void run_make(struct held_run *r, const struct block *b, const char *method, const char *poisson,
                      const char *more)
 {

@@ -268,8 +268,8 @@ static int find_sync(const struct log_line *line, int lines, int from, int step,
     return -1;
 }
 
-/* Checks the rename in line[k] of the log: the file was synced before, and its folder is synced afterwards, before the
- * next file of that name. */
+/* Checks the rename in line[k] of the log line[lines]: the file was synced before, and its folder is synced afterwards,
+ * before the next file of that name. */
 static void check_rename(const struct log_line *line, int lines, int k)
 {
     char folder[NAME], history[2 * NAME];

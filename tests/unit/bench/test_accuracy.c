@@ -288,8 +288,8 @@ static bool keys_have(const char *keys, const char *key, const char *value)
     return has;
 }
 
-/* Checks that a line of the table, given by the texts of its columns, is a run of the plan of the bench, with the scene
- * keys of its method. */
+/* Checks that a line of the table, given by the texts column[], is a run of the plan of the bench, with the scene keys
+ * of its method. */
 static void line_is_of_the_plan(char *const *column)
 {
     const struct accuracy_problem *q = problem_named(column[PROBLEM]);

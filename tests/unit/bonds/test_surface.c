@@ -259,7 +259,7 @@ static void faces_are_at_their_places(void **state)
 
 /* Returns the energy [J] of a beam of `length` x `layers` particles in pure bending, u = k (x y, -(x^2 + nu y^2 - nu
  * z^2)/2, -nu y z), which leaves all faces free but the ends: E I k^2/2 per length. Two lengths separate it from the
- * energy of the ends. surface: rule of the weights near faces. */
+ * energy of the ends. surface: rule of the weights near faces. space: plane or solid. */
 static real bending_energy(enum space space, enum surface_rule surface, int length, int layers)
 {
     const real curvature = 1e-3;

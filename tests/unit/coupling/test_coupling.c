@@ -205,7 +205,7 @@ static void test_wide_families(void **state)
 /* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
 /* Returns the energy of the bonds of c, plus 1/2 sigma_given : C^-1 sigma summed over the points [J], where sigma_given
- * is the part of the stress sigma that a point transfers itself. */
+ * is the part of the stress sigma that a point transfers itself. partial: partial stresses. */
 static real energy_of(const struct particle_cloud *c, const struct partial_stress *partial)
 {
     const struct particles *p = &c->p;

@@ -7,8 +7,8 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* Creates the body c, whose left half is peridynamic, and its interface zone r (material points near peridynamic
- * particles). shake: largest random displacement of the particles from the lattice [spacings]. */
+/* Creates in `space` the body c, whose left half is peridynamic, and its interface zone r (material points near
+ * peridynamic particles). shake: largest random displacement of the particles from the lattice [spacings]. */
 static void half_make(struct particle_cloud *c, struct interface_zone *r, enum space space, real shake)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {40, 0, 0}, {20, 14, 0}, {14, 8, 8}};

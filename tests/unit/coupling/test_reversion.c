@@ -50,7 +50,7 @@ static void setting_never(struct setting *s)
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
 /* Returns the energy of the bonds of s, plus 1/2 sigma_given C^-1 sigma summed over the points [J], where sigma_given
- * is the part of the stress sigma that a point transfers itself. */
+ * is the part of the stress sigma that a point transfers itself. partial: partial stresses. */
 static real energy_of(const struct setting *s, const struct partial_stress *partial)
 {
     const struct particles *p = &s->c.p;

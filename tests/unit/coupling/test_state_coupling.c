@@ -191,7 +191,7 @@ static real energy_of(const struct both *b, enum pd_model model)
 }
 
 /* Returns the change of energy when a square block of edge x edge particles in a plate under the displacement gradient
- * `strain` becomes peridynamic, in units of the energy of a particle. */
+ * `strain` becomes peridynamic by `model`, in units of the energy of a particle. */
 static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int edge)
 {
     const struct partners k = {

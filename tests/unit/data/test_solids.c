@@ -10,7 +10,7 @@
 
 static const real pi = 3.14159265358979323846;
 
-/* Returns a pseudo-random number, uniform in [0, 1) (Lehmer's generator modulo 2^31 - 1). */
+/* Returns a pseudo-random number, uniform in [0, 1) (Lehmer's generator modulo 2^31 - 1). *state: of the generator. */
 static real random_next(uint64_t *state)
 {
     *state = *state * 48271 % 2147483647;

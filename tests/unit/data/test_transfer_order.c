@@ -32,7 +32,7 @@ static void scatter_points(struct particle_cloud *c, int dim, struct grid *g)
 
 /* Checks that every node that a point of a block (a box of cells) reaches belongs to this block only, among the blocks
  * of colour `colour`, so that threads can process them at once. The widest support is that of the cubic spline: one
- * node below the point's cell, two above its lower corner. */
+ * node below the point's cell, two above its lower corner. o: order of the points on the grid g. */
 static void check_colour(const struct transfer_order *o, const struct particles *p, const struct grid *g, int colour)
 {
     int32_t *owner = NEW("test.owner", g->n, int32_t);
@@ -53,7 +53,7 @@ static void check_colour(const struct transfer_order *o, const struct particles 
 }
 
 /* Checks that the cells of a block are consecutive, that the points of a cell are in this cell and ascending, and that
- * no two cells are equal. */
+ * no two cells are equal. o: order of the points on the grid g. */
 static void check_cells(const struct transfer_order *o, const struct particles *p, const struct grid *g)
 {
     uint8_t *seen = NEW("test.cells", g->n, uint8_t);

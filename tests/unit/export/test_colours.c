@@ -26,7 +26,7 @@ static bool near_each_other(const double *p, const double *q)
     return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) <= 3.015 * 3.015;
 }
 
-/* Returns true if the segment p-q crosses the segment from (0, 0) to (a, b), by areas of triangles. */
+/* Returns true if the segment p-q crosses the segment of s from (0, 0) to (a, b), by areas of triangles. */
 static bool crosses(const struct points *s, const double *p, const double *q)
 {
     const double d0 = s->a * p[1] - s->b * p[0], d1 = s->a * q[1] - s->b * q[0];

@@ -135,7 +135,7 @@ static void test_at_once(void **state)
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
-/* Creates s, an irregular body of two materials whose bonds soften by `law`. seed: of its positions. */
+/* Creates in `space` s, an irregular body of two materials whose bonds soften by `law`. seed: of its positions. */
 static void body_make(struct soft_body *s, enum space space, enum softening law, uint64_t seed)
 {
     memset(s, 0, sizeof *s);

@@ -19,8 +19,9 @@ struct surface_body {
     struct crack crack;
 };
 
-/* Creates the body s with random positions within `shake` spacings of the lattice, and its bonds. means: number of
- * times that strains are averaged over families; cracked: true to cut it beyond its first third by a crack. */
+/* Creates in `space` the body s with random positions within `shake` spacings of the lattice, and its bonds. means:
+ * number of times that strains are averaged over families; cracked: true to cut it beyond its first third by a
+ * crack. */
 static void body_make(struct surface_body *s, enum space space, real shake, int means, bool cracked)
 {
     memset(s, 0, sizeof *s);

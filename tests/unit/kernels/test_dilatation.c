@@ -104,9 +104,9 @@ static void strain_rates(struct setting *s, enum shape shape, enum transfer tran
 }
 
 /* Checks that forces and strains are adjoint, so that the stress does the work that the strain energy gains: for a
- * random motion of the nodes, the power of the nodal forces equals the sum of V sigma : strain rate over the points, to
- * 1e-12 of the sum of magnitudes. crowded: true to place all points in one cell. Returns this power, divided by the sum
- * of magnitudes. */
+ * random motion of the nodes, with `shape` and `transfer`, the power of the nodal forces equals the sum of V sigma :
+ * strain rate over the points, to 1e-12 of the sum of magnitudes. crowded: true to place all points in one cell.
+ * Returns this power, divided by the sum of magnitudes. */
 static real adjoint(int dim, enum shape shape, enum transfer transfer, bool crowded)
 {
     struct setting s;

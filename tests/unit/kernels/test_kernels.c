@@ -204,8 +204,8 @@ static void site_map_make_if_on_lattice(struct particle_cloud *c, int dim, bool 
     bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
 }
 
-/* Returns the forces of the kernel `force`, then again after the flags `alike` and then `lattice` are cleared in all
- * columns (one bond of each of eight particles): [3][dim n], to be freed. kinds[3]: receive which kinds of columns
+/* Returns the forces on c of the kernel `force`, then again after the flags `alike` and then `lattice` are cleared in
+ * all columns (one bond of each of eight particles): [3][dim n], to be freed. kinds[3]: receive which kinds of columns
  * exist. */
 static real *forces_by_kind(struct particle_cloud *c, bond_force_fn *force, bool kinds[3])
 {
@@ -377,8 +377,8 @@ static real least_kept(const struct material *m, int dim, const real *M)
     return least;
 }
 
-/* Compares the matrix M of point q with the plain reference, T : C^-1 sigma for unit stresses. w: weights of the bonds
- * (reference_table). Returns false if bonds would carry more than the whole stress. */
+/* Compares the matrix M of point q of c in `partial` with the plain reference, T : C^-1 sigma for unit stresses. w:
+ * weights of the bonds (reference_table). Returns false if bonds would carry more than the whole stress. */
 static bool check_partial(const struct particle_cloud *c, const struct partial_stress *partial, const real *w,
                           int64_t q)
 {

@@ -182,8 +182,8 @@ static void flow_direction(const struct law_points *p, int lane, real *direction
     for (int c = 0; c < SYM_MAX; c++) direction[c] /= sqrt(squares);
 }
 
-/* Takes a load step from the state `start` in each lane of *p. whole: start with the trial stress of the whole strain
- * increment, of which lane l has the share `first` + l `each` [1]. */
+/* Takes a load step by the law m in `space` from the state `start` in each lane of *p. whole: start with the trial
+ * stress of the whole strain increment, of which lane l has the share `first` + l `each` [1]. */
 static void path_points(const struct law *m, const struct law_points *start, const struct law_points *whole, real first,
                         real each, enum space space, struct law_points *p)
 {
@@ -195,9 +195,9 @@ static void path_points(const struct law *m, const struct law_points *start, con
     law_update(m, p, space, LAW_LOAD_STEP);
 }
 
-/* Returns the work of a strain increment in load steps from the state `start` to the state `end` [J/m^3]: the stress at
- * the increment x times its rate, by Simpson's rule; the lanes of a step are consecutive x. *turned: receives the
- * largest 1 - cos of the angle between the directions of flow there and at the end [1]. */
+/* Returns the work of a strain increment in load steps in `space` from the state `start` to the state `end` [J/m^3]:
+ * the stress at the increment x times its rate, by Simpson's rule; the lanes of a step are consecutive x. *turned:
+ * receives the largest 1 - cos of the angle between the directions of flow there and at the end [1]. */
 static real path_integral(const struct law *m, const struct law_points *start, const struct law_points *end,
                           const real *strain, enum space space, real *turned)
 {

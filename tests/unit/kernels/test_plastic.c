@@ -55,8 +55,8 @@ static struct metal steel(enum space space, real hardening)
     return constants(&m, space);
 }
 
-/* Performs a step of the strain increment L[dim][dim] (with rotation) on the point p, as in g2p.h. Returns the
- * increment of plastic strain. */
+/* Performs a step of the strain increment L[dim][dim] (with rotation) on the point p, as in g2p.h, with the material
+ * `metal`. Returns the increment of plastic strain. */
 static real step(struct point *p, const struct metal *metal, const real *L)
 {
     const struct elastic *m = &metal->elastic;
@@ -73,7 +73,7 @@ static real step(struct point *p, const struct metal *metal, const real *L)
     return law_step(&metal->law, m->space, before, p->s, &p->a, &p->work, &p->zz);
 }
 
-/* Computes s[6], all components of the stress of point p in any space (xx yy zz xy yz zx). */
+/* Computes s[6], all components of the stress of point p of metal m in any space (xx yy zz xy yz zx). */
 static void whole_stress(const struct point *p, const struct metal *m, real *s)
 {
     memset(s, 0, SYM_MAX * sizeof *s);
@@ -101,7 +101,7 @@ static real equivalent_of(const struct point *p, const struct metal *m)
     return equivalent(s);
 }
 
-/* Computes strain[6], the strain of the stress s[6] by Hooke's law in 3D, E = 1. */
+/* Computes strain[6], the strain of the stress s[6] by Hooke's law in 3D, E = 1 and Poisson's ratio `poisson`. */
 static void strain_of(const real *s, real poisson, real *strain)
 {
     const real trace = s[0] + s[1] + s[2];
@@ -110,9 +110,9 @@ static void strain_of(const real *s, real poisson, real *strain)
 
 /* ---- the conditions ---------------------------------------------------------------------------------------------- */
 
-/* Checks the conditions of a return mapping from the state `trial` to p: the result is on the yield surface, reached
- * along its normal there, with the non-negative plastic strain increment `more`; only trial stresses beyond the surface
- * change. The strain removed from the trial stress is da dq/dsigma. In plane strain eps_zz is unchanged. */
+/* Checks the conditions of a return mapping of metal m from the state `trial` to p: the result is on the yield surface,
+ * reached along its normal there, with the non-negative plastic strain increment `more`; only trial stresses beyond the
+ * surface change. The strain removed from the trial stress is da dq/dsigma. In plane strain eps_zz is unchanged. */
 static void check_return(const struct metal *m, const struct point *trial, const struct point *p, real more)
 {
     real before[SYM_MAX], after[SYM_MAX], strain[SYM_MAX];
@@ -266,7 +266,8 @@ static void test_plane_strain_is_solid(void **state)
     assert_true(p.a > 10 * YIELD);
 }
 
-/* Performs a step of the strain increment L of the point q in 3D with eps_zz such that sigma_zz = 0, by bisection. */
+/* Performs a step of the strain increment L of the point q of metal m in 3D with eps_zz such that sigma_zz = 0, by
+ * bisection. */
 static void step_free(struct point *q, const struct metal *m, const real *L)
 {
     real low = -1, high = 1;
@@ -406,8 +407,8 @@ static void test_uniaxial_stress(void **state)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Returns the energy that the balance has for one particle of unit volume with the state of p: strain energy plus
- * plastic work. m: material; partial: partial stress of the particle. */
+/* Returns the energy that the balance has for one particle of unit volume in `space` with the state of p: strain energy
+ * plus plastic work. m: material; partial: partial stress of the particle. */
 static real balance_energy(const struct point *p, const struct material *m, enum space space,
                            const struct partial_stress *partial)
 {

@@ -80,9 +80,9 @@ static void check_weights(struct points *s, enum shape shape)
     memory_free(field);
 }
 
-/* Checks sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0, by the nodal forces of a point of unit volume under
- * unit stress of each component. Tolerance: slopes are means over at least a twentieth of a cell: round-off 20 times
- * larger. */
+/* Checks sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0, for `shape` and `transfer` by the nodal forces of a
+ * point of s of unit volume under unit stress of each component. Tolerance: slopes are means over at least a twentieth
+ * of a cell: round-off 20 times larger. */
 static void check_slopes(struct points *s, enum shape shape, enum transfer transfer)
 {
     static const int component[DIM_MAX + 1][DIM_MAX][DIM_MAX] = {

@@ -81,8 +81,8 @@ static bool inside(const struct particles *p, int64_t i, const int *count, real 
     return true;
 }
 
-/* Returns the energy of an inner particle of b under the strain of `load`, divided by the classical one, from its row;
- * checks that the largest force on inner particles is round-off. */
+/* Returns the energy of an inner particle of b, count[dim] particles in `space`, under the strain of `load`, divided by
+ * the classical one, from its row; checks that the largest force on inner particles is round-off. */
 static real patch_ratio(struct body *b, const int *count, enum patch_load load, enum space space)
 {
     struct particles *p = &b->c.p;

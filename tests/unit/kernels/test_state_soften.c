@@ -79,8 +79,8 @@ static real kept_of(const struct bonds *b, int64_t row, const struct bond *bond)
     return onset * (end - k) / ((end - onset) * k);
 }
 
-/* Returns the potential of the family of row `row` (bonds of one particle) at the present positions [J], written from
- * the formulas of state_soften.c. w: weights without damage (weights_of). */
+/* Returns the potential of the family of row `row` of a (bonds of one particle) at the present positions [J], written
+ * from the formulas of state_soften.c. w: weights without damage (weights_of). */
 static real row_potential(const struct state_body *a, const real *w, int64_t row)
 {
     const struct bonds *b = &a->s.c.bonds;

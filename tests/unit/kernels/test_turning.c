@@ -137,8 +137,8 @@ static void keeps_moments(struct scene *s)
     for (int c = 0; c < 6; c++) assert_true(fabs(after[c] - before[c] - given[c]) <= CLOSE * size[c / 3]);
 }
 
-/* Checks that nodes of a rotating and translating body have the velocity of the body at their position, in flight that
- * of the position behind it. */
+/* Checks that nodes of a rotating and translating body s have the velocity of the body at their position, in flight
+ * that of the position behind it. */
 static void turns_rigidly(struct scene *s)
 {
     struct particles *p = &s->c.p;
@@ -162,8 +162,8 @@ static void turns_rigidly(struct scene *s)
     }
 }
 
-/* Checks a rigidly moving body in flight, with weights of points ahead of their positions, and that the nodes then have
- * all mass of the points. */
+/* Checks a rigidly moving body s in flight, with weights of points ahead of their positions, and that the nodes then
+ * have all mass of the points. */
 static void flies_rigidly(struct scene *s)
 {
     real points = 0, nodes = 0;

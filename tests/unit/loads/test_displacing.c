@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* Makes the expression *e x^2/(1 m) or, with time, x t/(1 s) [m, or m/s]. */
+/* Makes the expression *e x^2/(1 m) or, if with_time, x t/(1 s) [m, or m/s]. */
 static void by_x(struct expression *e, bool with_time)
 {
     const struct expression_step step[] = {

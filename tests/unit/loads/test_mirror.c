@@ -226,8 +226,8 @@ static void test_mirror_convert(void **state)
 
 /* ---- bonds that break -------------------------------------------------------------------------------------------- */
 
-/* Creates the families of q with Poisson's ratio 0.2 for the models that allow it. modulus: receives the constants of
- * state-based models. */
+/* Creates the families of q with Poisson's ratio 0.2 in `space`, for a `model` that allows it. modulus: receives the
+ * constants of state-based models. */
 static void quarter_families(struct quarter *q, enum space space, enum pd_model model, struct state_modulus *modulus)
 {
     static const int axis[] = {0, 1};
@@ -242,8 +242,8 @@ static void quarter_families(struct quarter *q, enum space space, enum pd_model 
         }
 }
 
-/* Tests a sweep in which all bonds beyond a stretch of 1.2 %, many of which were below it one step ago, break with the
- * model `model`: the quarter agrees with the whole body in number and last forces. */
+/* Tests in `space` a sweep in which all bonds beyond a stretch of 1.2 %, many of which were below it one step ago,
+ * break with the model `model`: the quarter agrees with the whole body in number and last forces. */
 static void breaks_case(enum space space, enum pd_model model)
 {
     const int dim = space_dim(space);
@@ -384,8 +384,8 @@ static void points_compare(const struct quarter *q)
         assert_true(deviation(q, part->stress[c], whole->stress[c]) <= CLOSE);
 }
 
-/* Checks that the quarter moves as the whole body does for shape functions that extend beyond the planes; the impulse
- * of the planes is the change of its momentum. offset: as in points_make. */
+/* Checks in `space`, with `transfer`, that the quarter moves as the whole body does for shape functions that extend
+ * beyond the planes; the impulse of the planes is the change of its momentum. offset: as in points_make. */
 static void points_case(enum space space, enum shape shape, enum transfer transfer, real offset)
 {
     const int n[2] = {6, 5};

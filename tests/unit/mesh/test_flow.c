@@ -12,8 +12,8 @@ static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_P
 /* Returns true if all points of a cell have one dilatation in the space `space`. */
 static bool averages(enum space space) { return space == SPACE_PLANE_STRAIN || space == SPACE_SOLID; }
 
-/* Creates the block b, whose points yield at `yield` times the shear modulus, material 1 with hardening; 0: no
- * yielding. optional: optional arrays of particles (WITH_*). */
+/* Creates in `space` the block b, whose points yield at `yield` times the shear modulus, material 1 with hardening; 0:
+ * no yielding. optional: optional arrays of particles (WITH_*). */
 static void flow_block_make(struct block *b, enum space space, real yield, int optional)
 {
     block_make_with(b, space, true, false, FLOWED | optional);
@@ -29,8 +29,8 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
     }
 }
 
-/* Creates the block b, whose material 1 has linear hardening and material 0 Voce's law and a back stress in place of
- * it, with recall if `recall` > 0. mode: of the law; explicit steps have laws alone. */
+/* Creates in `space` the block b, whose material 1 has linear hardening and material 0 Voce's law and a back stress in
+ * place of it, with recall if `recall` > 0. mode: of the law; explicit steps have laws alone. */
 static void law_block_make(struct block *b, enum space space, real recall, enum law_mode mode)
 {
     flow_block_make(b, space, 0.05, WITH_BACK_STRESS | (mode == LAW_EXPLICIT ? WITH_MESH_STRESS : 0));
@@ -84,9 +84,9 @@ static int64_t flowed(const struct block *b)
     return n;
 }
 
-/* Checks f = -dW/du by central differences at some nodes, from a plastic state left by another path. finite: true for
- * finite strain; law: true for the laws of law_block_make. Where a point starts to yield within the step its second
- * derivative jumps, which adds 1e-6 of the largest force. */
+/* Checks in `space` f = -dW/du by central differences at some nodes, from a plastic state left by another path. finite:
+ * true for finite strain; law: true for the laws of law_block_make. Where a point starts to yield within the step its
+ * second derivative jumps, which adds 1e-6 of the largest force. */
 static void flow_gradient_of(enum space space, bool finite, bool law)
 {
     struct block b;

@@ -50,8 +50,8 @@ static void levels_set(struct plate *b, bool bend)
     memory_free(demand);
 }
 
-/* Creates the plate b. levels: coarse levels; length: cells along x; parted: true for a second material beyond the
- * middle. */
+/* Creates in `space` the plate b. levels: coarse levels; length: cells along x; parted: true for a second material
+ * beyond the middle. */
 static void plate_make_of(struct plate *b, enum space space, int levels, int length, bool parted)
 {
     const int dim = space_dim(space), across = dim == 3 ? 40 : 48;
@@ -142,8 +142,8 @@ static real strain_of(struct plate *b, bool finite)
            levels_strain_energy_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite);
 }
 
-/* Returns the force on component d of node I of `level` by all cells: of its own level, plus half the doubled one of
- * the next. */
+/* Returns the force on component d of node I of `level` of b by all cells: of its own level, plus half the doubled one
+ * of the next. */
 static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
 {
     const struct grid *g = &level_mesh(&b->levels, level)->grid;
@@ -154,8 +154,9 @@ static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
     return own + 0.5 * (g->force[d][I] - own);
 }
 
-/* Checks f = -dW/du by central differences of the energy of all cells, at some nodes of each level. Tolerance 1e-6 of
- * the largest force: third derivatives times the squared step, and round-off of the total energy over the step. */
+/* Checks in `space` f = -dW/du by central differences of the energy of all cells, at some nodes of each level.
+ * Tolerance 1e-6 of the largest force: third derivatives times the squared step, and round-off of the total energy over
+ * the step. */
 static void gradient_across(enum space space, bool finite)
 {
     struct plate b;
@@ -210,8 +211,8 @@ static bool on_face(const struct plate *b, int level, int64_t I)
     return face;
 }
 
-/* Checks that inner nodes of a level have no force from its own cells and those of the next, to 1e-12 of the forces of
- * single cells. */
+/* Checks that inner nodes of a level of b have no force from its own cells and those of the next, to 1e-12 of the
+ * forces of single cells. */
 static void patch_level(struct plate *b, bool finite, int level)
 {
     const struct mesh *mesh = level_mesh(&b->levels, level);
@@ -462,7 +463,7 @@ static void test_dispersion(void **state)
 }
 
 /* Returns the amplitude of a pulse of the width `width` reflected at an interface to cells of four spacings, over the
- * peak of the pulse. */
+ * peak of the pulse. levels: of coarse cells. */
 static real reflection(int levels, real width)
 {
     enum { LENGTH = 1600 };

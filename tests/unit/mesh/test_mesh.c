@@ -7,8 +7,8 @@
 
 /* f = -dW/du by central differences of the plain energy of the cells around a node. Tolerance 1e-7 of the largest
  * force: third derivatives times the squared step, and round-off of the energy over the step. */
-/* Checks the nodal forces of a block against the energy gradient. cubic: true for a cubic material; averaged: 1: with
- * one dilatation in a cell, 2: and with several materials in it. */
+/* Checks in `space` the nodal forces of a block against the energy gradient. cubic: true for a cubic material;
+ * averaged: 1: with one dilatation in a cell, 2: and with several materials in it. */
 static void gradient_stencil_apply(enum space space, bool finite, bool cubic, int averaged)
 {
     struct block b;
@@ -121,7 +121,7 @@ static void given_own(const struct block *b, const struct partial_stress *partia
 }
 
 /* Computes P, the stress that point i of b transfers: that of given_own, whose mean stress is the mean over the points
- * of its cell and material if they have one dilatation. */
+ * of its cell and material if they have one dilatation. partial: partial stresses. */
 static void given(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct particles *p = &b->c.p;

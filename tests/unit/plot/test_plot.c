@@ -262,7 +262,7 @@ static void block_deform(struct output_frame *f, const double H[2][2], double op
             f->u[d][i] = (float)(H[d][0] * f->X[0][i] + H[d][1] * f->X[1][i] + (d == 1 && f->X[1][i] > 0 ? open : 0));
 }
 
-/* Counts the pixels of c with a particle and without (*blank) in a square around the origin, 2 x `half` wide [m]. */
+/* Counts the pixels *painted of c with a particle and *blank without in a square of 2 x `half` around 0 [m]. */
 static void pixels_count(const struct plotted_particles *c, double half, int *painted, int *blank)
 {
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
@@ -370,7 +370,7 @@ static void stretched_solids_are_closed(void **state)
     plotted_particles_free(&c), frame_free(&f);
 }
 
-/* Returns the number of columns of a picture of `size` x `size` pixels in which a face of a pre-crack is drawn. */
+/* Returns the number of columns of the picture pixel[size size] in which a face of a pre-crack is drawn. */
 static int columns_with_line(const struct colour *pixel, int size)
 {
     int columns = 0;

@@ -30,7 +30,8 @@ static void run(struct solution *a, const char *text)
 }
 
 /* Creates a plate of 64 spacings with a crack of 2 x 12 at `angle` to the normal of the load, a quarter of a spacing
- * off the symmetry of the rows, so that no particle is on it, and solves it. more: further overrides `key=value`. */
+ * off the symmetry of the rows, so that no particle is on it, and solves it. more: further overrides `key=value`.
+ * steps: number of load steps. */
 static void plate(struct solution *a, real angle, int steps, const char *more)
 {
     static char text[2000];
@@ -127,7 +128,7 @@ static const char *point(char text[80], const int *order, real x, real y, real z
 }
 
 /* Creates a block of 20 x 16 x 4 spacings with an edge crack of 7 whose front is rotated by `askew` against the sides
- * [degree], under tension along the second axis. */
+ * [degree], under tension along the second axis. steps: number of load steps; order: of the axes. */
 static void block(struct solution *a, const int *order, real askew, int steps)
 {
     static char text[2000];

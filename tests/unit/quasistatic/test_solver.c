@@ -97,7 +97,7 @@ static real moved(const struct solution *a, int d, real x, real y)
     return a->e.part.x[d][i] - a->e.part.X[d][i];
 }
 
-/* Returns the mean strain between the positions `from` and `to` along d. */
+/* Returns the mean strain of a between the positions `from` and `to` along d. */
 static real strain(const struct solution *a, int d, const real *from, const real *to)
 {
     const int64_t i = at(a, from[0], from[1]), j = at(a, to[0], to[1]);
@@ -105,7 +105,8 @@ static real strain(const struct solution *a, int d, const real *from, const real
     return (p->x[d][j] - p->x[d][i]) / (p->X[d][j] - p->X[d][i]) - 1;
 }
 
-/* Returns the largest difference of two solutions over the largest displacement, at the particles of the second. */
+/* Returns the largest difference of the solutions a and b over the largest displacement, at the particles of the
+ * second. */
 static real difference(const struct solution *a, const struct solution *b)
 {
     const struct particles *p = &b->e.part;
@@ -199,7 +200,7 @@ static void test_bar_weight(void **state)
     solution_free(&a);
 }
 
-/* Stores the largest force and the root mean square in *context, if `quantity` of a probe is one of them. */
+/* Stores `value` in *context if `quantity` of a probe is the largest force or the root mean square. */
 static void reaction_keep(void *context, const char *probe, const char *quantity, real value)
 {
     real *figure = context;

@@ -197,7 +197,7 @@ static void hdf5_lists_are_read(void **state)
     remove(name);
 }
 
-/* Writes the attribute `unit` of the dataset `name`, of fixed or variable length. */
+/* Writes the attribute `unit` of the dataset `name` in `file`, of fixed or variable length. */
 static void unit_write(hid_t file, const char *name, const char *unit, bool variable)
 {
     hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);

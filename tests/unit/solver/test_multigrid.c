@@ -59,7 +59,7 @@ static bool joined(const struct body *b, const int *from, const int *to)
     return true;
 }
 
-/* Returns the factor on the stiffness of the bond between the positions `from` and `to`: of two materials one is a
+/* Returns the factor on the stiffness of the bond between the positions `from` and `to` of b: of two materials one is a
  * thousand times as stiff; bonds between them have the harmonic mean. */
 static real bond_factor(const struct body *b, const int *from, const int *to)
 {

@@ -190,8 +190,8 @@ static void damping_bears_a_steady_force(void **state)
         }
 }
 
-/* Returns angular momentum over moment of inertia of a block with the initial angular velocity 11 1/s, after 1 ms and
- * half a step, as velocities are [1/s]. */
+/* Returns angular momentum over moment of inertia of a block with these keys of method, transfer and damping and the
+ * initial angular velocity 11 1/s, after 1 ms and half a step, as velocities are [1/s]. */
 static real spin_after(const char *method, const char *transfer, const char *damping)
 {
     struct finished_run a;

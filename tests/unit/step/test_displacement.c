@@ -90,9 +90,9 @@ static real off_place(const struct scene_run *a, real from, real u)
     return most / (far * DBL_EPSILON);
 }
 
-/* Checks at every step of `duration` that driven particles of `scene` beyond `from` are at their positions to the last
- * bit or two: the time in the middle of a step plus half of it is rounded. In the mesh nodes are exact, and points
- * between them are sums of four to eight terms. */
+/* Checks at every step of `duration` that driven particles of `scene` beyond `from` (body of `size` [m]) are at their
+ * positions to the last bit or two: the time in the middle of a step plus half of it is rounded. In the mesh nodes are
+ * exact, and points between them are sums of four to eight terms. */
 static void check_places(const char *scene, real from, real size, real duration)
 {
     char boundary[300];
