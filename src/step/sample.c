@@ -388,8 +388,8 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power_of_coarse_nodal_forces(&reference->levels);
 }
 
-/* Returns the power v . f [W] of the forces on nodes (of grids and of the mesh `reference`) whose motion loads
- * prescribe (walls). power_now includes this power, which is work of the loads. */
+/* Returns the power v . f [W] of the forces on nodes of the mesh `reference` whose motion loads prescribe (walls).
+ * power_now includes this power, which is work of the loads. */
 static real power_of_walls(const struct reference_frame *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
