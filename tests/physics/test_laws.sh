@@ -102,8 +102,8 @@ between "two bodies: the other one yields" "$(f voce energy.plastic)" 1e-3 1e3
 
 # ---- short bars that hit a wall: yield_stress alone is a flow law, and its work is booked in every space ------------------------------
 
-# Half of the stable step leaves 0.6 % of the energy to transfers; booked by the volume at the end, plastic work missed 20 to 40 % in a line
-# and in plane stress.
+# Half of the stable step leaves 0.6 % of the energy to transfers; booked by the volume at the end, plastic work would miss 20 to 40 % in a
+# line and in plane stress.
 scene short <<'END'
 space: SPACE
 DEPTH

@@ -116,7 +116,7 @@ done
 balanced recall recall
 
 # Ratchet: between +300 and -200 MPa the strain grows by 2.75560e-3 a cycle, with 5 steps in a quarter of a cycle as with 40. Implicit Euler
-# steps of the back stress had 76 % and 7.6 % more. The load acts on the last point, at 3/4 of the second cell.
+# steps of the back stress would have 76 % and 7.6 % more. The load acts on the last point, at 3/4 of the second cell.
 for steps in 25 200; do
     calm "$work/ratchet$steps" "$work/steps.yaml" -s "$recall" -s steps.number=$steps -s 'body.box={from: [0], to: [4 mm]}' \
         -s 'boundary=[{name: left, mirror: {axis: x, at: 0}}, {name: right, traction: [100 MPa], face: x+, time: {table: [[0 s, 0], [0.2 s, 3], [0.4 s, -2], [0.6 s, 3], [0.8 s, -2], [1 s, 3]]}}]'

@@ -135,7 +135,7 @@ between "let go: balance" "$(figure "$work/let_go" energy.balance_error)" -1e-3 
 refused "a body that moves freely" "$work/no" 'has a mass and moves freely' "$work/bend.yaml" -s bodies.3.mass=1kg
 
 # Flat blocks that touch from the start: points beside them convert before the first step, whose work is half of force times displacement.
-# The third block comes from 1 mm above. Without a support along x a beam whose blocks end at columns of particles slides, which is said.
+# The third block comes from 1 mm above. Without a support along x a beam whose blocks end at columns of particles slides, and a warning says so.
 small='steps={number: 2}'
 start blocks "$work/bend.yaml" -s method=adaptive -s cracks=[] -s "$small" -s bodies.3.velocity='[0, -0.1 mm/s]' -t 1
 start above "$work/bend.yaml" -s cracks=[] -s "$small" -s bodies.3.shape='{box: {from: [-h, 41 mm], to: [h, 45 mm]}}' -s bodies.3.velocity='[0, -1.2 mm/s]' -t 1

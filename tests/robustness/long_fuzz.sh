@@ -21,7 +21,7 @@ sort -u -o "$work/words" "$work/words"
 awk -F'|' '/^[0-9]+\|.*\|[0-9]+:[0-9]+\|/ { gsub(/\^/, "\n", $2); print $2 > (out "/bad" NR) ; close(out "/bad" NR) }' out="$work" tests/robustness/test_refusals.sh
 printf '1x,y,volume\n0.5e-3,0.5e-3,1e-8\n1.5e-3,0.5e-3,1e-8\n' >"$work/list.csv"
 printf 'material.young=1 GPa\nparticles.spacing=2 mm\nboundary[0].velocity=[1, 2]\nmethod=pd\n' >"$work/keys"
-# An earlier find: the grid grows at the last step, and with it the arrays of loads.
+# An input found by fuzzing: the grid grows at the last step, and with it the arrays of loads.
 printf '\155\143\160\141\142\047\163\163\142\157\165\156\144\141\162\160\162\157\142\145\163\056\154\151\000\145' >"$work/grown"
 
 # fuzz TARGET FILE...: runs the fuzzer; finds are kept beside the build.

@@ -1,6 +1,6 @@
 #!/bin/sh
-# What a refusal names as a way out is one: for each combination that no method or model can do, the words of the message, and that the
-# scene passes `cleave check` with each change that it names.
+# Changes that a refusal recommends are possible: for each combination that no method or model can do, checks the words of the message, and
+# that the scene passes `cleave check` with each of these changes.
 # Takes 10 s: 60 small scenes are read and set up.
 test_name=test_remedies
 . tests/support/summary.sh

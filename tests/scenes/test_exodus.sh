@@ -30,7 +30,7 @@ refused()
 # column NAME: its last value in history.csv of a run.
 column() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { split($k, word, " "); if (word[1] == name) at = k } } END { print $at }' "$1/history.csv"; }
 
-# What the file has not is said: rigid bodies and pre-cracks.
+# Warnings name what the file lacks: rigid bodies and pre-cracks.
 said=$("$cleave" export exodus plate.yaml -o less.g -s 'cracks=[{from: [15 mm, 0], to: [15 mm, 4 mm]}]' -s 'bodies=[
     {name: plate, material: glass, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}},
     {name: ball, rigid: true, mass: 5 g, shape: {ball: {centre: [10 mm, 20 mm], radius: 6 mm}}},

@@ -33,7 +33,7 @@ vibration()
 }
 
 # A stretched block vibrates alike at rest and at 200 m/s, of which its stress gained half of its energy in eleven cells (measured: less than
-# 0.007 of difference). With linear shapes it gains: little beside its kinetic energy, but said all the same.
+# 0.007 of difference). With linear shapes it gains energy, little compared with its kinetic energy, but a warning reports it.
 cp tests/scenes/claims/flight.yaml "$work"
 for poisson in 0.3 0.45; do
     calm "$work/rest$poisson" "$work/flight.yaml" -s material.poisson=$poisson -s initial.0.velocity='[0, 0]'

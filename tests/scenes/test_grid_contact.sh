@@ -56,8 +56,8 @@ E
 calm "$work/striker" "$work/striker.yaml"
 between "striker: what it keeps" "$(compute "$(f striker probes.striker.x) / 8e-3")" -0.02 0.05
 
-# Bodies that touch at the start move alike wherever they are: round-off of their positions decides nothing (contact of two bodies began a
-# step later, or had other normals, after a shift: 4 % of the momentum of the rebound).
+# Bodies that touch at the start move alike wherever they are: round-off of their positions decides nothing (otherwise contact after a shift
+# begins a step later, or has other normals: 4 % of the momentum of the rebound).
 for x in 0 0.5; do
     cat >"$work/touch$x.yaml" <<E
 variables: {a: $x m}

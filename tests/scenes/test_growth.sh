@@ -181,7 +181,7 @@ refuse "$follow, probe: sif, toughness: 1 MPa m^0.5, fastest: 0 m/s" "fastest"
 refuse "$good, fastest: 900 m/s" "has no effect with a given speed"
 refuse "$good, colour: red" "colour"
 refuse "$good" "method mpm has no bonds" -s method=mpm
-# Bonds that have yielded and fade behind the tip: their plastic work stays on the account. Without it 4.6 % of the energy was missing.
+# Bonds that have yielded and fade behind the tip: their plastic work stays on the account. Without it 4.6 % of the energy would be missing.
 cat >"$work/yields.yaml" <<'END'
 space: plane strain
 thickness: 2 mm

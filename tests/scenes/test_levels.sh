@@ -112,7 +112,7 @@ done
 
 # A sif ring in material points around a gap that is hit by sudden waves: its cells stay at two spacings, because coarse ones have no
 # acceleration in most steps. K_I within 3 % of that with cells of two spacings everywhere: the front of the waves is a step, in which
-# coarse cells cause another oscillation (2.6 % at 5.5 us); with the ring in coarse cells the error was 30 to 90 %.
+# coarse cells cause another oscillation (2.6 % at 5.5 us); with the ring in coarse cells the error would be 30 to 90 %.
 cat >"$work/gap.yaml" <<EOF
 space: plane strain
 thickness: 1 mm
@@ -149,7 +149,7 @@ same "a ring that runs, interrupted after 45 lines" "$work/runs" "$work/ran"
 
 # ---- two slits with contact --------------------------------------------------------------------------------------------
 
-# Without the refinement near slits, half of the energy was gained with coarse cells a few spacings away.
+# Without the refinement near slits, half of the energy would be gained with coarse cells a few spacings away.
 cat >"$work/slits.yaml" <<EOF
 space: plane stress
 thickness: 1 mm

@@ -79,7 +79,7 @@ for w in 1 2; do
 done
 
 # Light nodes on a plane of symmetry (APIC) follow their neighbours as those of the whole body do: half of a block under a traction along the
-# plane stores half of its energy, to the digits of history.csv. Held, such nodes gave 6 % more.
+# plane stores half of its energy, to the digits of history.csv. If such nodes were held, it would store 6 % more.
 cat >"$work/light.yaml" <<'END'
 space: plane stress
 thickness: 2 mm
