@@ -16,6 +16,7 @@ const struct absorbing_method absorbing_methods[ABSORBING_METHODS] = {
 
 /* ---- normal incidence -------------------------------------------------------------------------------------------- */
 
+/* Widths of the pulses [spacings]. */
 static const int pulse_widths[] = {16, 32, 64};
 
 /* Measures the reflection of pulses of all widths at normal incidence in `dim` dimensions, prints a line with the

@@ -76,6 +76,7 @@ int accuracy_collect_times_and_errors(const struct accuracy_plan *plan, const st
 
 /* ---- one panel --------------------------------------------------------------------------------------------------- */
 
+/* Runs of one panel with their times and errors, its Pareto front, and the ends of its axes. */
 struct panel {
     int n, front_n, *front, number;
     struct accuracy_dot *dot;

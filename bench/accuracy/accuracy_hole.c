@@ -63,6 +63,7 @@ void accuracy_hole_compute_exact_solution(const double position[2], double displ
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
+/* Scene of a square plate with a hole of radius 1 m, without its load. */
 static const char plate[] =
     "space: plane stress\nthickness: 1\nmaterial: {young: 1e9, poisson: 1/3, density: 1, critical_stretch: inf}\n"
     "body: [{box: {from: [-5, -5], to: [5, 5]}}, {subtract: {disc: {centre: [0, 0], radius: 1}}}]\n"

@@ -121,6 +121,7 @@ static status sif_fading_reactions(struct bench_goals *asked)
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
+/* A crack path: its name, the scene key and value that are varied, and the results of its run. */
 struct path_row {
     const char *name, *key, *value;
     double angle, length, start, ratio, seconds; /* angle [degree], length [m], start [s]; root mean square of

@@ -278,6 +278,7 @@ status drift_call_for_all_cases(bool quick, drift_take *callback, void *context)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
+/* Names of the peridynamic regions and supports in labels of cases. */
 static const char *const region_name[] = {
     [HALF] = "half",     [STRIP] = "strip", [SQUARE] = "square",   [DISC] = "disc",
     [CORNER] = "corner", [NOTCH] = "notch", [ISLANDS] = "islands", [SPOTS] = "spots"};

@@ -61,6 +61,7 @@ static void draw_horizons(FILE *to, const struct stability_map *map)
 
 /* ---- over points a cell ------------------------------------------------------------------------------------------ */
 
+/* Shape functions with a line in the panels over points per cell. */
 static const char *const shape[] = {"linear", "gimp", "cpgimp", "quadratic", "cubic"};
 enum { SHAPES_DRAWN = COUNT_OF(shape) };
 

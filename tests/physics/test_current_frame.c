@@ -73,6 +73,7 @@ static void run_make(struct held_run *r, const struct block *b, const char *meth
 
 /* ---- operators of a step ----------------------------------------------------------------------------------------- */
 
+/* Positions and volumes of the particles of a run at its start. */
 struct places {
     real *x[DIM_MAX], *volume;
 };

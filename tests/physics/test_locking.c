@@ -20,6 +20,7 @@ struct held_run {
 
 /* ---- Taylor's test ----------------------------------------------------------------------------------------------- */
 
+/* Scene of Taylor's test: a quarter of a copper bar before a rigid wall. */
 static const char bar[] = "name: bar\nspace: solid\nduration: 80 us\nmethod: mpm\n"
                           "material: {young: 117 GPa, poisson: 0.35, density: 8930, yield_stress: 157 MPa, hardening: "
                           "{linear: {modulus: 425 MPa}}}\n"

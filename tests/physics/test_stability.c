@@ -13,6 +13,7 @@
 
 /* ---- the automatic step ------------------------------------------------------------------------------------------ */
 
+/* Cases of all methods whose automatic step is compared with the observed limit. */
 static const struct stability_case bounds[] = {
     {.dim = 1, .method = "pd"},
     {.dim = 2, .method = "pd"},

@@ -170,6 +170,7 @@ static void scene_note(const struct small_scene *small)
 
 /* ---- tests ------------------------------------------------------------------------------------------------------- */
 
+/* Number of features without a small scene or command, which complain() has printed. */
 static int complaints;
 
 static void complain(const char *what, const char *word)

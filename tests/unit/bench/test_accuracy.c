@@ -68,6 +68,7 @@ static void cheapest_is_the_first_good_enough(void **state)
 
 /* ---- exact forms satisfy rho u_tt = c12 grad div u + G (lap u + grad div u) + f ---------------------------------- */
 
+/* A closed form of motion u = at(context, X, t) in an elastic medium, whose equation of motion is tested. */
 struct motion {
     int dim;
     real c12, shear, density, length, time; /* length and time scales, for the steps of finite differences */
@@ -253,6 +254,7 @@ static void particles_start_in_a_transverse_wave(void **state)
 
 /* ---- the measured table ------------------------------------------------------------------------------------------ */
 
+/* Returns the problem called `name`; NULL if there is none. */
 static const struct accuracy_problem *problem_named(const char *name)
 {
     for (int k = 0; k < accuracy_problems; k++)

@@ -79,6 +79,7 @@ static void hole_is_elastic_and_in_balance(void **state)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the method called `name`; NULL if there is none. */
 static const struct accuracy_method *method_called(const char *name)
 {
     for (int m = 0; m < accuracy_methods; m++)

@@ -72,6 +72,7 @@ static void test_search(void **state)
 
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
 
+/* Properties of a case, as bits: both kinds of particles, two bodies, two materials, a crack. */
 enum { MIXED = 1, BODIES = 2, MATERIALS = 4, CRACKED = 8 };
 
 struct rows_case {

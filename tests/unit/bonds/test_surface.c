@@ -312,6 +312,7 @@ static void bending_has_the_energy_of_a_beam(void **state)
 
 /* ---- mirrors ----------------------------------------------------------------------------------------------------- */
 
+/* A plane of symmetry at x = 0. */
 static const struct boundary mirror[] = {{.name = "left", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 0, .at = 0}};
 
 /* Checks that half of a body beside a mirror has the factors of the whole body. */

@@ -14,6 +14,7 @@
 
 /* ---- a flat interface -------------------------------------------------------------------------------------------- */
 
+/* A body with a flat interface between bonds and material points. */
 struct interface {
     struct cloud_plan plan;
     int split; /* number of peridynamic columns, left of the interface */

@@ -19,6 +19,7 @@ static real random_next(uint64_t *state)
 
 /* ---- one of each kind -------------------------------------------------------------------------------------------- */
 
+/* Shapes of the examples: a polygon with and without rounded corners, and a ring. */
 static real arrow[][2] = {{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}};
 static struct polygon sharp = {5, arrow, 0, NULL, 0}, rounded = {5, arrow, 0.25, NULL, 0};
 static struct solid washer = {.kind = SOLID_RING, .radius = 1, .inner = 0.4};

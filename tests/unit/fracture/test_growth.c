@@ -426,6 +426,7 @@ static void test_points(void **state)
 
 /* ---- restarts ---------------------------------------------------------------------------------------------------- */
 
+/* An archive in memory: entries with their names, data and sizes. */
 struct drawer {
     char name[8][64];
     char data[8][200000];

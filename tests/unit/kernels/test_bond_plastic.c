@@ -111,6 +111,7 @@ static void test_broken(void **state)
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
+/* Plastic stretch and its path of a bond that is computed in scalars. */
 struct twin {
     real plastic, path;
 };

@@ -68,6 +68,7 @@ static void test_two_particles(void **state)
 
 /* ---- bodies that burst ------------------------------------------------------------------------------------------- */
 
+/* A body that bursts, with the kernels of its model. */
 struct burst {
     struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];

@@ -9,6 +9,7 @@
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
+/* A body of a state-based model with the constants of its materials. */
 struct body {
     struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];
@@ -265,6 +266,8 @@ static void test_ospd_spaces(void **state)
 
 static const enum pd_model models[] = {PD_OSPD, PD_MOSPD};
 
+/* Creates in `space` the body b, irregular and cut along x = 4.5 spacings, whose bonds follow `model`. local: true if
+ * families are normalised by their intact bonds. */
 static void cracked_make(struct body *b, enum space space, enum pd_model model, bool local)
 {
     struct cloud_plan plan = {

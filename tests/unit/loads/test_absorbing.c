@@ -76,6 +76,8 @@ static void test_kick(void **state)
 
 /* ---- waves leave ------------------------------------------------------------------------------------------------- */
 
+/* Results of a run: energy at its start and end, absorbed energy, errors of both balances, largest energy, and energy
+ * that a face gave back. */
 struct left {
     real start, rest, absorbed, balance, momentum, most, back;
 };

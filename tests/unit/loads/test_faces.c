@@ -273,6 +273,7 @@ static void test_along(void **state)
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
+/* File with the particles of the present list. */
 static char list_name[64];
 
 /* Rings of a disc of radius 20, hexagons, squares of two sizes, nodes on the border with halves and quarters, a lattice

@@ -37,6 +37,7 @@ static bool is_there(const char *path)
 
 /* ---- summary.json ------------------------------------------------------------------------------------------------ */
 
+/* A summary with nested objects, lists, null, and text with quotes. */
 static const char sound[] =
     "{ \"name\" : \"a \\\"b\\\"\", \"steps\": 12, \"x\": -1.5e-3,\n \"crack\": {\"start\": null, \"tips\": "
     "[ {\"x\": 1, \"deep\": {\"x\": 7}}, {\"x\": 2.5} ], \"x\": 9},\n \"list\": [[1, 2], [], {}], \"ok\": true }\n";
@@ -432,6 +433,7 @@ static void bodies_are_closed_and_gaps_open(void **state)
 
 /* ---- common folder ----------------------------------------------------------------------------------------------- */
 
+/* Folder for the files of these tests. */
 static char folder[] = "/tmp/cleave_compare_XXXXXX";
 
 static int enter(void **state)

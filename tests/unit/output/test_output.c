@@ -425,6 +425,7 @@ static void history_on_a_full_disk_fails(void **state)
 
 /* ---- the summary ------------------------------------------------------------------------------------------------- */
 
+/* Checks the numbers of summary.json of a run of known state. */
 static void summary_has_the_figures(void **state)
 {
     (void)state;

@@ -288,6 +288,7 @@ static void flux_is_the_force_across(void **state)
 
 /* ---- the probe --------------------------------------------------------------------------------------------------- */
 
+/* Names and values that a probe has reported. */
 struct figures {
     int n;
     char name[32][NAME_MAX_LENGTH];

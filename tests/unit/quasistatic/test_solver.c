@@ -150,6 +150,7 @@ static void test_integrals(void **state)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
+/* Two positions on the bar [m], between which strains are measured. */
 static const real quarter_place[2] = {0.205, 0}, far_place[2] = {0.805, 0};
 
 /* Checks sigma/E = 1e-6 in the interior. The families at the free end are incomplete over a horizon: with surface

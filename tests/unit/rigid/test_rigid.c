@@ -151,6 +151,7 @@ static void test_surface_of_a_plane_afar(void **state)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
+/* Velocity of a body at rest. */
 static const real rest[DIM_MAX] = {0, 0, 0};
 
 /* Tests inertia: a brick m/12 (b^2 + c^2), to round-off with the cells of a grid; a disc m R^2/2 within 1e-3 with a

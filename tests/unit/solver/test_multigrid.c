@@ -156,6 +156,7 @@ static void body_free(struct body *b)
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
+/* A field with a component along each axis, a value for each node. */
 struct vectors {
     real *of[DIM_MAX];
 };

@@ -103,6 +103,7 @@ static void steps_beyond_the_limit_are_fast(void **state)
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
+/* Scene of an adaptive plate without loads. */
 static const char plate[] =
     "space: plane stress\nthickness: 1 mm\nduration: 1 ms\nmethod: adaptive\nmpm: {frame: current}\n"
     "material: {young: 200 GPa, poisson: 1/3, density: 7850}\n"
