@@ -50,19 +50,18 @@ struct boundary {
     real frozen_at;
     bool displaces; /* VELOCITY: value, times factor and formula, is a displacement [m] */
     bool rotates;   /* VELOCITY: particles rotate about an axis; all components are prescribed */
-    /* rotates: a point of the axis [m]; direction of the axis, of any length, z in 2D; angular velocity [1/s] */
-    real centre[DIM_MAX], axis_of[DIM_MAX], rate;
-    bool follow;                       /* PRESSURE: normals and areas are those of the deformed body */
-    struct time_function time;         /* factor on `value` as a function of time */
-    char *time_file;                   /* CSV file of the factor; NULL: given in the scene */
-    char time_column[NAME_MAX_LENGTH]; /* column of the file; "": the only one beside the time */
-    uint64_t time_contents;            /* hash of the file; 0: not read */
-    bool time_unit;                    /* the column has the unit of the value, and `value` is only the direction */
-    struct profile profile;            /* BODY_FORCE: factor on value */
-    bool by_mass;                      /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
-    int face;                          /* TRACTION, ABSORBING, VELOCITY: axis of the normal of the face */
-    int side;                          /* +1: face at the upper end of that axis, -1: lower end; VELOCITY: 0, no face */
-    real depth;                        /* VELOCITY: depth of the driven layer of particles behind the face [m] */
+    real centre[DIM_MAX], axis_of[DIM_MAX], rate; /* point on the axis [m]; its direction; angular velocity [1/s] */
+    bool follow;                                  /* PRESSURE: normals and areas are those of the deformed body */
+    struct time_function time;                    /* factor on `value` as a function of time */
+    char *time_file;                              /* CSV file of the factor; NULL: given in the scene */
+    char time_column[NAME_MAX_LENGTH];            /* column of the file; "": the only one beside the time */
+    uint64_t time_contents;                       /* hash of the file; 0: not read */
+    bool time_unit;         /* the column has the unit of the value, and `value` is only the direction */
+    struct profile profile; /* BODY_FORCE: factor on value */
+    bool by_mass;           /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
+    int face;               /* TRACTION, ABSORBING, VELOCITY: axis of the normal of the face */
+    int side;               /* +1: face at the upper end of that axis, -1: lower end; VELOCITY: 0, no face */
+    real depth;             /* VELOCITY: depth of the driven layer of particles behind the face [m] */
     real section; /* with a face: cross-section in 1D [m^2], thickness in 2D [m], 1 in 3D; 0: the area of a particle is
                      its volume divided by the spacing */
     int axis;     /* MIRROR: axis of the plane's normal */
