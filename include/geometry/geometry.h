@@ -11,28 +11,32 @@
 #include "data/region.h"
 
 /* A part of a mesh with the name `name` and the surface `hull`: a closed surface for elements that fill the body, an
- * open surface for faces, lines or nodes. */
+ * open surface for faces, lines or nodes. own: number of characters before the name of the set itself, which are the
+ * name of an instance of an Abaqus assembly and a dot; fault: why the set cannot be used, NULL if it can. */
 struct geometry_set {
-    char name[NAME_MAX_LENGTH];
+    char name[LONG_NAME_LENGTH];
+    int own;
+    const char *fault;
     struct hull hull;
 };
 
 /* The surface of a body and its named parts set[sets], all coordinates in metres. */
 struct geometry {
-    struct hull whole; /* surface of the body */
+    struct hull whole; /* surface of the body; of a list of particles, which has sets alone, dim is 0 */
     int sets;          /* length of `set` */
     struct geometry_set *set;
 };
 
 /* Reads a body and its named parts from a .stl, .msh, .inp or Exodus II file into g. The extension of the name `path`
- * selects the format. dim: dimensions of the space; if it is 2, the elements must be triangles and quadrilaterals of
+ * selects the format. Of a list of particles the sets are read. dim: dimensions of the space; if it is 2, the elements must be triangles and quadrilaterals of
  * equal z. scale: length of the unit of the file [m]. chord_tolerance: largest distance between a curved edge of a
  * second-order element and the chords that approximate it [m]; NAN for 1/256 of the largest sagitta. Returns REFUSED,
  * with a message and nothing to release, for a wrong format, a file without a body, or a surface so open that inside
  * and outside cannot be distinguished. Release g with geometry_free. */
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance);
 
-/* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */
+/* Returns the named part of g called `name`, ignoring case. The name of the instance to which a part of an Abaqus
+ * assembly belongs may be left out where one instance alone has a part of this name. Returns NULL if there is none. */
 const struct geometry_set *geometry_find_named_part(const struct geometry *g, const char *name);
 
 /* Releases all arrays of g, the surfaces of a body and its parts, and sets all members of g to 0. */

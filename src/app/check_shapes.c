@@ -18,9 +18,22 @@ static int hull_slits(const struct hull *h)
     return n;
 }
 
+/* Prints the names of the sets of the mesh f, and ends the line. */
+static void say_sets(const struct shape_file *f)
+{
+    if (f->geometry.sets > 0) printf("; sets");
+    for (int k = 0; k < f->geometry.sets && k < 12; k++) printf("%s %s", k ? "," : "", f->geometry.set[k].name);
+    printf("%s\n", f->geometry.sets > 12 ? ", .." : "");
+}
+
 static void say_hull(const struct shape_file *f)
 {
     const struct hull *h = &f->geometry.whole;
+    if (h->dim == 0) {
+        printf("shape          %s: particles", printable_name(f->path[0]).text);
+        say_sets(f);
+        return;
+    }
     printf("shape          %s: %lld %s, %lld shell%s", printable_name(f->path[0]).text, (long long)h->faces,
            f->dim == 3 ? "triangles" : "edges", (long long)h->shells, h->shells == 1 ? "" : "s");
     if (h->open_edges > 0)
@@ -35,9 +48,7 @@ static void say_hull(const struct shape_file *f)
         printf(", with pairs of nodes at one position along %d surface%s inside the body: %s", slits,
                slits > 1 ? "s" : "", slits > 1 ? "pre-cracks" : "a pre-crack");
     printf(", encloses %.4g m^%d", h->volume, f->dim);
-    if (f->geometry.sets > 0) printf("; sets");
-    for (int k = 0; k < f->geometry.sets && k < 12; k++) printf("%s %s", k ? "," : "", f->geometry.set[k].name);
-    printf("%s\n", f->geometry.sets > 12 ? ", .." : "");
+    say_sets(f);
 }
 
 static void say_image(const struct scene *scene, const struct shape_file *f)

@@ -8,47 +8,14 @@
 #include <strings.h>
 
 #include "base/memory.h"
-#include "abaqus_lines.h"
+#include "abaqus_deck.h"
 #include "abaqus_type.h"
 
-/* Largest numbers: of parts; of set members that GENERATE makes per byte of the deck; of files included by each other;
- * room for the path of a file [byte]. */
-enum { PARTS_MAX = 256, GENERATED_MOST = 16, DEPTH_MAX = 10, PATH_LENGTH = 4096 };
-
-/* A range of nodes and elements whose labels are unique: one part of the deck, or all that is outside parts. */
-struct scope {
-    char name[FIELD], instance[FIELD];            /* name of the part; name of its instance */
-    int64_t node, element, node_end, element_end; /* indices of the first and one past the last in the mesh */
-    struct label_map node_of, element_of;         /* indices of labels, once the scope has ended */
-    bool placed;                                  /* has an instance */
-};
-
-/* An input file (deck) of Abaqus while it is read. */
-struct deck {
-    struct source *s;
-    struct element_mesh *m;
-    struct abaqus_keyword key; /* the keyword read last */
-    int scopes, now;           /* number of scopes, current scope; scope 0 is outside parts */
-    struct scope *scope;
-    int64_t generated; /* members added by GENERATE or from other sets */
-    int64_t length;    /* of the deck with the files that it includes so far [byte] */
-    int depth;         /* number of files that are being read, each included by the one before */
-    bool in_step;      /* between *STEP and *END STEP, whose loads are not read */
-};
+enum { PARTS_MAX = 256, DEPTH_MAX = 10, PATH_LENGTH = 4096 };
 
 static const char *parameter(const struct deck *d, const char *name) { return abaqus_parameter(&d->key, name); }
 
 /* ---- nodes and elements ---------------------------------------------------------------------------------------- */
-
-/* Finds or creates the set of deck d whose name is the value of the parameter `name` of the current keyword, and stores
- * its index in *set; -1 if the parameter is missing. of_nodes: true for a set of nodes, false for a set of elements.
- * Returns REFUSED, with a message, if there are too many sets. */
-static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
-{
-    const char *given = parameter(d, name);
-    *set = given ? element_mesh_find_or_create_set(d->m, given, of_nodes) : -1;
-    return given && *set < 0 ? source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX) : OK;
-}
 
 /* Reads the data lines of *NODE in deck d, each a label and coordinates. If the keyword has the parameter NSET, the
  * nodes are added to this set. Returns REFUSED, with a message, for malformed lines and for other than Cartesian
@@ -60,7 +27,7 @@ static status nodes_read(struct deck *d)
     if (system && strcasecmp(system, "R") != 0)
         return source_report_fault(d->s, "coordinates in the system %.10s are not supported; use Cartesian x, y, z",
                                    system);
-    TRY(set_named(d, "NSET", true, &set));
+    TRY(abaqus_find_set_of_keyword(d, "NSET", true, &set));
     for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
         real X[DIM_MAX] = {0};
@@ -113,7 +80,7 @@ static status elements_read(struct deck *d)
     abaqus_plain_word(type, parameter(d, "TYPE") ? parameter(d, "TYPE") : "");
     const struct abaqus_shape *size;
     TRY(abaqus_shape_of_type(&size, d->s, type));
-    TRY(set_named(d, "ELSET", false, &set));
+    TRY(abaqus_find_set_of_keyword(d, "ELSET", false, &set));
     if (!size) {
         snprintf(d->m->skipped, sizeof d->m->skipped, "%.40s", type);
         text_replace_control_characters(d->m->skipped);
@@ -128,128 +95,6 @@ static status elements_read(struct deck *d)
         if (size->nodes > element_corners[size->kind]) element_mesh_set_middle_nodes_of_last_element(d->m, middle);
         if (set >= 0) element_mesh_add_to_set(d->m, set, label);
     }
-    return OK;
-}
-
-/* ---- sets ----------------------------------------------------------------------------------------------------- */
-
-/* Reads a line of deck d after GENERATE: first label, last label and step. Adds the labels first, first + step, .. last
- * to set number `set`. Returns REFUSED, with a message, if the step is not positive, last is below first, or there are
- * too many members. */
-static status generate_line(struct deck *d, int set)
-{
-    int32_t bound[3] = {0, 0, 1};
-    char field[FIELD];
-    for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_label(d->s, field, &bound[k]));
-    if (bound[2] < 1 || bound[1] < bound[0])
-        return source_report_fault(d->s, "a set with GENERATE lacks first, last or step; give all three");
-    d->generated += (bound[1] - bound[0]) / bound[2] + 1;
-    if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s, "sets list more nodes or elements than the file has; it is damaged");
-    for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) element_mesh_add_to_set(d->m, set, label);
-    return OK;
-}
-
-/* Adds the present members of the set called `name` in deck d to the set number `set`. of_nodes: true for sets of
- * nodes, false for sets of elements. Returns REFUSED, with a message, if there are too many sets or members. */
-static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
-{
-    const int other = element_mesh_find_or_create_set(d->m, name, of_nodes);
-    if (other < 0) return source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX);
-    d->generated += d->m->set[other].n;
-    if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s, "sets list more nodes or elements than the file has; it is damaged");
-    for (int64_t k = d->m->set[other].resolved; other != set && k < d->m->set[other].n; k++)
-        element_mesh_add_to_set(d->m, set, d->m->set[other].member[k]);
-    return OK;
-}
-
-/* Replaces labels by indices in the sets of the mesh of deck d: the labels added since the last call, which belong to
- * `scope`. (A scope is a part of the deck, or what is outside parts.) Removes labels that the scope does not
- * contain. */
-static void sets_resolve(struct deck *d, const struct scope *scope)
-{
-    for (int k = 0; k < d->m->sets; k++) {
-        struct element_set *set = &d->m->set[k];
-        const struct label_map *map = set->of_nodes ? &scope->node_of : &scope->element_of;
-        int64_t kept = set->resolved;
-        for (int64_t i = set->resolved; i < set->n; i++) {
-            const int64_t index = label_map_find(map, set->member[i]);
-            if (index >= 0) set->member[kept++] = (int32_t)index;
-        }
-        set->n = set->resolved = kept;
-    }
-}
-
-/* Returns the index of the part of deck d called `name` or, if `instance` is true, of the part of which an instance is
- * called `name`. Returns -1 if there is none. */
-static int scope_find(const struct deck *d, const char *name, bool instance)
-{
-    for (int k = 1; k < d->scopes; k++)
-        if (strcasecmp(instance ? d->scope[k].instance : d->scope[k].name, name) == 0) return k;
-    return -1;
-}
-
-/* Adds the nodes of an element of the current scope (part of the deck d), by their labels, to the set number `set`.
- * label: label of the element; of: map from labels to the elements of the scope. */
-static void nodes_of_element_add(struct deck *d, int set, const struct label_map *of, int64_t label)
-{
-    const int64_t k = label_map_find(of, label);
-    const struct element *e = k < 0 ? NULL : &d->m->element[k];
-    for (int c = 0; e && c < element_corners[e->kind]; c++) element_mesh_add_to_set(d->m, set, e->node[c]);
-    for (int c = 0; e && e->middle >= 0 && c < element_middles[e->kind]; c++)
-        element_mesh_add_to_set(d->m, set, d->m->middle[e->middle + c]);
-}
-
-/* Adds the nodes of the elements that are in the set called `name` in deck d so far to the set number `set`, for *NSET
- * with the parameter ELSET. Returns REFUSED if there are too many sets or members. */
-static status set_join_nodes_of(struct deck *d, int set, const char *name)
-{
-    const int64_t first = d->scope[d->now].element;
-    const int other = element_mesh_find_or_create_set(d->m, name, false);
-    struct label_map of;
-    if (other < 0) return source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX);
-    d->generated += (ELEMENT_CORNERS_MAX + ELEMENT_MIDDLES_MAX) * d->m->set[other].n;
-    if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s,
-                                   "sets list more nodes or elements than the file has; it is damaged or incomplete");
-    label_map_make(&of, d->m->element_label + first, first, d->m->elements - first);
-    for (int64_t k = d->m->set[other].resolved; k < d->m->set[other].n; k++)
-        nodes_of_element_add(d, set, &of, d->m->set[other].member[k]);
-    label_map_free(&of);
-    return OK;
-}
-
-/* Reads the set of *NSET or *ELSET in deck d: labels, names of other sets, or ranges. of_nodes: true for *NSET. Returns
- * REFUSED, with a message, for malformed lines, a set without name or an unknown instance. */
-static status set_read(struct deck *d, bool of_nodes)
-{
-    int set;
-    const char *instance = parameter(d, "INSTANCE"), *elements = parameter(d, "ELSET");
-    const bool generate = parameter(d, "GENERATE") != NULL;
-    TRY(set_named(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
-    if (set < 0) return source_report_fault(d->s, "a set has no name; give it one");
-    if (of_nodes && elements) TRY(set_join_nodes_of(d, set, elements));
-    for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
-        int32_t label;
-        if (generate) {
-            TRY(generate_line(d, set));
-            continue;
-        }
-        while (abaqus_read_field(d->s, field)) {
-            if (field[0] == '\0') continue;
-            if (!abaqus_is_label(field)) {
-                TRY(set_join(d, set, field, of_nodes));
-                continue;
-            }
-            TRY(abaqus_parse_label(d->s, field, &label));
-            element_mesh_add_to_set(d->m, set, label);
-        }
-    }
-    if (!instance) return OK;
-    const int scope = scope_find(d, instance, true);
-    if (scope < 0) return source_report_fault(d->s, "there is no instance %.40s; check its spelling", instance);
-    sets_resolve(d, &d->scope[scope]);
     return OK;
 }
 
@@ -275,7 +120,7 @@ static status scope_end(struct deck *d)
     struct scope *scope = &d->scope[d->now];
     struct element_mesh *m = d->m;
     int64_t twice;
-    scope->node_end = m->nodes, scope->element_end = m->elements;
+    scope->node_end = m->nodes, scope->element_end = m->elements, scope->set_end = m->sets;
     label_map_make(&scope->node_of, m->node_label + scope->node, scope->node, m->nodes - scope->node);
     label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
     if (label_map_find_duplicate(&scope->node_of, &twice))
@@ -293,7 +138,7 @@ static status scope_end(struct deck *d)
                 *middle = -1;
         }
     }
-    sets_resolve(d, scope);
+    abaqus_resolve_sets(d, scope);
     return OK;
 }
 
@@ -304,7 +149,7 @@ static void scope_begin(struct deck *d, const char *name)
     d->now = d->scopes++;
     struct scope *scope = &d->scope[d->now];
     snprintf(scope->name, sizeof scope->name, "%s", name);
-    scope->node = d->m->nodes, scope->element = d->m->elements;
+    scope->node = d->m->nodes, scope->element = d->m->elements, scope->set = d->m->sets;
 }
 
 /* Ends the current part of deck d, or what is outside parts, and begins the next. name: name of the part that begins;
@@ -319,12 +164,12 @@ static status scope_change(struct deck *d, const char *name)
 }
 
 /* Reads an instance of deck d: up to two lines, with a displacement, then two points of an axis and an angle in
- * degrees. Moves the nodes of its part to this position. Returns REFUSED, with a message, if the part is unknown or
- * already has an instance. */
+ * degrees. Moves the nodes of its part to this position, and names the sets of the part by the instance. Returns
+ * REFUSED, with a message, if the part is unknown or already has an instance. */
 static status instance_read(struct deck *d)
 {
     const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");
-    const int scope = part ? scope_find(d, part, false) : -1;
+    const int scope = part ? abaqus_find_part(d, part, false) : -1;
     real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
     if (scope < 0)
@@ -346,7 +191,8 @@ static status instance_read(struct deck *d)
         if (turns) element_mesh_rotate_node(d->m, k, turn, turn + 3, turn[6] * 3.14159265358979323846 / 180);
     }
     p->placed = true;
-    if (name) snprintf(p->instance, sizeof p->instance, "%s", name);
+    snprintf(p->instance, sizeof p->instance, "%s", name ? name : p->name);
+    abaqus_name_sets_by_instance(d, p);
     return OK;
 }
 
@@ -393,7 +239,7 @@ static status data_read(struct deck *d)
 {
     const char *name = d->key.name;
     if (strcmp(name, "NODE") == 0) return nodes_read(d);
-    return strcmp(name, "ELEMENT") == 0 ? elements_read(d) : set_read(d, strcmp(name, "NSET") == 0);
+    return strcmp(name, "ELEMENT") == 0 ? elements_read(d) : abaqus_read_set(d, strcmp(name, "NSET") == 0);
 }
 
 /* Reads the data lines of the current keyword of deck d, or skips them if it has no meaning for the mesh. Returns

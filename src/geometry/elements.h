@@ -55,10 +55,13 @@ extern const struct element_edges element_edges[ELEMENT_KINDS];
  * of the kind `kind`; -1 if there is no such edge. */
 int element_edge_index_between_corners(enum element_kind kind, int corner, int other_corner);
 
-/* A named set of nodes or elements of a finite-element mesh. */
+/* A named set of nodes or elements of a finite-element mesh. name: in a part of an Abaqus assembly preceded by the name
+ * of the instance and a dot. */
 struct element_set {
-    char name[NAME_MAX_LENGTH];
+    char name[LONG_NAME_LENGTH];
+    int own;       /* number of characters before the name of the set itself: of the instance and the dot */
     bool of_nodes; /* true: members are nodes; false: elements */
+    bool mixed;    /* of Gmsh: two groups of different dimension have this name */
     /* number of members; number of members that are already indices */
     int64_t n, resolved;
     int32_t *member; /* indices; from `resolved` on still labels of the file (abaqus.c) */

@@ -248,17 +248,26 @@ static bool named_by_elements(const struct element_mesh *m, const struct element
     return false;
 }
 
-/* Makes the surface of each set of nodes or elements of the mesh of b that is not empty, and stores it in g->set. Sets
- * of nodes that have the name of a set of elements are left out.
+/* Returns why the set `set` of a mesh cannot be used, as the end of a sentence, or NULL if it can. */
+static const char *set_fault(const struct element_set *set)
+{
+    if (set->n == 0) return "is empty, or has only elements that are not read, such as bars or springs";
+    return set->mixed ? "is the name of two physical groups of different dimension; give each its own name" : NULL;
+}
+
+/* Makes the surface of each set of nodes or elements of the mesh of b, and stores it in g->set. Sets of nodes that have
+ * the name of a set of elements are left out.
  * node_of: mesh node at each corner of the surface g->whole of the body. */
 static void take_sets(struct surface_builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
     for (int k = 0; k < b->m->sets; k++) {
         const struct element_set *set = &b->m->set[k];
-        if (set->n == 0 || named_by_elements(b->m, set)) continue;
+        if (named_by_elements(b->m, set)) continue;
         struct geometry_set *to = &g->set[g->sets++];
         memcpy(to->name, set->name, sizeof to->name);
+        to->own = set->own, to->fault = set_fault(set);
+        if (to->fault) continue;
         if (set->of_nodes)
             set_of_nodes(b, set, &g->whole, node_of, &to->hull);
         else
@@ -269,13 +278,14 @@ static void take_sets(struct surface_builder *b, const int32_t *node_of, struct 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
 /* Finds *body_dim, the dimension of the elements of m that make up the body in a space of `dim` dimensions: dim, or 2
- * in 3D if the mesh has surface elements only. path: file of the mesh, for messages. Returns REFUSED, with a message,
- * if the mesh has no such elements, or has solid elements in 2D. */
+ * in 3D if the mesh has surface elements only, or 0 if all elements are points, as of a list of particles: these make
+ * up no body, but have sets. path: file of the mesh, for messages. Returns REFUSED, with a message, if the mesh has
+ * elements, but none of these kinds, or has solid elements in 2D. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {
     int64_t n[1 + DIM_MAX] = {0};
     for (int64_t k = 0; k < m->elements; k++) n[element_dim[m->element[k].kind]]++;
-    *body_dim = dim == 3 && n[3] == 0 ? 2 : dim;
+    *body_dim = n[0] > 0 && n[0] == m->elements ? 0 : dim == 3 && n[3] == 0 ? 2 : dim;
     if (dim == 2 && n[3] > 0)
         return status_set(
             REFUSED,
@@ -371,8 +381,8 @@ status geometry_from_elements(struct geometry *g, struct element_mesh *m, const 
     TRY(surface_builder_set_chord_tolerance(&b, path, max_chord_error));
     builder_list_edges(&b);
     for (int64_t k = 0; k < m->elements; k++)
-        if (element_dim[m->element[k].kind] == b.body_dim) builder_add_oriented(&b, &m->element[k]);
-    builder_close(&b, &g->whole, true, &node_of);
+        if (b.body_dim > 0 && element_dim[m->element[k].kind] == b.body_dim) builder_add_oriented(&b, &m->element[k]);
+    if (b.body_dim > 0) builder_close(&b, &g->whole, true, &node_of);
     take_sets(&b, node_of, g);
     memory_free(node_of);
     label_map_free(&b.edges);

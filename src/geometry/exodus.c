@@ -7,23 +7,28 @@
 #include "elements.h"
 #include "geometry/exodus_file.h"
 
-/* Beginnings of the names of element types without area or volume. Blocks of such elements are skipped. */
-static const char *const skipped[] = {"SPHERE", "CIRCLE", "BAR",    "BEAM",  "TRUSS", "EDGE", "ROD",
-                                      "LINE",   "POINT",  "SPRING", "JOINT", "NODE",  "RBE"};
+/* Beginnings of the names of element types without area or volume. Blocks of such elements are skipped, so that their
+ * sets are empty. */
+static const char *const skipped[] = {"CIRCLE", "BAR",   "BEAM",   "TRUSS", "EDGE", "ROD",
+                                      "LINE",   "POINT", "SPRING", "JOINT", "NODE", "RBE"};
 
 /* Beginnings of the names of element types, with their shapes; the first one that fits counts. */
 static const struct family {
     const char *name;
     enum element_kind kind;
-} families[] = {{"TRI", ELEMENT_TRIANGLE}, {"SHELL3", ELEMENT_TRIANGLE}, {"SHELL", ELEMENT_QUAD},
-                {"QUAD", ELEMENT_QUAD},    {"TET", ELEMENT_TETRAHEDRON}, {"PYR", ELEMENT_PYRAMID},
-                {"WEDGE", ELEMENT_PRISM},  {"HEX", ELEMENT_HEXAHEDRON}};
+} families[] = {{"SPHERE", ELEMENT_POINT}, {"TRI", ELEMENT_TRIANGLE}, {"SHELL3", ELEMENT_TRIANGLE},
+                {"SHELL", ELEMENT_QUAD},   {"QUAD", ELEMENT_QUAD},    {"TET", ELEMENT_TETRAHEDRON},
+                {"PYR", ELEMENT_PYRAMID},  {"WEDGE", ELEMENT_PRISM},  {"HEX", ELEMENT_HEXAHEDRON}};
 
 /* Numbers of nodes with which elements of each shape are read: first order, second order, second order with nodes at
  * the middles of sides. */
-static const int sizes[ELEMENT_KINDS][3] = {
-    [ELEMENT_TRIANGLE] = {3, 6, 7},  [ELEMENT_QUAD] = {4, 8, 9},    [ELEMENT_TETRAHEDRON] = {4, 10, 11},
-    [ELEMENT_PYRAMID] = {5, 13, 14}, [ELEMENT_PRISM] = {6, 15, 16}, [ELEMENT_HEXAHEDRON] = {8, 20, 27}};
+static const int sizes[ELEMENT_KINDS][3] = {[ELEMENT_POINT] = {1},
+                                            [ELEMENT_TRIANGLE] = {3, 6, 7},
+                                            [ELEMENT_QUAD] = {4, 8, 9},
+                                            [ELEMENT_TETRAHEDRON] = {4, 10, 11},
+                                            [ELEMENT_PYRAMID] = {5, 13, 14},
+                                            [ELEMENT_PRISM] = {6, 15, 16},
+                                            [ELEMENT_HEXAHEDRON] = {8, 20, 27}};
 
 /* For each node of an Exodus element after its corners: its position among the middle nodes as elements.h orders
  * them; -1: interior node, ignored. */
@@ -72,6 +77,11 @@ static status nodes_add(struct exodus *x)
 static status kind_of(const struct exodus *x, const char *type, int64_t nodes, enum element_kind *kind, bool *skip)
 {
     *skip = false;
+    if (strcmp(type, "NSIDED") == 0 || strcmp(type, "NFACED") == 0)
+        return exodus_report_fault(&x->file,
+                                   "elements of type %s (polygons and polyhedra) are not read; write the mesh with "
+                                   "triangles, quadrilaterals, tetrahedra or hexahedra",
+                                   type);
     for (size_t k = 0; k < COUNT_OF(skipped); k++) *skip = *skip || strncmp(type, skipped[k], strlen(skipped[k])) == 0;
     if (*skip) return OK;
     for (size_t k = 0; k < COUNT_OF(families); k++) {
@@ -115,7 +125,7 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
 static status set_begin(struct exodus *x, const char *names, const char *numbers, const char *word, int64_t row,
                         int64_t n, bool of_nodes, int *set)
 {
-    char name[NAME_MAX_LENGTH];
+    char name[LONG_NAME_LENGTH];
     int64_t *number = NULL;
     exodus_read_text_row(&x->file, names, 0, row, n, name);
     bool taken = name[0] == '\0';
@@ -141,15 +151,14 @@ static status element_block_add(struct exodus *x, int64_t number)
     int set = -1;
     if (!exodus_has_array(&x->file, "connect", number) &&
         exodus_read_dimension_length(&x->file, "num_el_in_blk", number) == 0)
-        return OK;
+        return set_begin(x, "eb_names", "eb_prop1", "block", number - 1, x->file.blocks, false, &set);
+    if (exodus_has_array(&x->file, "facconn", number)) return kind_of(x, "NFACED", 0, &kind, &skip);
     TRY(exodus_read_block_header(&x->file, number, type, &elements, &nodes));
     TRY(kind_of(x, type, nodes, &kind, &skip));
     TRY(exodus_read_integers(&x->file, "connect", number, elements * nodes, &label));
     GROW("exodus.elements", x->element, x->elements + elements);
-    status s = skip ? OK : set_begin(x, "eb_names", "eb_prop1", "block", number - 1, x->file.blocks, false, &set);
-    if (skip)
-        snprintf(x->m->skipped, sizeof x->m->skipped, "%.20s%s", type,
-                 strncmp(type, "SPHERE", 6) == 0 ? " (read by particles: FILE)" : "");
+    status s = set_begin(x, "eb_names", "eb_prop1", "block", number - 1, x->file.blocks, false, &set);
+    if (skip) snprintf(x->m->skipped, sizeof x->m->skipped, "%.20s", type);
     for (int64_t k = 0; k < elements && s == OK; k++) {
         x->element[x->elements] = skip ? -1 : (int32_t)x->m->elements;
         if (!skip) s = element_add(x, kind, label + k * nodes, (int)nodes);
@@ -201,6 +210,10 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 {
     const struct element e = x->m->element[element];
     const bool solid = element_dim[e.kind] == 3, shell = !solid && x->file.dim == 3;
+    if (e.kind == ELEMENT_POINT) {
+        element_mesh_add_to_set(x->m, set, element);
+        return OK;
+    }
     const int sides = solid ? element_sides[e.kind].n : element_edges[e.kind].n + (shell ? 2 : 0);
     if (side < 1 || side > sides)
         return exodus_report_fault(&x->file, "set %s has side %lld of an element, but the element has %d sides",
@@ -226,15 +239,15 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
     return OK;
 }
 
-/* Reads side set number `number` (from 1) of the file x: creates a set of elements and adds an element for each side.
- * An empty side set has no arrays and makes no set. Returns REFUSED, with a message, for unknown elements or sides. */
+/* Reads side set number `number` (from 1) of the file: creates a set of elements and adds an element for each side. An
+ * empty side set has no arrays. Returns REFUSED for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_side_ss", number);
     int64_t *element = NULL, *side = NULL, index;
     int set;
-    if (n == 0) return OK;
     TRY(set_begin(x, "ss_names", "ss_prop1", "surface", number - 1, x->file.side_sets, false, &set));
+    if (n == 0) return OK;
     status s = exodus_read_integers(&x->file, "elem_ss", number, n, &element);
     if (s == OK) s = exodus_read_integers(&x->file, "side_ss", number, n, &side);
     for (int64_t k = 0; k < n && s == OK; k++) {
@@ -246,15 +259,15 @@ static status side_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads node set `number` (from 1) of the file x into a set of nodes. An empty node set makes no set. Returns REFUSED,
+/* Reads node set `number` (from 1) of the file x into a set of nodes. An empty node set has no array. Returns REFUSED,
  * with a message, for unknown nodes. */
 static status node_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_nod_ns", number);
     int64_t *node = NULL;
     int set;
-    if (n == 0) return OK;
     TRY(set_begin(x, "ns_names", "ns_prop1", "nodelist", number - 1, x->file.node_sets, true, &set));
+    if (n == 0) return OK;
     TRY(exodus_read_integers(&x->file, "node_ns", number, n, &node));
     status s = OK;
     for (int64_t k = 0; k < n && s == OK; k++)
@@ -267,15 +280,15 @@ static status node_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads element set `number` (from 1) of the file x into a set of elements. An empty element set makes no set. Returns
+/* Reads element set `number` (from 1) of the file x into a set of elements. An empty element set has no array. Returns
  * REFUSED, with a message, for unknown elements. */
 static status element_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_ele_els", number);
     int64_t *element = NULL, index;
     int set;
-    if (n == 0) return OK;
     TRY(set_begin(x, "els_names", "els_prop1", "elementset", number - 1, x->file.element_sets, false, &set));
+    if (n == 0) return OK;
     TRY(exodus_read_integers(&x->file, "elem_els", number, n, &element));
     status s = OK;
     for (int64_t k = 0; k < n && s == OK; k++) {

@@ -228,7 +228,7 @@ void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t
         all = NEW("exodus.names", rows * length, char);
         if (exodus_hdf5_read_array(f, &a, NULL, NULL, all)) from = all + row * length;
     }
-    if (from) snprintf(text, NAME_MAX_LENGTH, "%.*s", (int)length, from);
+    if (from) snprintf(text, LONG_NAME_LENGTH, "%.*s", (int)length, from);
     memory_free(all);
     exodus_text_make_printable(text);
 }

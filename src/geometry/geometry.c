@@ -85,7 +85,7 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
     source_close(&source);
     if (s == OK) s = geometry_from_elements(g, &m, path, dim, scale, fine);
     element_mesh_free(&m);
-    return s == OK ? check_closed(&g->whole, path) : s;
+    return s == OK && g->whole.dim > 0 ? check_closed(&g->whole, path) : s;
 }
 
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance)
@@ -100,7 +100,13 @@ const struct geometry_set *geometry_find_named_part(const struct geometry *g, co
 {
     for (int k = 0; k < g->sets; k++)
         if (strcasecmp(g->set[k].name, name) == 0) return &g->set[k];
-    return NULL;
+    const struct geometry_set *found = NULL;
+    for (int k = 0; k < g->sets; k++)
+        if (g->set[k].own > 0 && strcasecmp(g->set[k].name + g->set[k].own, name) == 0) {
+            if (found) return NULL;
+            found = &g->set[k];
+        }
+    return found;
 }
 
 void geometry_free(struct geometry *g)

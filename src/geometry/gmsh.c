@@ -50,7 +50,7 @@ struct gmsh {
     int64_t names;         /* number of physical groups that have a name: name[names] */
     struct group_name {
         int64_t dim, tag;
-        char text[NAME_MAX_LENGTH];
+        char text[LONG_NAME_LENGTH];
     } * name;
     int64_t links;              /* number of pairs of an entity and a physical group to which it belongs */
     int64_t *entity, *group;    /* [links] key of the entity (entity_key); tag of the group */
@@ -84,7 +84,7 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
 static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
 {
     if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
-        char name[NAME_MAX_LENGTH];
+        char name[LONG_NAME_LENGTH];
         snprintf(name, sizeof name, "%lld", (long long)tag);
         for (int64_t k = 0; k < g->names; k++)
             if (g->name[k].dim == dim && g->name[k].tag == tag) memcpy(name, g->name[k].text, sizeof name);
@@ -93,6 +93,8 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
     if (g->last_set < 0)
         return source_report_fault(g->s, "more than %d physical groups; remove some", ELEMENT_SETS_MAX);
     element_mesh_add_to_set(g->m, g->last_set, element);
+    struct element_set *set = &g->m->set[g->last_set];
+    set->mixed = set->mixed || element_dim[g->m->element[set->member[0]].kind] != dim;
     return OK;
 }
 
@@ -415,17 +417,21 @@ static status new_elements(struct gmsh *g)
 
 /* ---- sections ------------------------------------------------------------------------------------------------- */
 
-/* Reads the header of the file g. Returns REFUSED unless the version is 2.2 or 4.1, numbers have 8 bytes, and the byte
- * order is that of this machine. */
+/* Reports that the file has the format `version` of Gmsh, which is not read. Returns REFUSED. */
+static status format_refuse(const struct gmsh *g, const char *version)
+{
+    return source_report_fault(
+        g->s, "Gmsh's file format %s is not supported; save it as 4.1 (gmsh -save -format msh41) or 2.2", version);
+}
+
+/* Reads the header of the file. Returns REFUSED unless the version is 2.2 or 4.1, and numbers are as here. */
 static status format_read(struct gmsh *g)
 {
     char version[16];
     int64_t bytes, size, one;
     source_read_word(g->s, version, sizeof version);
     g->old = strcmp(version, "2.2") == 0 || strcmp(version, "2") == 0;
-    if (!g->old && strcmp(version, "4.1") != 0)
-        return source_report_fault(
-            g->s, "Gmsh's file format %s is not supported; save it as 4.1 (gmsh -save -format msh41) or 2.2", version);
+    if (!g->old && strcmp(version, "4.1") != 0) return format_refuse(g, version);
     TRY(source_read_integer(g->s, "kind of file", &bytes));
     TRY(source_read_integer(g->s, "size of numbers", &size));
     if (size != 8) return source_report_fault(g->s, "numbers have %lld bytes; save them with 8", (long long)size);
@@ -435,9 +441,8 @@ static status format_read(struct gmsh *g)
     g->s->binary = true;
     TRY(source_read_int32(g->s, "the number 1", &one));
     g->s->binary = false;
-    return one == 1
-               ? OK
-               : source_report_fault(g->s, "the file has the byte order of another machine; save it as text (ASCII)");
+    if (one == 1) return OK;
+    return source_report_fault(g->s, "the file has the byte order of another machine; save it as text (ASCII)");
 }
 
 /* Skips the rest of the section `name` of the file s, such as $Nodes: advances to the line after its last one, such as
@@ -496,9 +501,9 @@ static status sections_read(struct gmsh *g)
 {
     char name[40];
     source_read_word(g->s, name, sizeof name);
+    if (strcmp(name, "$NOD") == 0) return format_refuse(g, "1");
     if (strcmp(name, "$MeshFormat") != 0)
-        return source_report_fault(g->s,
-                                   "does not begin with $MeshFormat, so it is not a mesh of Gmsh; save it by Gmsh");
+        return source_report_fault(g->s, "does not begin with $MeshFormat, so it is no mesh of Gmsh; save it by Gmsh");
     TRY(format_read(g));
     section_skip(g->s, name);
     while (source_skip_blanks(g->s)) {

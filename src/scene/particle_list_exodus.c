@@ -18,7 +18,7 @@ struct exodus_list {
  * -1 if there is none. Of two attributes without names, the first is the radius and the second the volume. */
 static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_t n)
 {
-    char name[NAME_MAX_LENGTH];
+    char name[LONG_NAME_LENGTH];
     bool named = false;
     for (int64_t k = 0; k < n; k++) {
         exodus_read_text_row(f, "attrib_name", number, k, n, name);

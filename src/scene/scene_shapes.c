@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/memory.h"
 #include "geometry/image.h"
@@ -178,6 +179,24 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
 
+/* Reports that the mesh g has no set, or sets of several instances, called `name`. n: node of the name. Returns
+ * REFUSED, with a message that lists these sets, or all. */
+static status refuse_set(struct reader *r, const struct yaml_node *n, const char *name, const struct geometry *g)
+{
+    char names[120 + LONG_NAME_LENGTH + 4] = "";
+    int several = 0;
+    for (int k = 0; k < g->sets; k++) several += g->set[k].own > 0 && !strcasecmp(g->set[k].name + g->set[k].own, name);
+    for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
+        if (several > 0 && (g->set[k].own == 0 || strcasecmp(g->set[k].name + g->set[k].own, name) != 0)) continue;
+        strcat(names, names[0] ? ", " : "");
+        strcat(names, g->set[k].name);
+    }
+    if (several > 0) return fault(r, n, "the file has %d sets %s; give one of %s", several, name, names);
+    return fault(r, n, "the file has no set %s; it has %s", name, g->sets ? names : "none");
+}
+
+#define AT_NODE 0.01 /* largest distance of a particle from a node of the list in which it was [spacings] */
+
 /* Sets s->hull to the part of the mesh g of which the solid s consists: the whole mesh, a set of elements, or the
  * points within a distance s->radius [m] of a set of nodes or faces. n: node of the solid; words: its keys. Returns
  * REFUSED, with a message, for an unknown set, and for a distance that is missing or has no meaning. */
@@ -186,19 +205,18 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
 {
     const struct yaml_node *within = yaml_node_find(n, "within");
     const struct geometry_set *set = words->set[0] ? geometry_find_named_part(g, words->set) : NULL;
-    char names[200] = "";
-    for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
-        strcat(names, k ? ", " : "");
-        strcat(names, g->set[k].name);
-    }
-    if (words->set[0] && !set)
-        return fault(r, yaml_node_find(n, "set"), "the file has no set %s; it has %s", words->set,
-                     g->sets ? names : "none");
+    if (words->set[0] && !set) return refuse_set(r, yaml_node_find(n, "set"), words->set, g);
+    if (set && set->fault) return fault(r, yaml_node_find(n, "set"), "set %s of the file %s", set->name, set->fault);
+    if (!set && g->whole.dim == 0)
+        return fault(r, n,
+                     "the file has particles, elements of one node, that fill no volume; a body of them is "
+                     "{particles: {file: .., unit: ..}}, and a region names one of their sets by the key set");
     s->hull = set ? &set->hull : &g->whole;
     if (within && !s->hull->open)
         return fault(r, within, "is only for sets of nodes or faces, but this solid fills a volume; remove it");
     if (!s->hull->open) return OK;
     TRY(read_spacing(r, n, &s->radius));
+    if (g->whole.dim == 0) s->radius *= AT_NODE;
     if (within) s->radius = words->within;
     if (s->radius > 0) return OK;
     return fault(r, n, "set %s contains nodes or faces; give within, the distance up to which particles belong to it",

@@ -9,7 +9,7 @@
  * file as text; scale: length that the number 1 in the file is; within: distance within which points belong to a set of
  * nodes or faces; pixel, slice, origin: edge of a pixel, distance of slices and lower corner of an image. */
 struct shape_words {
-    char set[NAME_MAX_LENGTH], contents[NAME_MAX_LENGTH];
+    char set[LONG_NAME_LENGTH], contents[NAME_MAX_LENGTH];
     real scale, within;                 /* [m] */
     real pixel, slice, origin[DIM_MAX]; /* [m] */
 };

@@ -161,16 +161,15 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
     return OK;
 }
 
-/* Reads any text from node n into name[NAME_MAX_LENGTH]. Returns REFUSED, with a message, if it is empty or too
- * long. */
-static status read_any_text(struct reader *r, const struct yaml_node *n, char *name)
+/* Reads any text from node n into text[capacity]. Returns REFUSED, with a message, if it is empty or too long. */
+static status read_any_text(struct reader *r, const struct yaml_node *n, char *text, size_t capacity)
 {
     const size_t length = strlen(n->text);
     if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is not a text", node_text(r, n));
-    if (length >= NAME_MAX_LENGTH)
-        return fault(r, n, "%s is too long; at most %d characters are possible", node_text(r, n), NAME_MAX_LENGTH - 1);
-    memset(name, 0, NAME_MAX_LENGTH);
-    memcpy(name, n->text, length);
+    if (length >= capacity)
+        return fault(r, n, "%s is too long; at most %d characters are possible", node_text(r, n), (int)capacity - 1);
+    memset(text, 0, capacity);
+    memcpy(text, n->text, length);
     return OK;
 }
 
@@ -180,7 +179,8 @@ static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
-    if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-') return read_any_text(r, n, name);
+    if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-')
+        return read_any_text(r, n, name, NAME_MAX_LENGTH);
     return fault(r, n, "%s is not a name; use letters, digits, _ and -, but no - first", node_text(r, n));
 }
 
@@ -314,7 +314,7 @@ status read_value_of_key(struct reader *r, const struct key *k, const struct yam
     case KEY_SERIES:
         return read_series(r, k, n, place);
     case KEY_NAME:
-        return k->words ? read_any_text(r, n, place) : read_name(r, n, place);
+        return k->words ? read_any_text(r, n, place, LONG_NAME_LENGTH) : read_name(r, n, place);
     case KEY_POINT:
         return k->place ? read_point(r, k, n, place) : OK;
     case KEY_MATRIX:

@@ -46,6 +46,12 @@ for name in kinetic strain; do
     holds "$name energy of the list: $(column list $name), of the shape: $(column shape $name)" \
         awk -v a="$(column shape $name)" -v b="$(column list $name)" 'BEGIN { exit !(a > 0 && a - b < 1e-7 * a && b - a < 1e-7 * a) }'
 done
+# Node sets and blocks of the file are regions of the scene, as loads were in the one that was exported.
+sed "s/region: {box: {from: \[0, 0\], to: \[1 mm.*/region: {mesh: {file: plate.g, unit: m, set: grip}}}/
+    s/region: {box: {from: \[19 mm.*/region: {mesh: {file: plate.g, unit: m, set: pull}}}/" plate.yaml >sets.yaml
+"$cleave" run sets.yaml -q -o sets -s 'bodies=[{name: plate, particles: plate.g}]' >said 2>&1 || fail "sets of a list: $(cat said)"
+is "sets of a list are the loaded particles" "$(column sets kinetic)" "$(column list kinetic)"
+refused "fill no volume; a body of them is {particles:" check plate.yaml -s 'bodies=[{name: plate, shape: {mesh: {file: plate.g, unit: m}}}]'
 # A material of which no body consists keeps its number in the file, read back or from a run, and in frames.
 sed 's/^materials: \[/&{name: spare, young: 1 GPa, density: 2440, critical_stretch: 0.1}, /' plate.yaml >spare.yaml
 "$cleave" export exodus spare.yaml -o spare.g >said 2>&1

@@ -1,5 +1,5 @@
 /* Meshes whose counts are wrong, or whose elements are given twice: they are refused, except elements of several groups
- * in Gmsh's format 2.2, which repeats them. Sets of the nodes of elements. */
+ * in Gmsh's format 2.2, which repeats them. Sets of the nodes of elements, of groups of one name, of instances. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,6 +47,9 @@ static void wrong_ones(void **state)
         {"a.msh", msh4, "1 4 1 4", "1 3 1 4", "the section gives 3 nodes, but its blocks contain 4"},
         {"a.msh", msh4, "2 2 1 2", "2 3 1 2", "the section gives 3 elements, but its blocks contain 2"},
         {"a.msh", msh4, "2 2 1 2", "1 1 1 2", "$Elements gives 1 blocks, but more follow"},
+        {"a.msh", msh2, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "$NOD\n", "file format 1 is not supported; save it"},
+        {"a.inp", inp, "2, 1, 3, 4", "2, 1, 3, 4\n*Nset, nset=a\nb",
+         ":10: set a lists b, which is no set that is given"},
         {"a.inp", inp, "2, 1, 3, 4", "1, 1, 3, 4", "element 1 is given twice"},
         {"a.inp", inp, "2, 1, 3, 4", "7, 2, 3, 1", "1 element has the corners of another one (element 7 has those of"},
     };
@@ -91,7 +94,75 @@ static void nodes_of_elements(void **state)
     geometry_free(&g);
 }
 
-/* Folder for the files of these tests; a pattern of mkdtemp. */
+/* Two groups of one name, a triangle and its edge; a name of more than 63 characters. */
+static void twin_groups(void **state)
+{
+    (void)state;
+    struct geometry g;
+    char name[100] = "", named[sizeof name + 8];
+    memset(name, 'x', 80);
+    snprintf(named, sizeof named, "2 2 \"%s\"", name);
+    assert_ok(read_changed(&g, "a.msh", msh2, "2 2 \"high\"", named));
+    assert_null(geometry_find_named_part(&g, name)->fault);
+    geometry_free(&g);
+    assert_ok(read_changed(&g, "a.msh", msh2, "2 2 \"high\"\n", "1 2 \"low\"\n"));
+    assert_null(geometry_find_named_part(&g, "low")->fault);
+    geometry_free(&g);
+    const char *twice = "$Elements\n3\n3 1 2 3 1 1 2\n";
+    char text[sizeof msh2 + 64];
+    const char *at = strstr(msh2, "$Elements\n2\n");
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - msh2), msh2, twice, at + strlen("$Elements\n2\n"));
+    assert_ok(read_changed(&g, "a.msh", text, "2 2 \"high\"", "1 3 \"low\""));
+    assert_non_null(strstr(geometry_find_named_part(&g, "low")->fault, "two physical groups of different dimension"));
+    geometry_free(&g);
+}
+
+/* Returns the distance of the point (x, 0) from the set `name` of g. */
+static real from_set(const struct geometry *g, const char *name, real x)
+{
+    const struct geometry_set *set = geometry_find_named_part(g, name);
+    assert_non_null(set);
+    return hull_signed_distance(&set->hull, (real[]){x, 0}, NULL);
+}
+
+/* Two parts, each with a set `pin`, the node at x = 0 and that at x = 7; sets of the assembly from nodes and sets of
+ * instances; a node of the assembly has a number that the parts have, too. */
+static void sets_of_instances(void **state)
+{
+    (void)state;
+    struct geometry g;
+    static const char nodes[] = "*Node\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*Element, type=CPS4\n1, 1, 2, 3, 4\n";
+    static const char sets[] = "*Node\n1, 9, 0\n*Nset, nset=ref\n1\n*Nset, nset=ends, instance=Left-1\n2\n"
+                               "*Nset, nset=ends, instance=Right-1\n2\n*Nset, nset=pins\nLeft-1.pin, Right-1.pin\n"
+                               "*Nset, nset=own, instance=Right-1\npin\n*Nset, nset=single\nRight-1.2\n"
+                               "*Nset, nset=two, elset=Right-1.all\n";
+    char deck[2048];
+    snprintf(deck, sizeof deck,
+             "*Part, name=Left\n%s*Nset, nset=pin\n1\n*Nset, nset=top\n3\n*End Part\n*Part, name=Right\n%s"
+             "*Nset, nset=pin\n1\n*Elset, elset=all\n1\n*End Part\n*Assembly, name=A\n"
+             "*Instance, name=Left-1, part=Left\n*End Instance\n"
+             "*Instance, name=Right-1, part=Right\n7, 0\n*End Instance\n%s*End Assembly\n",
+             nodes, nodes, sets);
+    assert_ok(read_changed(&g, "a.inp", deck, "", ""));
+    assert_null(geometry_find_named_part(&g, "pin"));
+    assert_close(from_set(&g, "left-1.pin", -1), 1, 1e-12);
+    assert_close(from_set(&g, "Right-1.pin", 6), 1, 1e-12);
+    assert_close(from_set(&g, "Right-1.all", 6), 1, 1e-12);
+    assert_close(from_set(&g, "top", 1), 1, 1e-12);
+    assert_close(from_set(&g, "ref", 8.5), 0.5, 1e-12);
+    static const struct {
+        const char *set;
+        real x[2];
+    } joined[] = {{"ends", {1, 8}}, {"pins", {0, 7}}, {"own", {7, 7}}, {"single", {8, 8}}, {"two", {7, 8}}};
+    for (size_t k = 0; k < COUNT_OF(joined); k++) {
+        assert_near(from_set(&g, joined[k].set, joined[k].x[0]), 0, 1e-12);
+        assert_near(from_set(&g, joined[k].set, joined[k].x[1]), 0, 1e-12);
+        assert_close(from_set(&g, joined[k].set, joined[k].x[0] - 0.25), 0.25, 1e-12);
+    }
+    geometry_free(&g);
+}
+
+/* Folder for the files of the tests. */
 static char folder[] = "/tmp/cleave_counts_XXXXXX";
 static int enter_folder(void **state)
 {
@@ -108,6 +179,7 @@ static int leave_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_ones), cmocka_unit_test(right_ones),
-                                       cmocka_unit_test(nodes_of_elements)};
+                                       cmocka_unit_test(nodes_of_elements), cmocka_unit_test(twin_groups),
+                                       cmocka_unit_test(sets_of_instances)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

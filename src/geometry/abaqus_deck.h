@@ -1,0 +1,51 @@
+/* An Abaqus deck while it is read, and its sets. A set of a part has the name Part.Set and, once the part is placed,
+ * Instance.Set; sets outside parts have their own name alone. */
+#ifndef CLEAVE_ABAQUS_DECK
+#define CLEAVE_ABAQUS_DECK
+
+#include "abaqus_lines.h"
+#include "elements.h"
+
+/* A range of nodes and elements whose labels are unique: one part of the deck, or all that is outside parts. */
+struct scope {
+    char name[FIELD], instance[FIELD];            /* name of the part; name of its instance */
+    int64_t node, element, node_end, element_end; /* indices of the first and one past the last in the mesh */
+    int set, set_end;                             /* the same of its sets */
+    struct label_map node_of, element_of;         /* indices of labels, once the scope has ended */
+    bool placed;                                  /* has an instance */
+};
+
+/* A deck while it is read. */
+struct deck {
+    struct source *s;
+    struct element_mesh *m;
+    struct abaqus_keyword key; /* the keyword read last */
+    int scopes, now;           /* number of scopes, current scope; scope 0 is outside parts */
+    struct scope *scope;
+    int64_t generated; /* members added by GENERATE or from other sets */
+    int64_t length;    /* of the deck with the files that it includes so far [byte] */
+    int depth;         /* number of files that are being read, each included by the one before */
+    bool in_step;      /* between *STEP and *END STEP, whose loads are not read */
+};
+
+/* Finds or creates the set whose name is the value of the parameter `name` of the current keyword, of the current part
+ * of deck d or of what is outside parts, and stores its index in *set; -1 if the parameter is missing. of_nodes: true
+ * for a set of nodes, false for a set of elements. Returns REFUSED, with a message, if there are too many sets. */
+status abaqus_find_set_of_keyword(struct deck *d, const char *name, bool of_nodes, int *set);
+
+/* Returns the index of the part of deck d called `name` or, if `instance` is true, of the part of which an instance is
+ * called `name`. Returns -1 if there is none. */
+int abaqus_find_part(const struct deck *d, const char *name, bool instance);
+
+/* Replaces labels by indices in the sets of the mesh: the labels added since the last call, which belong to `scope`. (A
+ * scope is a part of the deck, or what is outside parts.) Removes labels that the scope does not contain. */
+void abaqus_resolve_sets(struct deck *d, const struct scope *scope);
+
+/* Reads the set of *NSET or *ELSET in deck d: labels, names of other sets, or ranges. of_nodes: true for *NSET. Returns
+ * REFUSED, with a message, for malformed lines, a set without name, an unknown set or an unknown instance. */
+status abaqus_read_set(struct deck *d, bool of_nodes);
+
+/* Names the sets of `part`, a part of deck d, by its instance: Instance.Set. */
+void abaqus_name_sets_by_instance(struct deck *d, const struct scope *part);
+
+#endif
