@@ -297,8 +297,16 @@ enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRAC
 /* Returns the kind of map (MAP_...) that shows the field `field`, e.g. MAP_DAMAGE for the damage. */
 enum map map_of_field(const struct plot_field *field);
 
+/* Computes the displacement of the particle that is nearest to a rigid body into displacement[f->dim] [m]; 0 if there
+ * are no particles. Pictures with displacements N times as large move the body by N - 1 times this vector, so that its
+ * distance from the particle, in contact or not, is the true one. shape: of the body at the start; at: its placement in
+ * the frame f. */
+void rigid_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *at,
+                                            const struct output_frame *f, real *displacement);
+
 /* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, with
- * the placements that the run in `folder` has stored for this frame. Adds none if s is NULL or if the run has no files
+ * the placements that the run in `folder` has stored for this frame; magnified pictures move them with the nearest
+ * particle. Adds none if s is NULL or if the run has no files
  * of rigid bodies. f: the frame; s: kept by reference. */
 void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number);

@@ -18,6 +18,38 @@ struct colour rigid_body_colour(enum map map)
     return map == MAP_CRACKS ? colour_mixed_with_white(RIGID, GHOST) : RIGID;
 }
 
+/* Computes where the point of a rigid body that is now at x[dim] was at the start, X[dim] [m]. at: its placement. */
+static void position_at_start(const struct rigid_placement *at, int dim, const double *x, real *X)
+{
+    for (int a = 0; a < dim; a++) {
+        X[a] = at->centre[a];
+        for (int b = 0; b < dim; b++) X[a] += at->turn[b][a] * (x[b] - at->x[b]);
+    }
+}
+
+void rigid_displacement_of_nearest_particle(const struct region *shape, const struct rigid_placement *at,
+                                            const struct output_frame *f, real *displacement)
+{
+    real least = INFINITY;
+    int64_t nearest = -1;
+#pragma omp parallel
+    {
+        real own = INFINITY;
+        int64_t found = -1;
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < f->n; i++) {
+            real x[DIM_MAX], X[DIM_MAX] = {0};
+            for (int d = 0; d < f->dim; d++) x[d] = f->X[d][i] + f->u[d][i];
+            position_at_start(at, f->dim, x, X);
+            const real level = region_level_set_value(shape, X, f->dim);
+            if (level < own) own = level, found = i;
+        }
+#pragma omp critical
+        if (own < least || (own == least && found < nearest)) least = own, nearest = found;
+    }
+    for (int d = 0; d < f->dim; d++) displacement[d] = nearest < 0 ? 0 : f->u[d][nearest];
+}
+
 void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const struct scene *s,
                                            const struct rigid_placement *placement, const real *low, const real *high)
 {
@@ -26,10 +58,7 @@ void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const st
     for (int b = 0; b < s->rigids; b++) {
         struct rigid_shown *r = &c->rigid[b];
         *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = placement[b]};
-        for (int d = 0; d < s->dim; d++) {
-            r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
-            r->low[d] = low[d], r->high[d] = high[d];
-        }
+        for (int d = 0; d < s->dim; d++) r->low[d] = low[d], r->high[d] = high[d];
         r->bounded = rigid_compute_shown_box(r->shape, s->dim, r->low, r->high);
     }
 }
@@ -44,8 +73,14 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
         low[d] = INFINITY, high[d] = -INFINITY;
         for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
     }
-    if (rigids_read_placements_of_frame(at, s->rigids, folder, frame_number))
+    if (rigids_read_placements_of_frame(at, s->rigids, folder, frame_number)) {
+        for (int b = 0; b < s->rigids && c->magnify != 1; b++) {
+            real beside[DIM_MAX];
+            rigid_displacement_of_nearest_particle(&s->body[s->bodies + b].shape, &at[b], f, beside);
+            for (int d = 0; d < f->dim; d++) at[b].x[d] += (c->magnify - 1) * beside[d];
+        }
         plotted_particles_add_rigid_bodies_at(c, s, at, low, high);
+    }
     memory_free(at);
 }
 
@@ -55,10 +90,7 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
 static double level_at(const struct rigid_shown *r, int dim, const double *x, bool cut)
 {
     real X[DIM_MAX] = {0};
-    for (int a = 0; a < dim; a++) {
-        X[a] = r->at.centre[a];
-        for (int b = 0; b < dim; b++) X[a] += r->at.turn[b][a] * (x[b] - r->at.x[b]);
-    }
+    position_at_start(&r->at, dim, x, X);
     double level = region_level_set_value(r->shape, X, dim);
     for (int d = 0; d < dim && cut && !r->bounded; d++) level = fmax(level, fmax(r->low[d] - X[d], X[d] - r->high[d]));
     return level;
@@ -125,7 +157,6 @@ void rigids_paint_in_plane(struct colour *pixel, int width, int height, const st
     for (int b = 0; b < c->rigids; b++)
         for (int64_t q = 0; q < (int64_t)width * height; q++) {
             double x[3];
-            if (pixel[q].alpha && c->normal < 0) continue; /* particles of a slice may have left its plane */
             pixel_position(c, v, size, q, depth, x);
             if (level_at(&c->rigid[b], c->dim, x, false) <= 0) pixel[q] = RIGID;
         }

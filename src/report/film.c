@@ -327,7 +327,7 @@ static status write_frame(struct page *p, const struct film *f, const struct fil
         if (film_field_is_shown(f, &f->field[k]) && !f->field[k].fixed)
             film_write_field_values_of_frame(p, &f->field[k], s, &frame, path.text);
     json_close(&p->json, '}');
-    film_write_rigid_body_motion_of_frame(p, f, shown->listed.number);
+    film_write_rigid_body_motion_of_frame(p, f, &frame, shown->listed.number);
     json_close(&p->json, '}');
     frame_free(&frame);
     return OK;

@@ -67,7 +67,8 @@ void film_write_rigid_body_surfaces(struct page *p, const struct film *f)
     memory_free(at);
 }
 
-void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, int frame_number)
+void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, const struct output_frame *frame,
+                                           int frame_number)
 {
     const int rigids = rigids_of(f);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
@@ -75,7 +76,10 @@ void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f,
         json_open(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
             json_open(&p->json, NULL, '{');
+            real beside[DIM_MAX];
+            rigid_displacement_of_nearest_particle(&f->scene->body[f->scene->bodies + b].shape, &at[b], frame, beside);
             write_vector(p, "x", at[b].x, f->dim);
+            write_vector(p, "beside", beside, f->dim);
             json_open(&p->json, "turn", '[');
             for (int d = 0; d < f->dim; d++) write_vector(p, NULL, at[b].turn[d], f->dim);
             json_close(&p->json, ']');

@@ -8,12 +8,13 @@ function rigidOf(body) {
     return body.ready;
 }
 
-// Present positions of the points of a rigid body, displacements magnified: one array for each axis.
+// Present positions of the points of a rigid body, one array for each axis. With magnified displacements the body keeps
+// its distance from the nearest particle.
 function rigidPoints(body, at, magnify) {
     const {X} = rigidOf(body), dim = film.dim, n = X.length / dim, x = at.x.map(() => new Float64Array(n));
     for (let k = 0; k < n; k++)
         for (let d = 0; d < dim; d++) {
-            let sum = body.centre[d] + magnify * (at.x[d] - body.centre[d]);
+            let sum = at.x[d] + (magnify - 1) * at.beside[d];
             for (let e = 0; e < dim; e++) sum += at.turn[d][e] * X[k * dim + e];
             x[d][k] = sum;
         }

@@ -1,5 +1,5 @@
 /* Films of pages: groups of particles keep area and centre of the body, what is damaged stays as it is, and every
- * budget is kept. */
+ * budget is kept. Rigid bodies in magnified frames. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -124,12 +124,28 @@ static void budgets_are_kept(void **state)
     }
 }
 
+/* Magnified rigid bodies move with the nearest particle: a brick 4 x 2 that has been turned by a right angle and moved
+ * to x from 7 to 9; the second particle is nearest to it where it is, the third to where it was. */
+static void rigid_bodies_follow_the_nearest_particle(void **state)
+{
+    (void)state;
+    static struct solid brick = {.kind = SOLID_BOX, .to = {4, 2}};
+    static const struct region shape = {.n = 1, .solid = &brick};
+    static const struct rigid_placement at = {{2, 1}, {8}, {{0, -1}, {1}, {0, 0, 1}}};
+    real X[2][3] = {{0, 4, 2}, {0, -1, 0}}, moved[2];
+    float u[2][3] = {{0, 0.5F, 0}, {0, -0.25F, 0.125F}};
+    const struct output_frame f = {.n = 3, .dim = 2, .X = {X[0], X[1]}, .u = {u[0], u[1]}};
+    rigid_displacement_of_nearest_particle(&shape, &at, &f, moved);
+    assert_true(moved[0] == 0.5 && moved[1] == -0.25);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(groups_cover_the_body),
         cmocka_unit_test(groups_do_not_mix),
         cmocka_unit_test(budgets_are_kept),
+        cmocka_unit_test(rigid_bodies_follow_the_nearest_particle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
