@@ -4,6 +4,29 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Returns the path of the group of keys in the mapping that is the value of key k, or in each mapping of the list.
+ * Returns NULL if the value is no such mapping, or a mapping of names. */
+static const char *group_of_values(const struct key *k)
+{
+    const char *words = k->words ? k->words : "", *group = key_group_of_items(k);
+    if (k->type == KEY_REGION || (k->type == KEY_HAND && strncmp(words, "solid", 5) == 0)) return "solid";
+    for (int i = 0; i < keys_count; i++)
+        if (key_is_directly_below(&keys[i], group)) return group;
+    return NULL;
+}
+
+/* Returns the key beside node n, in the same mapping with keys of `group`, whose own keys include that of n, as `point`
+ * in {name: middle, point: {at: [..]}}; NULL if there is none. */
+static const struct yaml_node *owner_beside(const struct yaml_node *n, const char *group)
+{
+    for (const struct yaml_node *c = n->parent ? n->parent->first : NULL; c; c = c->next) {
+        const struct key *k = c->key ? key_find(group, c->key) : NULL;
+        const char *inner = k ? group_of_values(k) : NULL;
+        if (inner && key_find(inner, n->key)) return c;
+    }
+    return NULL;
+}
+
 /* Writes the reason why node n, which is no key of the group `group`, is refused to text[capacity], with the key that
  * is probably meant if there is a similar one. */
 static void describe_unknown_key(const struct yaml_node *n, const char *group, char *text, size_t capacity)
@@ -13,10 +36,13 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
     const char *leaf = nearest ? key_last_part(nearest) : "";
     int others;
     const struct key *other = key_find_in_any_group(n->key, &others);
+    const struct yaml_node *owner = owner_beside(n, group);
     if (foreign_word_advice(n->key, group, instead, sizeof instead))
         snprintf(text, capacity, "unknown key; %s", instead);
     else if (nearest && words_are_similar(leaf, n->key))
         snprintf(text, capacity, "unknown key; the nearest is %s", leaf);
+    else if (owner && others > 1)
+        snprintf(text, capacity, "does not belong here, but into %s: %s: {%s: ..}", owner->key, owner->key, n->key);
     else if (other && !strchr(other->path, '.'))
         snprintf(text, capacity, "does not belong here; put the key %s at the left margin", n->key);
     else if (others == 1)
@@ -57,17 +83,6 @@ static void report_unknown_key(const struct reader *r, const struct yaml_node *n
         status_set(REFUSED, "%s%s", place, text);
     else
         status_add_line("%s%s", place, text);
-}
-
-/* Returns the path of the group of keys in the mapping that is the value of key k, or in each mapping of the list.
- * Returns NULL if the value is no such mapping, or a mapping of names. */
-static const char *group_of_values(const struct key *k)
-{
-    const char *words = k->words ? k->words : "", *group = key_group_of_items(k);
-    if (k->type == KEY_REGION || (k->type == KEY_HAND && strncmp(words, "solid", 5) == 0)) return "solid";
-    for (int i = 0; i < keys_count; i++)
-        if (key_is_directly_below(&keys[i], group)) return group;
-    return NULL;
 }
 
 /* Reports the unknown keys of `node`, a mapping or a list of mappings with keys of `group`, and of all nodes below it.

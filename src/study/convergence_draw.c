@@ -17,6 +17,7 @@
 /* Largest number of figures (scalar results) that are drawn, and of panels side by side; largest number of crack tips
  * followed in one run; largest number of intervals of an axis of spacings. */
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16, TICS_MOST = 7 };
+#define SMOOTH 2.0  /* half of the growth over which positions of a path are averaged [spacings] */
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 
 /* Returns the path FOLDER/pictures/KEY.png of a picture of the study in `folder`, with KEY = key (the name of the
@@ -39,10 +40,19 @@ status scalar_results_check_replaceable(const char *folder)
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
 
+/* Returns the lower end of the 95 % interval of the figure f at spacing level k, in the unit of the figure. That of a
+ * positive time, length of a crack or speed of its tip is not below 0, as none of these can be. */
+static double interval_begin(const struct scalar_result_study *f, int k)
+{
+    const double begin = f->c.level[k].mean - f->c.uncertainty[k];
+    const bool positive = strcmp(f->unit, "s") == 0 || strstr(f->name, "length") || strstr(f->name, "speed");
+    return positive && f->c.level[k].mean >= 0 ? fmax(begin, 0) : begin;
+}
+
 /* Sends three data blocks of the figure f, a number in summary.json of the runs of the study s, to gnuplot's stream
  * `to`. Their names are $r, $m and $e followed by the number `panel`. $r: spacing and figure of every run. $m: spacing,
- * mean and half-width of the 95 % interval of every spacing level. $e: spacing 0, the extrapolated figure, and mean and
- * half-width of the finest level. */
+ * mean and ends of the 95 % interval of every spacing level. $e: spacing 0, the extrapolated figure, and mean and ends
+ * of the interval of the finest level. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_index_of_result(&s->table, f->name);
@@ -53,10 +63,11 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
             fprintf(to, "%.8g %.10g\n", s->point[k].spacing / metre, s->table.value[at][k] / factor);
     fprintf(to, "EOD\n$m%d << EOD\n", panel);
     for (int k = 0; k < f->c.levels; k++)
-        fprintf(to, "%.8g %.10g %.10g\n", f->c.level[k].spacing / metre, f->c.level[k].mean / factor,
-                f->c.uncertainty[k] / factor);
-    fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated / factor,
-            f->c.level[0].mean / factor, f->c.uncertainty[0] / factor);
+        fprintf(to, "%.8g %.10g %.10g %.10g\n", f->c.level[k].spacing / metre, f->c.level[k].mean / factor,
+                interval_begin(f, k) / factor, (f->c.level[k].mean + f->c.uncertainty[k]) / factor);
+    fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated / factor,
+            f->c.level[0].mean / factor, interval_begin(f, 0) / factor,
+            (f->c.level[0].mean + f->c.uncertainty[0]) / factor);
 }
 
 /* Returns true if the picture shows a curve from the means of a figure (a scalar result) to the extrapolated value at
@@ -74,7 +85,7 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
     const struct convergence *c = &f->c;
     const struct unit unit = scalar_result_unit(f);
     char title[256];
-    snprintf(title, sizeof title, *f->unit ? "%.200s [%s]" : "%.200s%s", f->name, unit.name);
+    study_figure_title(title, sizeof title, f->name, *f->unit ? unit.name : "");
     fputs("set title ", to);
     gnuplot_write_quoted_string(to, title);
     fputs("\nplot ", to);
@@ -85,9 +96,9 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
         fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' notitle, ", panel, curve_colour[1]);
     }
     fprintf(to,
-            "$e%d using 1:3:4 with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' notitle, "
+            "$e%d using 1:3:4:5 with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' notitle, "
             "$r%d using 1:2 with points pt 7 ps 0.5 lc rgb '%s' notitle, "
-            "$m%d using 1:2:3 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' notitle\n",
+            "$m%d using 1:2:3:4 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' notitle\n",
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
@@ -101,7 +112,7 @@ static void send_tics_of_panel(FILE *to, const struct convergence_study *s, cons
     const double *value = s->table.value[study_index_of_result(&s->table, f->name)];
     double low = INFINITY, end = -INFINITY;
     for (int k = 0; k < f->c.levels; k++) {
-        low = fmin(low, f->c.level[k].mean - f->c.uncertainty[k]);
+        low = fmin(low, interval_begin(f, k));
         end = fmax(end, f->c.level[k].mean + f->c.uncertainty[k]);
     }
     for (int k = 0; k < s->study.n; k++)
@@ -284,9 +295,24 @@ static void longest_free(struct longest *l)
     memory_free(l->tip);
 }
 
+/* Computes the mean position of the crack tip of position i of *l, over all its positions whose crack was at most
+ * `reach` shorter or longer, into at[2] [m]. Near the ends of its path the reach is smaller, so that the ends stay. */
+static void path_mean(const struct longest *l, int64_t i, double reach, double *at)
+{
+    double first = INFINITY, last = -INFINITY, sum[2] = {0};
+    int n = 0;
+    for (int64_t k = 0; k < l->n; k++)
+        if (l->tip[k] == l->tip[i]) first = fmin(first, l->grown[k]), last = fmax(last, l->grown[k]);
+    reach = fmin(reach, fmin(l->grown[i] - first, last - l->grown[i]));
+    for (int64_t k = 0; k < l->n; k++)
+        if (l->tip[k] == l->tip[i] && fabs(l->grown[k] - l->grown[i]) <= reach)
+            sum[0] += l->x[k], sum[1] += l->y[k], n++;
+    for (int d = 0; d < 2; d++) at[d] = sum[d] / n;
+}
+
 /* Sends the paths of the longest crack tips of run k of the study s to gnuplot's stream `to`, as the data block $wK (K
- * is the number k) [m], each path as a separate line. Extends the bounding box *e [m] by them. Returns false if the run
- * has no path or no readable history. */
+ * is the number k) [m], each path as a separate line, without the steps from one row of bonds to the next. Extends the
+ * bounding box *e [m] by them. Returns false if the run has no path of two positions, or no readable history. */
 static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
     struct history h;
@@ -295,17 +321,22 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
     if (!path_is_file(path_join(folder.text, "history.csv").text) || history_read(&h, folder.text) != OK) return false;
     longest_find(&l, &h, s->point[k].spacing);
     fprintf(to, "$w%d << EOD\n", k);
+    bool sent = false;
     for (int tip = 0; tip < l.tips; tip++) {
+        int64_t positions = 0;
+        for (int64_t i = 0; i < l.n; i++) positions += l.tip[i] == tip;
+        if (positions < 2) continue;
+        if (sent) fputs("\n", to);
+        sent = true;
         for (int64_t i = 0; i < l.n; i++) {
             if (l.tip[i] != tip) continue;
-            fprintf(to, "%.7g %.7g\n", l.x[i], l.y[i]);
-            e->low[0] = fmin(e->low[0], l.x[i]), e->high[0] = fmax(e->high[0], l.x[i]);
-            e->low[1] = fmin(e->low[1], l.y[i]), e->high[1] = fmax(e->high[1], l.y[i]);
+            double at[2];
+            path_mean(&l, i, SMOOTH * s->point[k].spacing, at);
+            fprintf(to, "%.7g %.7g\n", at[0], at[1]);
+            for (int d = 0; d < 2; d++) e->low[d] = fmin(e->low[d], at[d]), e->high[d] = fmax(e->high[d], at[d]);
         }
-        if (tip + 1 < l.tips) fputs("\n", to);
     }
     fputs("EOD\n", to);
-    const bool sent = l.n > 1;
     longest_free(&l);
     history_free(&h);
     return sent;
@@ -358,6 +389,15 @@ static int paths_height(const struct extent *e, const struct paths_layout *l, in
     return isfinite(height) ? (int)fmin(height, PATHS_HIGH) : PATHS_HIGH / 2;
 }
 
+/* Returns the width [pixel], at most PATHS_WIDE, of a picture of usual size in which the paths with the bounding box e
+ * fill the panel. l: margins. */
+static int paths_width(const struct extent *e, const struct paths_layout *l)
+{
+    const double aspect = (e->high[0] - e->low[0]) / (e->high[1] - e->low[1]);
+    const double width = (PATHS_HIGH - l->above - l->below) * aspect + l->left + l->right;
+    return isfinite(width) ? (int)fmin(fmax(width, PATHS_WIDE / 2), PATHS_WIDE) : PATHS_WIDE;
+}
+
 /* Arguments of gnuplot's command `plot` for the crack paths of all runs. used: length of the text [byte]; drawn: number
  * of paths. */
 struct path_plots {
@@ -408,7 +448,8 @@ static void paths_write_axes(const struct gnuplot *g, const struct extent *e, co
                 metre.name);
     }
     fprintf(g->to,
-            "set size ratio -1\nset title 'paths of the longest tip, all runs'\nset lmargin at screen %.4f\n"
+            "set size ratio -1\nset title 'paths of the longest tip, all runs, means over 4 spacings'\nset lmargin at "
+            "screen %.4f\n"
             "set rmargin at screen %.4f\nset tmargin at screen %.4f\nset bmargin at screen %.4f\n",
             l->left / g->width, 1 - l->right / g->width, 1 - l->above / g->height, l->below / g->height);
     fprintf(g->to, "set key at screen %.4f,%.4f left top horizontal maxcols %d maxrows %d\n",
@@ -431,10 +472,13 @@ static status draw_paths(const struct convergence_study *s)
     FILE *to = memory_stream_open(&data, &length);
     if (!to) return status_set(FAILED, "%s: out of memory", picture.text);
     paths_send(to, s, &e, &plots);
-    if (fclose(to) != 0) return status_set(FAILED, "%s: out of memory", picture.text);
+    if (fclose(to) != 0) {
+        free(data);
+        return status_set(FAILED, "%s: out of memory", picture.text);
+    }
     if (plots.drawn > 0) extent_widen(&e);
     const struct paths_layout l = paths_layout_make(s->spacings.levels);
-    const int width = picture_is_too_narrow_for_key() ? picture_size_get().width : PATHS_WIDE;
+    const int width = picture_is_too_narrow_for_key() ? picture_size_get().width : paths_width(&e, &l);
     status done = gnuplot_open(&g, picture.text, picture_size_get().format, width, paths_height(&e, &l, width));
     if (done == OK) {
         fputs(data, g.to);

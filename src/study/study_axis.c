@@ -103,15 +103,15 @@ int study_intervals_across(const struct study_picture *p, const struct study_axi
 }
 
 /* Sends the range of the axis called `name` (`x`, `y` or `cb`, the colour bar) to gnuplot. A linear axis gets the range
- * of the data, to which gnuplot adds a margin; a logarithmic axis, to which gnuplot adds none, the range extended by a
- * margin. */
+ * of the data, to which gnuplot adds a margin, but none below 0 to vertical axes from 0; a logarithmic axis, to which
+ * gnuplot adds none, the range extended by a margin. */
 static void range_send(FILE *gnuplot, const char *name, const struct study_axis *axis)
 {
     const double margin = *name == 'c' ? 0 : MARGIN * log10(axis->high / axis->low);
     if (axis->logarithmic)
         fprintf(gnuplot, "set %srange [%.10g:%.10g]\n", name, axis->low * pow(10, -margin),
                 axis->high * pow(10, margin));
-    else if (*name == 'c' && axis->low == 0)
+    else if (*name != 'x' && axis->low == 0)
         fprintf(gnuplot, "set %srange [0:*]\n", name);
     else
         fprintf(gnuplot, "set %srange [*:*]\n", name);

@@ -73,7 +73,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
             (double)(x + p->wide) / p->width);
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
             (double)(y - p->high) / p->height);
-    snprintf(text, sizeof text, *unit.name ? "%s [%s]" : "%s%s", figure, unit.name);
+    study_figure_title(text, sizeof text, figure, unit.name);
     const double room = p->left + p->wide + p->right - study_character_width(),
                  wide = 0.95 * study_character_width() * (double)strlen(text);
     fputs("set title ", to);

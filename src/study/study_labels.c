@@ -74,6 +74,24 @@ int study_longest_label_length(const struct varied_key *key)
     return longest;
 }
 
+void study_figure_title(char *text, size_t capacity, const char *name, const char *unit)
+{
+    static const char of_probe[] = "probes.", degrees[] = "_deg", seconds[] = "_seconds";
+    char words[LABEL_ROOM + 216];
+    if (strncmp(name, of_probe, sizeof of_probe - 1) == 0) name += sizeof of_probe - 1;
+    const char *dot = strrchr(name, '.'), *last = dot ? dot + 1 : name;
+    snprintf(words, sizeof words, "%.*s%s%.100s", dot ? (int)fmin((double)(dot - name), 100) : 0, name, dot ? ": " : "",
+             last);
+    const size_t length = strlen(words), begin = dot ? length - strnlen(last, 100) : 0;
+    if (length - begin > strlen(degrees) && strcmp(words + length - strlen(degrees), degrees) == 0)
+        words[length - strlen(degrees)] = '\0';
+    else if (length - begin > strlen(seconds) && strcmp(words + length - strlen(seconds), seconds) == 0)
+        strcpy(words + length - strlen(seconds), " time");
+    for (char *c = words + begin; *c; c++)
+        if (*c == '_') *c = ' ';
+    snprintf(text, capacity, *unit ? "%s [%s]" : "%s%s", words, unit);
+}
+
 int study_character_width(void) { return picture_is_too_narrow_for_key() ? 7 : 9; }
 
 double axis_tick_distance(double range, int max_intervals)

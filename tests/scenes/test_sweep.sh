@@ -126,7 +126,7 @@ rm drawn
 PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s material.density=2000,3000 -s particles.irregularity=0.3 -s particles.seed=1,2 -o seeds -q >out
 is "bars of chance say so" "$(grep -c 'mean and standard deviation over seed of particles' drawn)" 1
 grep -q yerrorbars drawn && pass || fail "no bars"
-grep -q "set title 'energy.kinetic \[µJ\]'" drawn && pass || fail "energies of this size are not drawn in µJ"
+grep -q "set title 'energy: kinetic \[µJ\]'" drawn && pass || fail "energies of this size are not drawn in µJ"
 mean=$(compute "1e6 * ($(figure seeds/density=2000,seed=1 energy.kinetic) + $(figure seeds/density=2000,seed=2 energy.kinetic)) / 2")
 near "a point is the mean of its runs" "$(awk '/^\$p0_0/ { at = 1; next } at { print $2; exit }' drawn)" "$mean" 1e-6
 apart=$(compute "1e6 * ($(figure seeds/density=2000,seed=1 energy.kinetic) - $(figure seeds/density=2000,seed=2 energy.kinetic)) / sqrt(2)")

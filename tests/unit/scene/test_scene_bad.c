@@ -243,6 +243,8 @@ static const struct {
     {"boundary: impact", "boundary: impct",
      "36:16: boundary: there is no boundary named impct; of the 2 in the scene, impact has the most similar name: give "
      "the name of one"},
+    {"  - tip\n", "  - {name: a, point: [0, 0]}\n",
+     "34:6: name: does not belong here, but into point: point: {name: ..}"},
     {"  - tip\n", "  - tip\n  - tip\n", "35:5: probes[1]: tip is already the name of another probe; give each its own"},
     {"  - tip\n", "  - sif: {inner: 20 mm, contours: [10 mm, 15 mm]}\n",
      "34:11: inner: the inner radius 20 mm is not smaller than the outer radius, 0.015 m; use about half the outer "
