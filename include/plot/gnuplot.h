@@ -78,6 +78,10 @@ bool picture_is_too_narrow_for_key(void);
  * their stated size. */
 double text_width(const char *text, size_t n);
 
+/* Returns REFUSED, with a message, if no font of this machine has a letter of the title `text`: a letter of any size
+ * would be drawn in its place. Returns OK if the fonts cannot be asked (fc-list). */
+status gnuplot_check_font_has_title(const char *text);
+
 /* Writes the commands for the title `text` of the picture to g. The title begins `left_margin` pixels from the left
  * edge of the picture. It is broken into two lines if it is too long for one line of letters of legible size. */
 void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin);

@@ -281,7 +281,7 @@ static status words_together(const struct plot_words *w)
         return status_set(REFUSED, "plot: --slice shows the inside, but --view the outside: remove one of the two");
     if (!w->scene.scene && !r->folder)
         return status_set(REFUSED, "plot: no folder of a run is given; usage: cleave %s", usage);
-    return OK;
+    return r->title && r->format != PICTURE_SVG ? gnuplot_check_font_has_title(r->title) : OK;
 }
 
 static status plot_words_read(struct plot_words *w, int argc, char **argv)

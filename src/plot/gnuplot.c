@@ -266,6 +266,37 @@ static void write_title_line(char *part, const char *text, size_t length, double
     snprintf(part, TITLE_ROOM, "%.*s%s", (int)length, text, cut ? "..." : "");
 }
 
+/* Decodes the UTF-8 character at `text` and returns its code point; stores its length in *length [byte]. A byte that
+ * begins no character counts as one. */
+static unsigned long character_at(const char *text, int *length)
+{
+    const unsigned char *c = (const unsigned char *)text;
+    const int n = *c >= 0xf0 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc0 ? 2 : 1;
+    unsigned long code = n == 1 ? *c : *c & (0xffu >> (n + 1));
+    for (*length = 1; *length < n && (c[*length] & 0xc0) == 0x80; ++*length) code = code << 6 | (c[*length] & 0x3fu);
+    return code;
+}
+
+status gnuplot_check_font_has_title(const char *text)
+{
+    enum { IN_ALL_FONTS = 0x250 }; /* first letter after those of Latin script */
+    for (int length; *text; text += length) {
+        const unsigned long code = character_at(text, &length);
+        if (code < IN_ALL_FONTS) continue;
+        char command[80];
+        snprintf(command, sizeof command, "fc-list :charset=%lx family 2>/dev/null", code);
+        FILE *from = popen(command, "r");
+        if (!from) return OK;
+        const bool found = fgetc(from) != EOF;
+        if (pclose(from) == 0 && !found)
+            return status_set(REFUSED,
+                              "plot: --title: no font of this machine has the letter %.*s; install one (Debian: "
+                              "fonts-noto-cjk for East Asia), or write the title with other letters",
+                              length, text);
+    }
+    return OK;
+}
+
 void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin)
 {
     g->untitled = !*text;

@@ -132,11 +132,13 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* The n energies of a history that are drawn: column, row of the ledger, and factor to the unit of the axis. */
+/* Energies that are drawn, as columns of the history. shift: what is subtracted from each before it is drawn [J]; low,
+ * high: ends of all that is drawn [J]. */
 struct energies {
     int column[LEDGER_ROWS];
     const struct ledger_row *row[LEDGER_ROWS];
-    double factor[LEDGER_ROWS];
+    double factor[LEDGER_ROWS], shift[LEDGER_ROWS], low, high;
+    char label[LEDGER_ROWS][96];
     int n;
     struct unit joule;
 };
@@ -145,37 +147,90 @@ struct energies {
 #define ENERGY_SHOWN 5e-4
 #define WORK_COLOUR "#c8c8c8" /* of the external work */
 
-/* Selects for drawing the energies of the history h whose largest value is at least ENERGY_SHOWN of the largest one of
- * all, and chooses their unit. */
-static void choose_energies(struct energies *e, const struct history *h)
+/* A kinetic energy at the start of more than HEAVY times all that changes later, as of a heavy hammer, is subtracted,
+ * unless less than NOTHING of it changes. */
+enum { HEAVY = 10 };
+#define NOTHING 1e-6
+
+/* Returns the values of column number `column` of the history h less `shift`: lowest and highest [J]; 0 to 0 if there
+ * is no such column. */
+static struct value_range shifted_range(const struct history *h, int column, double shift)
 {
-    double largest = 0;
-    *e = (struct energies){0};
-    for (int k = 0; k < LEDGER_ROWS; k++)
-        largest = fmax(largest, history_largest_magnitude(h, history_find_column(h, ledger[k].name)));
+    if (column < 0) return (struct value_range){0, 0};
+    const struct value_range r = history_value_range(h, &column, 1);
+    return (struct value_range){r.low - shift, r.high - shift};
+}
+
+static double largest_of(struct value_range r) { return fmax(fabs(r.low), fabs(r.high)); }
+
+/* Returns the kinetic energy at the start [J] if it would flatten the curves of all other energies, else 0. */
+static double flattening_energy(const struct history *h)
+{
+    const int kinetic = history_find_column(h, "kinetic");
+    const double start = kinetic < 0 ? 0 : history_value_at(h, 0, kinetic);
+    double most = largest_of(shifted_range(h, kinetic, start));
     for (int k = 0; k < LEDGER_ROWS; k++) {
         const int column = history_find_column(h, ledger[k].name);
-        if (column < 0 || !(history_largest_magnitude(h, column) > ENERGY_SHOWN * largest)) continue;
-        e->column[e->n] = column;
+        if (column != kinetic) most = fmax(most, largest_of(shifted_range(h, column, 0)));
+    }
+    return start > HEAVY * most && most > NOTHING * start ? start : 0;
+}
+
+/* Selects for drawing the energies whose largest value is at least ENERGY_SHOWN of the largest one of all, and chooses
+ * their unit. */
+static void choose_energies(struct energies *e, const struct history *h)
+{
+    const double start = flattening_energy(h);
+    const struct unit joule = unit_for_largest_value(start, "J");
+    struct value_range range[LEDGER_ROWS];
+    double shift[LEDGER_ROWS], largest = 0;
+    *e = (struct energies){0};
+    for (int k = 0; k < LEDGER_ROWS; k++) {
+        shift[k] = strcmp(ledger[k].name, "kinetic") == 0 ? start : 0;
+        range[k] = shifted_range(h, history_find_column(h, ledger[k].name), shift[k]);
+        largest = fmax(largest, largest_of(range[k]));
+    }
+    for (int k = 0; k < LEDGER_ROWS; k++) {
+        if (!(largest_of(range[k]) > ENERGY_SHOWN * largest)) continue;
+        char less[64] = "";
+        if (shift[k] > 0) snprintf(less, sizeof less, " - %.4g %s", start / joule.factor, joule.name);
+        snprintf(e->label[e->n], sizeof *e->label, "%.24s%s", ledger[k].label, less);
+        e->low = fmin(e->low, range[k].low), e->high = fmax(e->high, range[k].high);
+        e->shift[e->n] = shift[k];
+        e->column[e->n] = history_find_column(h, ledger[k].name);
         e->row[e->n++] = &ledger[k];
     }
     e->joule = unit_for_largest_value(largest, "J");
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
+/* Writes the gnuplot expression of energy number k of e, a column of the data less its shift. */
+static void write_energy(FILE *to, const struct energies *e, int k)
+{
+    fprintf(to, "$%d", k + 2);
+    if (e->shift[k] > 0) fprintf(to, "-%.12g", e->shift[k] / e->joule.factor);
+}
+
 /* Plots all selected energies, and as a dashed line their sum without the external work. The external work, which the
- * sum covers where the energy balance closes, is a broad band below all other curves. */
+ * sum covers where the energy balance closes, is a broad band below all other curves. A kinetic energy from which the
+ * start is subtracted is named so in the key, and its start is missing in the sum, too. */
 static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);
     for (int work = 1; work >= 0; work--)
         for (int k = 0; k < e->n; k++)
-            if ((e->row[k] == &ledger[LEDGER_WORK]) == work)
-                fprintf(to, "$data using 1:%d with lines lw %s lc rgb '%s' title '%s', ", k + 2, work ? "6" : "2.2",
-                        work ? WORK_COLOUR : e->row[k]->colour, e->row[k]->label);
+            if ((e->row[k] == &ledger[LEDGER_WORK]) == work) {
+                fputs("$data using 1:(", to);
+                write_energy(to, e, k);
+                fprintf(to, ") with lines lw %s lc rgb '%s' title '%s', ", work ? "6" : "2.2",
+                        work ? WORK_COLOUR : e->row[k]->colour, e->label[k]);
+            }
     fputs("$data using 1:(0", to);
     for (int k = 0; k < e->n; k++)
-        if (e->row[k] != &ledger[LEDGER_WORK]) fprintf(to, "+$%d", k + 2);
+        if (e->row[k] != &ledger[LEDGER_WORK]) {
+            fputs("+", to);
+            write_energy(to, e, k);
+        }
     fputs(") with lines lw 1.6 dt (6,4) lc rgb '#000000' title 'sum'\n", to);
 }
 
@@ -229,15 +284,14 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     curves_write_title(&g, title, "energy");
     curves_write_time_axis(g.to, s);
     size_t longest = 3; /* sum */
-    for (int k = 0; k < e.n; k++) longest = strlen(e.row[k]->label) > longest ? strlen(e.row[k]->label) : longest;
+    for (int k = 0; k < e.n; k++) longest = strlen(e.label[k]) > longest ? strlen(e.label[k]) : longest;
     const struct curves_layout l = curves_layout_make(&g, e.n + 1, longest, false);
     curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set ylabel 'energy [%s]'\n", e.joule.name);
     const double end =
         balance >= 0 ? curves_layout_edges_of_two_panels(&l).upper_end : curves_layout_height_of_all_panels(&l);
     curves_write_panel_margins(g.to, &l, 0, end);
-    const struct value_range of = history_value_range(s->h, e.column, e.n);
-    curves_write_tics(g.to, "y", fmin(of.low, 0) / e.joule.factor, of.high / e.joule.factor, end);
+    curves_write_tics(g.to, "y", e.low / e.joule.factor, e.high / e.joule.factor, end);
     if (balance >= 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
     plot_energies(g.to, &e);
     if (balance >= 0) {

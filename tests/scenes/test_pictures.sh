@@ -87,6 +87,14 @@ drawn "a PDF of 90 x 70 mm" "pdfcairo size 3.541[0-9]*in,2.75in"
 drawn "no title: the magnification alone" "set label 1 'displacements x 30 000' at"
 "$cleave" plot results/strip --field stress_yx --times last $small -o order.png >out 2>err
 holds "a component by either order of its axes: $(cat err)" grep -q "stress_xy" out
+# A letter that no font has would be drawn in any size.
+if fc-list :charset=10900 2>/dev/null | grep -q .; then pass; else
+    "$cleave" plot results/strip --field speed --times last --title 'x 𐤀' $small -o phoenician.png >out 2>err
+    is "a letter without a font" $? 2
+    holds "it is named" grep -q "no font of this machine has the letter 𐤀" err
+    "$cleave" plot results/strip --field speed --times last --title 'x² – ω' $small -o greek.png >out 2>err
+    is "Greek is drawn: $(cat err)" $? 0
+fi
 # A unit that one end has holds for both; damage has the colours and the ends that are asked for, categories have no scale.
 : >drawn
 "$cleave" plot results/strip --field damage --times last --range -0.1:0.6 --colours grey --crop 4:12mm,2mm:8 $small -o grey.pdf >out 2>err

@@ -37,7 +37,7 @@ holds "the line of an experiment is on the side of the crack: $(cat err)" grep -
 # Figures of a sweep are those of --of, in units with a prefix.
 : >all
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.start_time --of energy.kinetic -o varied >out 2>err
-for title in "crack.start_time .[µnm]s." "energy.kinetic .[mµn]J."; do holds "a figure of a sweep: $title: $(cat err)" grep -a -q "set title '$title'" all; done
+for title in "crack: start time .[µnm]s." "energy: kinetic .[mµn]J."; do holds "a figure of a sweep: $title: $(cat err)" grep -a -q "set title '$title'" all; done
 is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.strat_time -o varied >out 2>err
 is "sweep --of an unknown figure: exit status" $? 2
@@ -67,6 +67,22 @@ holds "no axis for a share that stays the same" sh -c "! grep -a -q 'peridynamic
 sed -i 's/,0,1$/,0,0.5/' pressed/history.csv
 "$cleave" plot pressed -o shares/ $small >out 2>err
 holds "a share of all particles: its axis ends at 100 %" grep -a -q "set y2range \[0:104\]" all
+
+# The energy of a heavy hammer does not flatten the others: what it has at the start is subtracted, and the key says so.
+mkdir heavy
+cat >heavy/history.csv <<'END'
+time [s],step,kinetic [J],strain [J],external_work [J]
+0,0,600,0,0
+1e-3,1,599.98,0.02,0
+2e-3,2,599.9,0.1,0
+END
+: >all
+"$cleave" plot heavy $small >out 2>err
+holds "the start is subtracted: $(cat err)" grep -a -q "using 1:(\$2-600000) with lines .* title 'kinetic - 600 J'" all
+sed -i 's/,60*0*,0,0$/,0.1,0,0/; s/,599.9[8]*,/,0.05,/' heavy/history.csv
+: >all
+"$cleave" plot heavy -o light/ $small >out 2>err
+holds "that of others is not: $(cat err)" grep -a -q "using 1:(\$2) with lines .* title 'kinetic'" all
 
 # A particle that spalls off a bar is a point, and does not stretch the axes of the others.
 cat >spall.yaml <<'END'
