@@ -344,6 +344,7 @@ holds("hints", any("symmetric" in hint for hint in found.hints))
 found = made.changed({"material.young": "72 Pa", "output.regions": None}).check(trial=False)
 holds("a warning: %s" % found, any("check the units of young" in line for line in found) and made.changes == {})
 made.save(work + "/made.yaml")
+holds("no temporary file in what check says: %s" % found, not any("/cleave-" in line for line in [*found, found.text]))
 holds("saved", cleave.Scene(work + "/made.yaml").check(trial=False) == [] and open(work + "/made.yaml").read() == made.text)
 holds("a scene that includes others", cleave.Scene({"include": work + "/made.yaml", "thickness": 2e-3}).check(trial=False) == [])
 
@@ -431,6 +432,7 @@ holds("no rigid body", len(cleave._rigid.outlines_of(frame, 1, (0, 1), None)) ==
 if matplotlib:
     lines = pressed.plot().collections[1]
     holds("it is drawn", type(lines).__name__ == "LineCollection" and lines.axes.get_ylim()[1] > 12.9)
+    holds("the section that is found", "y = 1.5 mm" in ball.plot(slice={"y": 1.2e-3}).get_title())
     holds("the sphere is drawn", len(ball.plot(slice={"y": 2e-3}).collections) == 2 and len(run.plot().collections) == 1)
 holds("places at rest of a line", line.frames[-1].reference.shape == (20, 3) and (line.frames[-1].reference[:, 1:] == 0).all())
 

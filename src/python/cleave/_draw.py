@@ -120,7 +120,8 @@ def _layer(frame: Any, axis: int) -> float:
 
 
 def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[int, int], float, str]:
-    """Returns the particles of a solid to draw, the axes of the picture, the position of the section [m], and it in words."""
+    """Returns the particles of a solid to draw, the axes of the picture, the mean position of the particles
+    [m], and it in words."""
     reference = frame.reference
     if plane is None:
         sides = np.ptp(reference, axis=0)
@@ -131,6 +132,8 @@ def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[
     (name, at), = plane.items()
     axis = "xyz".index(name)
     part = frame.slice(**{name: at})
+    if len(part):
+        at = float(part.reference[:, axis].mean())
     factor, unit = scale_of(float(np.abs(reference).max()), "m")
     kept: List[int] = [k for k in range(3) if k != axis]
     return part, (kept[0], kept[1]), at, "%s = %.4g %s" % (name, at * factor, unit)

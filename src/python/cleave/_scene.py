@@ -141,7 +141,11 @@ class Scene:
         Raises SceneError for a scene that cannot be run.
         """
         with self._words() as words:
-            return Check(*call_fully(("check", *words, *_threads(threads), *["--no-trial"] * (not trial)), True, None))
+            text, told = call_fully(("check", *words, *_threads(threads), *["--no-trial"] * (not trial)), True, None)
+        if self.path is None:
+            text, told = (part.replace(words[0], "<%s>" % self.name) for part in (text, "\n".join(told)))
+            return Check(text, told.split("\n"))
+        return Check(text, told)
 
     def run(self, output: Optional[Path] = None, **options: Any) -> Run:
         """Runs the scene to its end; options: those of cleave.run."""
