@@ -9,8 +9,9 @@
 /* Colours of the faces. FACE: in maps of damage; GAP: in maps of fields, the white of a gap. */
 static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
 /* LINE_HALF: half width of a line, at least LINE_LEAST pixels, so that it looks alike in pictures of any resolution;
- * GAP_SEEN: distance of the faces from which the gap between them is left open [widths of the image]. */
-static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 140;
+ * GAP_SEEN: distance of the faces from which the gap between them is left open [widths of the image]; FLAT: an image
+ * that is more than so many times wider than high, as of a thin strip, counts as so wide. */
+static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 140, FLAT = 12;
 
 /* BESIDE: largest distance of the particles whose motion is that of a face [spacings]; RUBBLE: damage above which a
  * particle has no part of a face. */
@@ -105,11 +106,14 @@ static bool face_at(const struct faces *f, int side, double s, double *x)
     return true;
 }
 
+/* Returns the length [pixel] of which LINE_HALF and GAP_SEEN are shares, in an image of the given size [pixel]. */
+static double line_scale(int width, int height) { return fmin(width, FLAT * height); }
+
 /* Paints the pixels of pixel[height][width] within half a line width of the line between the points a[2] and b[2]
  * [pixel] in the colour c. */
 static void line_paint(struct colour *pixel, int width, int height, const double *a, const double *b, struct colour c)
 {
-    const double half = fmax(LINE_HALF * width, LINE_LEAST);
+    const double half = fmax(LINE_HALF * line_scale(width, height), LINE_LEAST);
     int low[2], high[2];
     const int size[2] = {width, height};
     for (int k = 0; k < 2; k++) {
@@ -145,7 +149,7 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
             if (is[side] && was[side]) line_paint(pixel, width, height, last[side], x[side], colour);
             last[side][0] = x[side][0], last[side][1] = x[side][1], was[side] = is[side];
         }
-        if (is[0] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN * width)
+        if (is[0] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN * line_scale(width, height))
             line_paint(pixel, width, height, x[0], x[1], colour);
     }
 }
