@@ -28,11 +28,11 @@ struct geometry {
 };
 
 /* Reads a body and its named parts from a .stl, .msh, .inp or Exodus II file into g. The extension of the name `path`
- * selects the format. Of a list of particles the sets are read. dim: dimensions of the space; if it is 2, the elements must be triangles and quadrilaterals of
- * equal z. scale: length of the unit of the file [m]. chord_tolerance: largest distance between a curved edge of a
- * second-order element and the chords that approximate it [m]; NAN for 1/256 of the largest sagitta. Returns REFUSED,
- * with a message and nothing to release, for a wrong format, a file without a body, or a surface so open that inside
- * and outside cannot be distinguished. Release g with geometry_free. */
+ * selects the format. Of a list of particles the sets are read. dim: dimensions of the space; if it is 2, the elements
+ * must be triangles and quadrilaterals of equal z. scale: length of the unit of the file [m]. chord_tolerance: largest
+ * distance between a curved edge of a second-order element and the chords that approximate it [m]; NAN for 1/256 of the
+ * largest sagitta. Returns REFUSED, with a message and nothing to release, for a wrong format, a file without a body,
+ * or a surface so open that inside and outside cannot be distinguished. Release g with geometry_free. */
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance);
 
 /* Returns the named part of g called `name`, ignoring case. The name of the instance to which a part of an Abaqus

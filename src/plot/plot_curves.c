@@ -161,17 +161,17 @@ static struct value_range shifted_range(const struct history *h, int column, dou
     return (struct value_range){r.low - shift, r.high - shift};
 }
 
-static double largest_of(struct value_range r) { return fmax(fabs(r.low), fabs(r.high)); }
+static double largest_magnitude_of(struct value_range r) { return fmax(fabs(r.low), fabs(r.high)); }
 
 /* Returns the kinetic energy at the start [J] if it would flatten the curves of all other energies, else 0. */
 static double flattening_energy(const struct history *h)
 {
     const int kinetic = history_find_column(h, "kinetic");
     const double start = kinetic < 0 ? 0 : history_value_at(h, 0, kinetic);
-    double most = largest_of(shifted_range(h, kinetic, start));
+    double most = largest_magnitude_of(shifted_range(h, kinetic, start));
     for (int k = 0; k < LEDGER_ROWS; k++) {
         const int column = history_find_column(h, ledger[k].name);
-        if (column != kinetic) most = fmax(most, largest_of(shifted_range(h, column, 0)));
+        if (column != kinetic) most = fmax(most, largest_magnitude_of(shifted_range(h, column, 0)));
     }
     return start > HEAVY * most && most > NOTHING * start ? start : 0;
 }
@@ -188,10 +188,10 @@ static void choose_energies(struct energies *e, const struct history *h)
     for (int k = 0; k < LEDGER_ROWS; k++) {
         shift[k] = strcmp(ledger[k].name, "kinetic") == 0 ? start : 0;
         range[k] = shifted_range(h, history_find_column(h, ledger[k].name), shift[k]);
-        largest = fmax(largest, largest_of(range[k]));
+        largest = fmax(largest, largest_magnitude_of(range[k]));
     }
     for (int k = 0; k < LEDGER_ROWS; k++) {
-        if (!(largest_of(range[k]) > ENERGY_SHOWN * largest)) continue;
+        if (!(largest_magnitude_of(range[k]) > ENERGY_SHOWN * largest)) continue;
         char less[64] = "";
         if (shift[k] > 0) snprintf(less, sizeof less, " - %.4g %s", start / joule.factor, joule.name);
         snprintf(e->label[e->n], sizeof *e->label, "%.24s%s", ledger[k].label, less);

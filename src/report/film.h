@@ -123,7 +123,8 @@ void film_write_rigid_body_surfaces(struct page *p, const struct film *f);
 
 /* Writes the positions and rotations of the rigid bodies in frame number `frame_number` of the run to the page as the
  * entry `rigid` of that frame: for each body f->dim coordinates [m], the displacement of the nearest particle of
- * `frame`, by which magnified bodies move, and the rotation matrix [dim][dim] by rows. Writes nothing if the run has no file of rigid bodies for this frame. */
+ * `frame`, by which magnified bodies move, and the rotation matrix [dim][dim] by rows. Writes nothing if the run has no
+ * file of rigid bodies for this frame. */
 void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, const struct output_frame *frame,
                                            int frame_number);
 
