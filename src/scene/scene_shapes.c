@@ -206,7 +206,7 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
     const struct yaml_node *within = yaml_node_find(n, "within");
     const struct geometry_set *set = words->set[0] ? geometry_find_named_part(g, words->set) : NULL;
     if (words->set[0] && !set) return refuse_set(r, yaml_node_find(n, "set"), words->set, g);
-    if (set && set->fault) return fault(r, yaml_node_find(n, "set"), "set %s of the file %s", set->name, set->fault);
+    if (set && set->fault) return fault(r, yaml_node_find(n, "set"), "%s of the file %s", set->name, set->fault);
     if (!set && g->whole.dim == 0)
         return fault(r, n,
                      "the file has particles, elements of one node, that fill no volume; a body of them is "
