@@ -20,6 +20,8 @@
 
 typedef double real;
 
+/* Largest numbers: of coordinates; of components of a symmetric tensor; room for a name, and for a long one, with its
+ * final 0 [byte]. */
 enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64, LONG_NAME_LENGTH = 256 };
 
 /* Attributes of functions; number of elements of an array. */
