@@ -11,7 +11,7 @@
  * texts. */
 struct warnings {
     int n;
-    bool silent; /* pilot run: warnings are stored, but not printed while it runs */
+    bool silent; /* pilot run (a short run before the real one): warnings are stored, but not printed */
     char **text;
     /* Writes to place[PLACE_LENGTH] the location in the scene file of the key with which the warning `text` begins; ""
      * if unknown. The printed line ends with this location; `text` does not contain it. scene: the member below, not

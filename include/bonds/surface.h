@@ -50,9 +50,10 @@ void surface_weights_free(struct surface_weights *w);
 /* Returns the integer nearest to `spacings`, halves rounded away from 0. It is quicker than nearbyint. */
 static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
 
-/* Returns the factor [1] in `weights` by which the weight of a bond of particle i is multiplied near faces; 1 if the
- * particle is far from faces or `bond_vector` is longer than any bond. bond_vector: reference vector from particle i to
- * its neighbour, dim components [m]; i must be no image. Both particles of a bond obtain bitwise equal factors. */
+/* Returns the factor, stored in `weights`, that corrects the weight of a bond of particle i near the surface of the
+ * body; 1 if the particle is far from it or `bond_vector` is longer than any bond. bond_vector: reference vector from
+ * particle i to its neighbour, dim components [m]; i must not be a mirror image. Both particles of a bond obtain
+ * bitwise equal factors. */
 static inline real surface_weight_factor(const struct surface_weights *weights, int64_t i, const real *bond_vector)
 {
     int at = 0;

@@ -56,9 +56,9 @@ real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particl
                                                const int32_t *changed_points, int64_t changed_count);
 
 /* Recomputes the stiffness of the cells of the points in changed_points[changed_count] (indices) after only their
- * partial stresses have changed; all points remain in the mesh. Possible only for partial cells. These store a
- * stiffness matrix because points are missing, or leave a part of their stress to bonds. Returns false, without any
- * change, if one of the cells was not partial before or would not be afterwards; call
+ * partial stresses (the share that bonds do not bear) have changed; all points remain in the mesh. All cells must be
+ * partial cells before and afterwards: cells with a stiffness matrix of their own, because points are missing or leave
+ * a share of their stress to bonds. Else returns false without any change; call
  * mesh_remove_points_and_return_lost_energy then. source: material constants. */
 bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
                                             const struct mesh_source *source, const int32_t *changed_points,
@@ -84,7 +84,7 @@ void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles
 
 /* Returns a lower bound of the critical time step of the mesh [s]: the smallest 2/omega over all cells, with the
  * largest angular frequency omega of a cell that moves on its own. after_any_conversion: true to include the cells that
- * would remain if any subset of the points of a cell converted, false for the present cells. density: mass density of
+ * would remain if any of the points of a cell became peridynamic, false for the present cells. density: mass density of
  * each material [kg/m^3]. source: material constants. */
 real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
                              bool after_any_conversion);

@@ -371,9 +371,9 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
 void view_set_field_and_colour_range(struct view *v, const struct plot_field *field,
                                      const struct plotted_particles *cloud, int frame_count);
 
-/* Makes the view *v of cloud[frame_count] that the request r demands: its rectangle, the ends and the table of the
- * colours of its field, and the pre-cracks of a plane scene. Returns REFUSED if an end of the colours is no number with
- * a unit of the field, or if they are in the wrong order; FAILED if there are no positions. */
+/* Makes the view *v of cloud[frame_count], the particles of each frame, for the request r: its rectangle, the limits
+ * and the table of its colour scale, and the pre-cracks of a plane scene. Returns REFUSED if a limit is not a number
+ * with a unit of the field, or the lower limit is not below the upper; FAILED if there are no positions. */
 status view_make_for_request(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud,
                              int frame_count);
 

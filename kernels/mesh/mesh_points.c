@@ -450,9 +450,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED of points of eight partial cells (points missing or several materials) whose principal stress
- * exceeds the conversion stress. Examines only cells whose bound places_tension exceeds it, and cells for which it is
- * no bound (several materials, mean dilatation). group: number of the cells, from 0; m: constants [material]. */
+/* Sets FLAG_STRESSED of points in eight partial cells (points missing or several materials) whose principal stress
+ * exceeds the conversion stress. Skips cells whose upper bound of it, places_tension, is below, unless the bound does
+ * not hold (several materials, mean dilatation). group: number of the eight cells; m: constants [material]. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {

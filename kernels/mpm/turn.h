@@ -6,10 +6,10 @@
 #include "row.h"
 
 /* Returns the derivative [1/s] of velocity component `component` along axis `axis` by which a few points extrapolate
- * their velocity to nodes, from the spins `spin` [1/s] of the groups with which they rotate. The leap-frog velocity v =
- * (x' - x)/dt is along a chord of the circle of rotation: v = w x r - part w x (w x r), w the spin. time_part: dt/2 for
- * r at the position x' at the end of the step, -dt/2 at its start x [s]. Without the second-order term rotating bodies
- * shrink: a square by 0.2 % per turn at 4000 1/s. */
+ * their velocity to nodes. spin: angular velocity w of the rotating group of each point [1/s], in the plane spin[2]
+ * alone. The leap-frog velocity v = (x' - x)/dt is along a chord of the circle of rotation: v = w x r - time_part w x
+ * (w x r). time_part: dt/2 for r at the end of the step, -dt/2 at its start [s]. Without the second-order term rotating
+ * bodies shrink: a square by 0.2 % per turn at 4000 1/s. */
 static ALWAYS_INLINE row_of_points rotating_velocity_slope(const row_of_points *spin, const real time_part,
                                                            int component, int axis, const int dim)
 {

@@ -116,9 +116,10 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
     return end;
 }
 
-/* Computes the rotations of the cells of eight material points from p->end_rotation, in the form in which rotations are
- * stored (rotation.h). row: indices of the points; own: the first of them if they are consecutive, else -1; spring:
- * spring stiffness of their families [N/m]; back: true for the inverse rotations; rotation[ROTATION]: receives them. */
+/* Computes the rotations of the cells of eight material points, which their bonds use, from p->end_rotation. Stores
+ * them in rotation[ROTATION], times the spring stiffness (in the plane) or a factor of it (in space), as rotation.h
+ * describes. row: indices of the points; own: the first of them if they are consecutive, else -1; spring: spring
+ * stiffness of their families [N/m]; back: true for the inverse rotations. */
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {

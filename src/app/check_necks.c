@@ -369,10 +369,10 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Examines the part of a piece that begins at `cell` and extends along the axis `across`, over consecutive cells with
- * the same number of particle rows along k->axis. The part is a neck if the cells before and after it have more rows,
- * or if a plane of symmetry replaces the cells on one side. A neck is measured, and is added to the list if its width
- * differs too much from that of its particles. */
+/* Looks for a neck, from `cell` on along the axis `across`: consecutive cells of a body k that have equally many
+ * particles through the thickness along k->axis, between cells that have more, or between such cells and a plane of
+ * symmetry. Adds the neck to `list` if its thickness in the scene differs too much from its number of particles times
+ * the spacing. */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);

@@ -265,8 +265,9 @@ int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t 
                                  bool *one_offset_per_column);
 
 /* Fills the columns of row block `row_block` of b, which stores the bonds of eight particles, from the first
- * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, family volumes and
- * alignment of the row block. p: particles; one_offset_per_column: result of bond_row_block_count_columns. */
+ * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, family volumes and the
+ * flag `aligned` of the row block. p: particles; one_offset_per_column: true if the bonds of each column have the same
+ * offset on the lattice, as bond_row_block_count_columns returns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 

@@ -89,7 +89,8 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
 
 /* ---- all stencils ------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the stencils a and b (columns that many row blocks share) are equal byte by byte. */
+/* Returns true if the stencils a and b are equal byte by byte. A stencil: bond vectors and weights of a particle, which
+ * many particles of a lattice have in common. */
 static bool stencils_equal(const struct stencil *a, const struct stencil *b)
 {
     return a->columns == b->columns && arrays_equal(a->column, b->column, a->columns, sizeof *a->column) &&

@@ -155,8 +155,9 @@ struct smooth_faces {
     struct smooth *smooth; /* [n] */
 };
 
-/* Computes the smoothed faces (struct smooth) of all particles that have faces. s->at[particles near faces]: receives
- * the index of the smoothed face of each particle, -1 if it has none. raw: faces on the lattice. */
+/* Fits a smooth surface (struct smooth) to each particle that lacks a nearest neighbour, because slopes and curves of a
+ * body on a lattice are stairs. s->at[particles near faces]: receives the index of the smooth surface of each particle,
+ * -1 if the particle has none. raw: the stairs. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
     const struct near_faces *b = raw->body;

@@ -167,9 +167,10 @@ struct class_fit {
     real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
 };
 
-/* The least-squares problem for the factors f of groups of bonds near faces. alike: classes of particles and groups of
- * bonds. Minimise the sum over classes of (M - goal) Q (M - goal) plus the sum over groups of prior (f - 1)^2 with low
- * <= f <= high. M: sum of f times the moments over the bonds of a class; Q: quadratic form of the class. */
+/* Least-squares problem for the factors f on the weights of bonds near the surface of a body. Bonds of a group share a
+ * factor; particles of a class have equal surroundings (alike). Minimise the sum over classes of (M - goal) Q (M -
+ * goal) plus the sum over groups of prior (f - 1)^2 with low <= f <= high. M: third and fourth moments of the bonds of
+ * a class, times f; goal: the same of a whole family; Q: quadratic form of the class. */
 struct surface_fit_problem {
     const struct bond_classes *alike;
     int offsets, thirds, fourths; /* neighbours of a full family; third and fourth moments of a bond */

@@ -95,9 +95,10 @@ void engine_warn_of_particles_faster_than_waves(const struct particles *p, real 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports of scene s at an end of a body that is in the middle of a grid cell with an
- * edge of two particle spacings. This falsifies the stiffness of the body; the warning states the error. p, loads:
- * particles and loads; grid: any grid of the run, whose members `anchor` and `h` give the positions of all nodes. */
+/* Warns of each support of scene s at an end face of a body that lies within a grid cell instead of on a row of nodes,
+ * where cells have an edge of two particle spacings: the body is then computed too long or too short. The warning
+ * states by how much. p, loads: particles and loads; grid: any grid of the run, whose members `anchor` and `h` give
+ * the positions of all nodes. */
 void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
                                           const struct grid *grid, struct warnings *warnings);
 

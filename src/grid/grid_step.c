@@ -196,7 +196,7 @@ static void field_set_flight(struct grid_field *f, const struct rotation_groups 
 }
 
 /* Adds the change of the nodal velocities to the points of run e and maps the momentum of the points to the nodes again
- * (MUSL). side: grids of the bodies for contact, from meeting_find; NULL: no contact. */
+ * (MUSL). side: for each body its own grid, between which contact acts; NULL: no contact. */
 static void grids_remap(struct run *e, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);

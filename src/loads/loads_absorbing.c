@@ -163,8 +163,8 @@ void absorbing_dashpots_free(struct loads *l)
 /* ---- particles that bonds move ----------------------------------------------------------------------------------- */
 
 /* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh),
- * and books their impulse and the energy that they absorb. Does nothing while l->absorbing.idle. dt_velocity: duration
- * of the velocity update [s]. */
+ * and adds their impulse and the energy that they absorb to the sums in l->absorbing. Does nothing while
+ * l->absorbing.idle. dt_velocity: duration of the velocity update [s]. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity)
 {
     struct absorbing *a = &l->absorbing;

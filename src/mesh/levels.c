@@ -186,10 +186,10 @@ static void stressed_put(struct mesh *mesh, const uint8_t *marks)
     for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = marks[r] != 0;
 }
 
-/* Saves to the archive a if a->saving, else restores from it, which rows of cells of `mesh` are stressed: in which a
- * stress may exceed the value at which coarse cells are split. level: coarsening level of the mesh, whose cells have
- * the edge of 2^level finest cells; part of the name in the archive. Returns FAILED if the archive does not have these
- * flags. */
+/* Saves to the archive a if a->saving, else restores from it, a flag for each row of cells of `mesh`: true if a stress
+ * in the row may exceed the value at which coarse cells are split. level: coarsening level of the mesh (cells have the
+ * edge of 2^level finest cells), which is part of the name of the flags in the archive. Returns FAILED if the archive
+ * does not have these flags. */
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];

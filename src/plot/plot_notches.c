@@ -43,8 +43,9 @@ static bool is_beside(const struct faces *f, const struct plotted_particles *c, 
     return fabs(off) <= reach && s >= -0.5 * f->section && s <= f->length + 0.5 * f->section;
 }
 
-/* Moves the pre-crack f to the middle between the edges of the particles of c on its two sides, where the gap is that
- * opens. A pre-crack along the lattice may be anywhere between two rows, one across the lattice hardly moves. */
+/* Moves the drawn line of the pre-crack f to the middle of the gap between the particles of c on its two sides, which
+ * is where the crack opens. A pre-crack along the lattice may be anywhere between two rows; one across the lattice
+ * hardly moves. */
 static void faces_move_between_particles(struct faces *f, const struct plotted_particles *c)
 {
     double edge[2] = {INFINITY, INFINITY}; /* distance of the nearest edge on each side [m] */
