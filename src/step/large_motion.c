@@ -82,6 +82,7 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
     if (m->passed || part == m->checked || !scene_is_dynamic(s) || p->n == 0 || p->n < p->n_body) return;
     if (s->contact_between == CONTACT_ALL || scene_silences_warning(s, ACCEPT_CONTACT)) return;
     m->checked = part;
+    if (p->n_free == p->n) return; /* pairs of points on the grid do not count */
     if (2 * largest_relative_displacement(p) < held - reach) return;
     const int64_t count = count_passing_particles(p, s, reach, held, &first);
     if (count == 0) return;
