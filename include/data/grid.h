@@ -179,6 +179,10 @@ static inline int64_t grid_cell_index_in_other_grid(const struct grid *from_grid
     return J;
 }
 
+/* Returns true if the box of nodes of g covers the positions between the corners `lower` and `upper` [m] with its
+ * margin, so that grid_extend_box would leave it as it is; false also for positions that are not finite. */
+bool grid_box_covers(const struct grid *g, const real *lower, const real *upper);
+
 /* Sets the box of g (first, count, n, stride) to the nodes of all cells that contain positions between the corners
  * `lower` and `upper` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns true, or false,
  * with an undefined box, if the box would have more than `max_nodes` nodes. */

@@ -22,8 +22,12 @@ static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis 
 /* The order in which material points on the grid are processed: by colour, block (a box of grid cells) and cell, where
  * blocks of one colour share no node and may be processed in parallel. All arrays are owned. */
 struct transfer_order {
-    int64_t n, room;                /* number of particles on the grid; capacity of `particle` */
-    int32_t *particle;              /* [n] indices, sorted by colour, then block, then cell, then index */
+    int64_t n, room;                /* particles on the grid; capacity */
+    int32_t *particle;              /* sorted by colour, then block, then cell, then index */
+    uint16_t *inside;               /* [n] number of the cell of particle[k] in its block */
+    uint8_t *left;                  /* [n] 1: particle[k] has left its cell since the sort, set by g2p; else 0 */
+    int32_t *next_particle;         /* memory for the next order of the particles, */
+    uint16_t *next_inside;          /* and of the numbers of their cells */
     int blocks_of[COLOURS_MAX + 1]; /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1 */
     int blocks, blocks_room;        /* number of blocks with particles; capacity of their arrays */
     int32_t *block_start;           /* entries of `particle` in block b: block_start[b] .. block_start[b+1]-1 */
@@ -37,6 +41,16 @@ struct transfer_order {
  * order in o, whose arrays grow as needed. The order depends on positions alone, not on the number of threads. */
 void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
                                         int64_t point_count, const struct grid *g);
+
+/* Lists the particles of o that have left their cells (o->left) in `list`, which has room for o->n. Returns their
+ * number. */
+int64_t transfer_order_list_points_that_left_cells(const struct transfer_order *o, int32_t *list);
+
+/* Sorts the particles of o, to the same order as transfer_order_sort_points_by_cell, where only the count particles
+ * `list` have left their cells (transfer_order_list_points_that_left_cells), and clears their marks. The box of the
+ * grid g must be that of the previous sort. */
+void transfer_order_move_points_that_left_cells(struct transfer_order *o, const struct particles *p,
+                                                const int32_t *list, int64_t count, const struct grid *g);
 
 /* Enlarges the arrays of o, if necessary, for `point_count` particles, `block_count` blocks (boxes of grid cells) and
  * `cell_count` cells; the contents of an array that grows are lost. Does not change o->n, o->blocks and o->cells. */

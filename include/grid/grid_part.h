@@ -10,6 +10,10 @@
 #include "grid/grid_coupled.h"
 #include "run/run.h"
 
+/* Which points must be sorted into cells before the next transfer: none, those that have left their cells in the last
+ * step (transfer_order.left), or all, because points have converted or have been moved otherwise. */
+enum sort_needed { SORT_NONE, SORT_LEFT, SORT_ALL };
+
 /* A background grid and the n material points on it, sorted by cell in `order`: those of all bodies or, if bodies in
  * contact have a grid each, those of one body. */
 struct grid_field {
@@ -29,10 +33,10 @@ struct grid_method {
     struct active_points active;    /* points that transfers include */
     struct grid_coupled coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct rotation_groups turning; /* groups of points with a common rotation (FLIP) */
-    struct transfer_data transfer;  /* inputs of the transfers, besides particles and grid */
-    bool sort_needed;               /* points have left their cells or have converted */
-    real smallest_mass;             /* of a node that moves [kg] */
-    real spacing;                   /* of particles [m] */
+    struct transfer_data transfer;
+    enum sort_needed sort_needed;
+    real smallest_mass; /* of a node that moves [kg] */
+    real spacing;       /* of particles [m] */
 };
 
 /* Makes the background grids mpm of a run: one for all bodies, or one for each body if material points of several

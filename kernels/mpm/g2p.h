@@ -280,22 +280,30 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_sign_bits((row_of_points)~inside);
 }
 
-/* Updates position, stress, volume, stretch and rotation of n points of p (n <= AT_ONCE) of cell c of grid g by their
- * motion m. t: inputs of the transfer; shape: shape function. On return m->velocity contains displacements [m]. due:
- * receives the points of materials that yield, for the return mapping. Returns the number of points that have left the
- * cell. */
+/* Marks in o->left the points that have left their cell. list: entry of o->particle from which the bits of `bits`
+ * count: bit k is set if point list[k] has left. */
+static ALWAYS_INLINE void points_mark_left(const struct transfer_order *o, const int32_t *list, int bits)
+{
+    for (; __builtin_expect(bits, 0); bits &= bits - 1) o->left[list - o->particle + __builtin_ctz((unsigned)bits)] = 1;
+}
+
+/* Updates position, stress, volume, stretch and rotation of the n points `list` of p (n <= AT_ONCE) of cell c of grid g
+ * by their motion m. t: inputs of the transfer, with the order that contains `list`; shape: shape function. On return
+ * m->velocity contains displacements [m]. due: receives the points of materials that yield, for the return mapping.
+ * Returns the number of points that have left the cell, which it marks in the order. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
-                                    int n, const int dim, const enum shape shape)
+                                    const int32_t *list, int n, const int dim, const enum shape shape)
 {
     const struct elastic_points e = points_load_elastic_constants(p, t, m->point, dim);
     if (!t->momentum_only) points_update_stress(p, t, due, &e, m->point, n, m->L, dim, shape);
     if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0))
         points_update_rotation(p, m->point, m->L, t->dt, dim);
     for (int d = 0; d < dim; d++) m->velocity[d] *= t->dt;
-    const int moved = points_move(g, c, p, m, dim);
+    const int moved = points_move(g, c, p, m, dim) & ((1 << n) - 1);
+    points_mark_left(t->order, list, moved);
     if (__builtin_expect(due->n >= LANES, 0)) flow_points_return_mapping(p, t, due, dim);
-    return __builtin_popcount(moved & ((1 << n) - 1));
+    return __builtin_popcount(moved);
 }
 
 /* Stores the velocities m->velocity and velocity gradients m->L of the points in m in p, as the APIC transfer
@@ -349,7 +357,7 @@ static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, str
         if (averaged) points_average_dilatation_rates(p, t, list + from, motion, some, dim);
         m = motion;
         for (int k = 0; k < some; k += AT_ONCE(dim), m++)
-            moved += g2p_update(g, &c, p, t, due, m, points_at_once(some - k, dim), dim, shape);
+            moved += g2p_update(g, &c, p, t, due, m, list + from + k, points_at_once(some - k, dim), dim, shape);
     }
     return moved;
 }

@@ -81,7 +81,7 @@ int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_b
         convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                                c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
     if (converted > 0)
-        interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
+        interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = SORT_ALL;
     /* where bonds fade; for broken bonds convert_flagged_points() has updated the partial stresses */
     if (c->uses_partial && e->scene->growths > 0 && (broken_bond_count > 0 || converted > 0 || bonds_fade))
         partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);

@@ -57,7 +57,7 @@ static void revert_listed(struct run *e, const int32_t *list, int64_t n)
     conversion_update_mesh_after_conversion(e, n);
     reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
     interface_zone_rebuild_after_bond_change(e->coupling, &e->part, &e->bonds, &e->source);
-    e->grid->sort_needed = e->contact->due = true;
+    e->grid->sort_needed = SORT_ALL, e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
 

@@ -49,6 +49,16 @@ static int64_t box_floor(int64_t k)
     return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP;
 }
 
+bool grid_box_covers(const struct grid *g, const real *lower, const real *upper)
+{
+    bool covers = g->n > 0;
+    for (int d = 0; d < g->dim && covers; d++) {
+        const real low = (lower[d] - g->anchor[d]) / g->h, high = (upper[d] - g->anchor[d]) / g->h;
+        covers = low >= (real)(g->first[d] + MARGIN) && high < (real)(g->first[d] + g->count[d] - MARGIN);
+    }
+    return covers;
+}
+
 status grid_extend_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes, bool *changed)
 {
     int64_t first[DIM_MAX], end[DIM_MAX];

@@ -78,7 +78,13 @@ void transfer_order_reserve_arrays(struct transfer_order *o, int64_t point_count
         memory_free(o->particle);
         memory_free(o->block_start);
         memory_free(o->block_cell);
+        memory_free(o->inside), memory_free(o->left);
+        memory_free(o->next_particle), memory_free(o->next_inside);
         o->particle = NEW("transfer.particle", point_count + ORDER_AHEAD, int32_t);
+        o->next_particle = NEW("transfer.next_particle", point_count + ORDER_AHEAD, int32_t);
+        o->inside = NEW("transfer.inside", point_count, uint16_t);
+        o->next_inside = NEW("transfer.next_inside", point_count, uint16_t);
+        o->left = NEW("transfer.left", point_count, uint8_t);
         o->block_start = NEW("transfer.block_start", block_count + 1, int32_t);
         o->block_cell = NEW("transfer.block_cell", block_count + 1, int32_t);
         o->blocks_room = (int)block_count + 1, o->room = point_count;
@@ -234,11 +240,11 @@ static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int
 }
 
 /* Computes o->cell_start, the index of the first point of each cell in the sorted list of points. Only cells with
- * points are counted. inside: number of the cell of each point in its block (a box of cells). Before the call,
- * o->block_cell[b + 1] must be the number of cells with points in block b; after it, o->block_cell[b] is the first cell
- * of block b. */
-static void find_cells(struct transfer_order *o, const uint16_t *inside)
+ * points are counted. Before the call, o->block_cell[b + 1] must be the number of cells with points in block b (a box
+ * of cells); after it, o->block_cell[b] is the first cell of block b. */
+static void find_cells(struct transfer_order *o)
 {
+    const uint16_t *inside = o->inside;
     o->block_cell[0] = 0;
     for (int b = 0; b < o->blocks; b++) o->block_cell[b + 1] += o->block_cell[b];
     o->cells = o->block_cell[o->blocks];
@@ -273,6 +279,17 @@ static void sorting_free(struct sorting *s)
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->place[d]);
 }
 
+/* Sorts the points s->list by block (a box of cells) into s->bucket, with the numbers of their cells in s->sorted.
+ * block_start[blocks + 1]: receives the index of the first point of each block. */
+static void sort_by_block(const struct sorting *s, int32_t *block_start)
+{
+#pragma omp parallel for schedule(static)
+    for (int chunk = 0; chunk < s->chunks; chunk++) find_blocks_of(s, chunk);
+    add_up(s, block_start);
+#pragma omp parallel for schedule(static)
+    for (int chunk = 0; chunk < s->chunks; chunk++) put_in_blocks(s, chunk);
+}
+
 void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
                                         int64_t point_count, const struct grid *g)
 {
@@ -281,19 +298,106 @@ void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct p
     sorting_make(&s);
     rank_blocks(o, &s.shape, s.rank);
     o->n = point_count;
-#pragma omp parallel for schedule(static)
-    for (int chunk = 0; chunk < s.chunks; chunk++) find_blocks_of(&s, chunk);
-    add_up(&s, o->block_start);
-#pragma omp parallel for schedule(static)
-    for (int chunk = 0; chunk < s.chunks; chunk++) put_in_blocks(&s, chunk);
+    sort_by_block(&s, o->block_start);
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t b = 0; b < s.shape.n; b++) {
         const int32_t from = o->block_start[b];
         o->block_cell[b + 1] = sort_in_block(s.bucket + from, s.sorted + from, o->block_start[b + 1] - from,
-                                             o->particle + from, s.inside + from, s.shape.cells_in_block);
+                                             o->particle + from, o->inside + from, s.shape.cells_in_block);
     }
-    find_cells(o, s.inside);
+    find_cells(o);
     sorting_free(&s);
+    array_fill_bytes(o->left, 0, o->n, sizeof *o->left);
+}
+
+/* ---- points that have left their cells --------------------------------------------------------------------------- */
+
+int64_t transfer_order_list_points_that_left_cells(const struct transfer_order *o, int32_t *list)
+{
+    int64_t n = 0;
+    const uint8_t *at = o->left, *const end = o->left + o->n;
+    while (at < end && (at = memchr(at, 1, (size_t)(end - at)))) list[n++] = o->particle[at++ - o->left];
+    return n;
+}
+
+/* Returns the number of points of block b (a box of cells) of o that have not left their cells. */
+static int32_t count_staying(const struct transfer_order *o, int b)
+{
+    int32_t n = 0;
+    for (int32_t k = o->block_start[b]; k < o->block_start[b + 1]; k++) n += !o->left[k];
+    return n;
+}
+
+/* Returns true if a point with index i in cell number `cell` of a block precedes point j in cell number `other` of the
+ * same block. */
+static ALWAYS_INLINE bool precedes(uint16_t cell, int32_t i, uint16_t other, int32_t j)
+{
+    return cell < other || (cell == other && i < j);
+}
+
+/* Sorts the n points particle[n] of a block, with the numbers inside[n] of their cells, by cell, then by index, by
+ * insertion: they are few, or nearly in order where a body flies through the grid. */
+static void sort_few(int32_t *particle, uint16_t *inside, int32_t n)
+{
+    for (int32_t k = 1; k < n; k++) {
+        const int32_t own = particle[k];
+        const uint16_t cell = inside[k];
+        int32_t to = k;
+        for (; to > 0 && precedes(cell, own, inside[to - 1], particle[to - 1]); to--)
+            particle[to] = particle[to - 1], inside[to] = inside[to - 1];
+        particle[to] = own, inside[to] = cell;
+    }
+}
+
+/* Writes the points of block b (a box of cells) of o to o->next_particle[to ..] and their cells to o->next_inside[to
+ * ..]: those that have not left their cells, and those that have arrived, s->bucket[arrived[b]] to
+ * s->bucket[arrived[b + 1] - 1] with the cells s->sorted. Returns the number of cells with points. */
+static int32_t merge_block(struct transfer_order *o, const struct sorting *s, const int32_t *arrived, int b, int32_t to)
+{
+    const int32_t from = o->block_start[b], end = o->block_start[b + 1], last = arrived[b + 1];
+    int32_t next = arrived[b], cells = 0, at = to;
+    sort_few(s->bucket + next, s->sorted + next, last - next);
+    for (int32_t k = from; k <= end; k++) {
+        for (; next < last && (k == end || precedes(s->sorted[next], s->bucket[next], o->inside[k], o->particle[k]));
+             next++, at++)
+            o->next_particle[at] = s->bucket[next], o->next_inside[at] = s->sorted[next];
+        if (k == end || o->left[k]) continue;
+        o->next_particle[at] = o->particle[k], o->next_inside[at] = o->inside[k];
+        at++;
+    }
+    for (int32_t k = to; k < at; k++) cells += k == to || o->next_inside[k] != o->next_inside[k - 1];
+    return cells;
+}
+
+/* Replaces the sequence of the points of o by that of o->next_particle, in which the blocks (boxes of cells) begin at
+ * start[b], and clears the marks of points that have left their cells. */
+static void take_next(struct transfer_order *o, const int32_t *start)
+{
+    int32_t *const particle = o->particle;
+    uint16_t *const inside = o->inside;
+    o->particle = o->next_particle, o->next_particle = particle;
+    o->inside = o->next_inside, o->next_inside = inside;
+    array_copy(o->block_start, start, o->blocks + 1, sizeof *start);
+    array_fill_bytes(o->left, 0, o->n, sizeof *o->left);
+    find_cells(o);
+}
+
+void transfer_order_move_points_that_left_cells(struct transfer_order *o, const struct particles *p,
+                                                const int32_t *list, int64_t count, const struct grid *g)
+{
+    struct sorting s = {.p = p, .g = g, .shape = block_shape_of(g), .list = list, .n = count};
+    int32_t *arrived = BARE("transfer.arrived", o->blocks + 1, int32_t);
+    int32_t *start = BARE("transfer.start", o->blocks + 1, int32_t);
+    sorting_make(&s);
+    rank_blocks(o, &s.shape, s.rank);
+    sort_by_block(&s, arrived);
+    start[0] = 0;
+    for (int b = 0; b < o->blocks; b++) start[b + 1] = start[b] + count_staying(o, b) + arrived[b + 1] - arrived[b];
+#pragma omp parallel for schedule(static)
+    for (int b = 0; b < o->blocks; b++) o->block_cell[b + 1] = merge_block(o, &s, arrived, b, start[b]);
+    take_next(o, start);
+    sorting_free(&s);
+    memory_free(arrived), memory_free(start);
 }
 
 void transfer_order_free(struct transfer_order *o)
@@ -302,5 +406,7 @@ void transfer_order_free(struct transfer_order *o)
     memory_free(o->block_start);
     memory_free(o->block_cell);
     memory_free(o->cell_start);
+    memory_free(o->inside), memory_free(o->left);
+    memory_free(o->next_particle), memory_free(o->next_inside);
     memset(o, 0, sizeof *o);
 }

@@ -99,7 +99,7 @@ static status body_restore(struct run *e, struct archive *a)
     bonds_free(&e->bonds);
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     partial_stress_free(&e->coupling->partial);
-    e->grid->sort_needed = true;
+    e->grid->sort_needed = SORT_ALL;
     TRY(bonds_save_or_load(&e->bonds, &e->part, a));
     state_based_update_weighted_volumes(&e->bonds, &e->part, &e->source);
     coupling_choose_and_compute_partial_stress(e);

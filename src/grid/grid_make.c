@@ -100,7 +100,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
                                          .ended = NAN};
     grid_contact_make(&mpm->contact, mpm->fields);
     mpm->spacing = s->spacing;
-    mpm->sort_needed = true;
+    mpm->sort_needed = SORT_ALL;
 }
 
 bool grid_has_mirror_plane_between_nodes(const struct grid *g, const struct scene *s)

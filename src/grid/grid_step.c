@@ -55,15 +55,35 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
     return OK;
 }
 
+/* Largest share of the points of a grid, as its reciprocal, that is sorted apart from the others. */
+enum { LEFT_MOST = 4 };
+
+/* Sorts the material points of the grid f by cells as field_sort does, where only those have left their cells that its
+ * order marks; the box of the grid contains the others. */
+static status field_sort_left(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
+{
+    real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
+    int32_t *list = BARE("engine.left", f->order.n, int32_t);
+    const int64_t n = transfer_order_list_points_that_left_cells(&f->order, list);
+    bounds_widen(p, list, n, from, to);
+    const bool few = n <= f->order.n / LEFT_MOST && (n == 0 || grid_box_covers(&f->grid, from, to));
+    if (few && n > 0) transfer_order_move_points_that_left_cells(&f->order, p, list, n, &f->grid);
+    memory_free(list);
+    return few ? OK : field_sort(f, p, coupling, lost);
+}
+
 /* Sorts the points of p on all grids of mpm into cells; does nothing while no particle has left its cell. coupling:
  * coupling of peridynamic particles and points. *lost: set to true if positions are not finite. Returns FAILED or
  * REFUSED, with a message, if a grid would need too many nodes. */
 static status points_sort(struct grid_method *mpm, const struct particles *p, enum coupling coupling, bool *lost)
 {
-    if (!mpm->sort_needed) return OK;
-    for (int k = 0; k < mpm->fields; k++) TRY(field_sort(&mpm->field[k], p, coupling, lost));
+    const bool few = mpm->sort_needed == SORT_LEFT && mpm->transfer.order == &mpm->field[0].order &&
+                     !coupling_has_one_grid(coupling);
+    if (mpm->sort_needed == SORT_NONE) return OK;
+    for (int k = 0; k < mpm->fields; k++)
+        TRY(few ? field_sort_left(&mpm->field[k], p, coupling, lost) : field_sort(&mpm->field[k], p, coupling, lost));
     mpm->transfer.order = &mpm->field[0].order;
-    mpm->sort_needed = false;
+    mpm->sort_needed = SORT_NONE;
     return OK;
 }
 
@@ -252,7 +272,7 @@ static status points_enter_cells(struct grid_method *mpm, struct particles *p, e
     mean_dilatation_add(mpm, p, -0.5);
     TRY(points_sort(mpm, p, coupling, &lost));
     mean_dilatation_add(mpm, p, 0.5);
-    mpm->sort_needed = lost;
+    if (lost) mpm->sort_needed = SORT_ALL;
     return OK;
 }
 
@@ -274,7 +294,7 @@ status grid_advance_material_points_one_step(struct run *e, real t_middle)
     }
     if (p->n_grid_coupled > 0) moved += e->kernels.g2p(&e->grid->field[0].grid, p, &grid_coupled);
     memory_free(side);
-    e->grid->sort_needed = moved > 0;
+    e->grid->sort_needed = moved > 0 ? SORT_LEFT : SORT_NONE;
     if (!e->grid->sort_needed || !e->grid->transfer.dilatation || e->grid->transfer.laws) return OK;
     return points_enter_cells(e->grid, p, e->coupling_kind);
 }

@@ -183,7 +183,7 @@ static void step_hold(struct run *e, const struct step *now)
 {
     for (int k = 0; k < e->grid->fields; k++)
         loads_add_grid_reactions(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
-    if (loads_impose_prescribed_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
+    if (loads_impose_prescribed_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = SORT_ALL;
     loads_update_mirror_images(&e->loads, &e->part);
     timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
 }

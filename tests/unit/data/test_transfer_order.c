@@ -133,7 +133,57 @@ static void test_transfer_order_growth(void **state)
     }
 }
 
-/* Checks that the order does not depend on the number of threads, each of which sorts a part of the list. */
+/* Moves each point of p in the order o with probability `share` to another place in the grid g, and marks in o the
+ * points whose cells differ. */
+static void move_points(const struct particles *p, const struct transfer_order *o, const struct grid *g, real share,
+                        uint64_t *seed)
+{
+    for (int64_t k = 0; k < o->n; k++) {
+        const int32_t i = o->particle[k];
+        bool left = false;
+        for (int d = 0; d < p->dim && cloud_random(seed) < share; d++) {
+            const int64_t cell = grid_cell_index_at(g, d, p->x[d][i]);
+            p->x[d][i] = cloud_between(seed, g->anchor[d] - 20 * g->h, g->anchor[d] + 20 * g->h);
+            left |= cell != grid_cell_index_at(g, d, p->x[d][i]);
+        }
+        o->left[k] = left;
+    }
+}
+
+/* Sorting only the points that have left their cells gives the order that sorting all of them gives. */
+static void test_transfer_order_left(void **state)
+{
+    static const real share[] = {0.01, 0, 0.2, 1, 0.05};
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct particle_cloud c;
+        struct grid g;
+        struct transfer_order moved = {0}, sorted = {0};
+        uint64_t seed = 11;
+        scatter_points(&c, dim, &g);
+        const int64_t n = c.p.n_of[KIND_MPM];
+        int32_t *list = NEW("test.left", n, int32_t);
+        transfer_order_sort_points_by_cell(&moved, &c.p, c.p.list[KIND_MPM], n, &g);
+        for (size_t k = 0; k < sizeof share / sizeof *share; k++) {
+            move_points(&c.p, &moved, &g, share[k], &seed);
+            const int64_t left = transfer_order_list_points_that_left_cells(&moved, list);
+            transfer_order_move_points_that_left_cells(&moved, &c.p, list, left, &g);
+            transfer_order_sort_points_by_cell(&sorted, &c.p, c.p.list[KIND_MPM], n, &g);
+            assert_int_equal(moved.cells, sorted.cells);
+            assert_memory_equal(moved.particle, sorted.particle, (size_t)n * sizeof(int32_t));
+            assert_memory_equal(moved.cell_start, sorted.cell_start, (size_t)(sorted.cells + 1) * sizeof(int32_t));
+            assert_memory_equal(moved.block_cell, sorted.block_cell, (size_t)(sorted.blocks + 1) * sizeof(int32_t));
+            assert_int_equal(transfer_order_list_points_that_left_cells(&moved, list), 0);
+        }
+        memory_free(list);
+        transfer_order_free(&moved);
+        transfer_order_free(&sorted);
+        grid_free(&g);
+        particle_cloud_free(&c);
+    }
+}
+
+/* Each thread sorts a part of the list: the result does not depend on the number of threads. */
 static void test_transfer_order_threads(void **state)
 {
     (void)state;
@@ -165,6 +215,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_transfer_order),
         cmocka_unit_test(test_transfer_order_growth),
+        cmocka_unit_test(test_transfer_order_left),
         cmocka_unit_test(test_transfer_order_threads),
     };
     team_set_thread_count(2);
