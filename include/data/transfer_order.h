@@ -22,12 +22,12 @@ static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis 
 /* The order in which material points on the grid are processed: by colour, block (a box of grid cells) and cell, where
  * blocks of one colour share no node and may be processed in parallel. All arrays are owned. */
 struct transfer_order {
-    int64_t n, room;                /* particles on the grid; capacity */
-    int32_t *particle;              /* sorted by colour, then block, then cell, then index */
+    int64_t n, room;                /* number of particles on the grid; capacity of `particle` */
+    int32_t *particle;              /* [n] indices, sorted by colour, then block, then cell, then index */
     uint16_t *inside;               /* [n] number of the cell of particle[k] in its block */
     uint8_t *left;                  /* [n] 1: particle[k] has left its cell since the sort, set by g2p; else 0 */
-    int32_t *next_particle;         /* memory for the next order of the particles, */
-    uint16_t *next_inside;          /* and of the numbers of their cells */
+    int32_t *next_particle;         /* [n] working memory for the next order of the particles */
+    uint16_t *next_inside;          /* [n] working memory for the numbers of their cells */
     int blocks_of[COLOURS_MAX + 1]; /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1 */
     int blocks, blocks_room;        /* number of blocks with particles; capacity of their arrays */
     int32_t *block_start;           /* entries of `particle` in block b: block_start[b] .. block_start[b+1]-1 */

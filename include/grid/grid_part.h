@@ -33,10 +33,10 @@ struct grid_method {
     struct active_points active;    /* points that transfers include */
     struct grid_coupled coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct rotation_groups turning; /* groups of points with a common rotation (FLIP) */
-    struct transfer_data transfer;
-    enum sort_needed sort_needed;
-    real smallest_mass; /* of a node that moves [kg] */
-    real spacing;       /* of particles [m] */
+    struct transfer_data transfer;  /* inputs of the transfers, besides particles and grid */
+    enum sort_needed sort_needed;   /* which points are sorted before the next transfer */
+    real smallest_mass;             /* of a node that moves [kg] */
+    real spacing;                   /* of particles [m] */
 };
 
 /* Makes the background grids mpm of a run: one for all bodies, or one for each body if material points of several
