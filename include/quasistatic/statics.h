@@ -65,8 +65,9 @@ struct unconstrained_fragment {
     real middle[DIM_MAX]; /* mean reference position of the nodes [m] */
 };
 
-/* State of a point at the start of a load step, from which the turn of its direction of flow in the step is measured
- * (flow_turn.h). Tensors have the components xx yy zz xy yz zx, in the axes of its cell. */
+/* State of a point at the start of a load step, from which the turn of its direction of flow and the fall of its yield
+ * stress in the step are measured (flow_turn.h). Tensors have the components xx yy zz xy yz zx, in the axes of its
+ * cell. */
 struct flow_start {
     real relative[SYM_MAX]; /* deviator of the stress less the back stress [Pa] */
     real elastic[SYM_MAX];  /* deviator of Hooke's stress of the whole strain [Pa] */
@@ -78,6 +79,13 @@ struct flow_start {
  * far. */
 struct flow_turn {
     real angle;             /* angle of the rotation [rad]; 0: no direction has rotated */
+    real position[DIM_MAX]; /* reference position of the point [m] */
+    int64_t step;           /* number of the load step */
+};
+
+/* The largest fall of the yield stress of a point within a load step in which it flows. */
+struct flow_softening {
+    real share;             /* fall divided by the yield stress at the start of the step [1]; 0: none has fallen */
     real position[DIM_MAX]; /* reference position of the point [m] */
     int64_t step;           /* number of the load step */
 };
@@ -97,12 +105,12 @@ struct statics {
     struct unconstrained_fragment *fragment; /* [fragments] */
     struct block_matrix *matrix;             /* stiffness of bonds, cells and contact, for the preconditioner */
     struct multigrid *precondition;          /* preconditioner; NULL until its next use makes it */
-    int64_t directions;            /* search directions of the first solution with this preconditioner; 0: none yet */
-    struct memory_archive plastic; /* plastic state at the start of the next solutions (system.c) */
-    /* [particles of the body] state at the start of a load step; NULL until the first load step */
-    struct flow_start *flow_start;
-    struct flow_turn turn;         /* largest rotation of the direction of flow so far */
-    real t;                        /* present pseudo-time [s] */
+    int64_t directions;                      /* search directions of the first solution with it; 0: none yet */
+    struct memory_archive plastic;           /* plastic state at the start of the next solutions (system.c) */
+    struct flow_start *flow_start;           /* [particles of the body] NULL until the first load step */
+    struct flow_turn turn;                   /* the largest one so far */
+    struct flow_softening softening;         /* the largest one so far */
+    real t;                                  /* present pseudo-time [s] */
     real stretch_ratio;            /* largest ratio of stretch to critical stretch in the last equilibrium [1] */
     struct break_list next;        /* bonds of the next crack increment; empty: none has been found */
     struct crack_increment ahead;  /* the next crack increment */

@@ -30,15 +30,47 @@ static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes
     return (law->johnson_cook.A + power) * factor;
 }
 
+/* Returns for eight points the plastic work per volume [J/m^3] up to `plastic_strain` at T_room, by the law `law` of
+ * Johnson & Cook: the integral of A + B a^n over the plastic strain a. */
+static ALWAYS_INLINE lanes johnson_cook_cold_work(const struct law *law, lanes plastic_strain)
+{
+    const real n = law->johnson_cook.n;
+    return law->johnson_cook.A * plastic_strain + law->johnson_cook.B / (n + 1) * lanes_power(plastic_strain, n + 1);
+}
+
 /* Returns for eight points the integral of the yield stress of the law `law` over the plastic strain from 0 to
  * `plastic_strain` at the constant temperature `temperature` [K], the plastic work per volume [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *law, lanes plastic_strain,
                                                              lanes temperature)
 {
-    const real n = law->johnson_cook.n;
-    const lanes cold =
-        law->johnson_cook.A * plastic_strain + law->johnson_cook.B / (n + 1) * lanes_power(plastic_strain, n + 1);
-    return cold * johnson_cook_softening(law, temperature);
+    return johnson_cook_cold_work(law, plastic_strain) * johnson_cook_softening(law, temperature);
+}
+
+/* Number of steps in which johnson_cook_adiabatic_temperature integrates by the midpoint rule. */
+enum { HEATING_STEPS = 4 };
+
+/* Returns the temperatures [K] of eight points that flow slowly and without conduction from the plastic strain `from`
+ * to `to` [1] by the law `law` of Johnson & Cook, from `temperature` [K] on. With the work W at T_room and the heating
+ * k per work, dT* = k/(T_melt - T_room) (1 - T*^m) dW. Integrated is y = -log(1 - T*), dy = k/(T_melt - T_room) g dW
+ * with g = (1 - T*^m)/(1 - T*), which is between 1 and m: exact for m = 1, with any step below T_melt. */
+static ALWAYS_INLINE lanes johnson_cook_adiabatic_temperature(const struct law *law, lanes from, lanes to,
+                                                              lanes temperature)
+{
+    const real room = law->johnson_cook.T_room, range = law->johnson_cook.T_melt - room, m = law->johnson_cook.m;
+    const lanes work = johnson_cook_cold_work(law, to) - johnson_cook_cold_work(law, from);
+    const lanes start = lanes_max(1.0 - (temperature - room) / range, lanes_broadcast(1e-12));
+    const lanes more = law->heating / range * work / HEATING_STEPS;
+    lanes y = lanes_broadcast(0);
+    for (int k = 0; k < HEATING_STEPS; k++) {
+        lanes slope = lanes_broadcast(1);
+        for (int part = 0; part < 2 && m != 1; part++) {
+            const lanes left = start * lanes_exp(-(y + 0.5 * part * more * slope));
+            const lanes hot = lanes_max(1.0 - left, lanes_broadcast(0));
+            slope = (1.0 - lanes_power(hot, m)) / lanes_max(left, lanes_broadcast(1e-12));
+        }
+        y += more * slope;
+    }
+    return room + range * (1.0 - start * lanes_exp(-y));
 }
 
 /* Returns for eight points the plastic strain [1] at which the yield stress at the temperature `temperature` [K] is

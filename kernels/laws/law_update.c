@@ -236,6 +236,14 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
     return t;
 }
 
+/* Returns the temperatures of eight points [K] after an increment `more` of plastic strain [1] in a load step, without
+ * conduction. p: state at the start of the step. */
+static ALWAYS_INLINE lanes temperature_after(const struct law *law, const struct law_points *p, lanes more)
+{
+    if (!(law->heating > 0)) return p->temperature;
+    return johnson_cook_adiabatic_temperature(law, p->a, p->a + more, p->temperature);
+}
+
 /* Returns the plastic flow t = da/q [1/Pa] of eight points in a step of any size, by iteration to round-off (da:
  * increment of plastic strain, q: equivalent relative stress). law: flow law; p: trial state of the points; bound:
  * yield stress at the start of the step [Pa]. *back: receives the factors by which the back stress changes in the step
@@ -252,7 +260,7 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     back->left = back->added = lanes_broadcast(1);
     const int passes = recall > 0 ? PASSES_RECALL : law->flow == FLOW_LINEAR ? 1 : PASSES;
     for (int k = 0; k < passes; k++) {
-        const lanes stress = law_flow_stress(law, p->a + more, p->temperature, &slope);
+        const lanes stress = law_flow_stress(law, p->a + more, temperature_after(law, p, more), &slope);
         const lanes least = lanes_max(stress, lanes_broadcast(LEAST_YIELD * law->young));
         if (recall > 0) *back = recall_after(recall, more);
         e = equation_at(law, p, back->left, C * back->added, xi, space);
@@ -299,9 +307,20 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
     return work;
 }
 
+/* Returns for eight points the integral of the yield stress over a load step [J/m^3] in which the plastic strain grows
+ * by `more` [1]. p: state at the end of the step, with the temperature of its start. */
+static ALWAYS_INLINE lanes isotropic_work(const struct law *law, const struct law_points *p, lanes more)
+{
+    if (law->heating > 0)
+        return (johnson_cook_adiabatic_temperature(law, p->a - more, p->a, p->temperature) - p->temperature) /
+               law->heating;
+    return law_flow_stress_integral(law, p->a, p->temperature) -
+           law_flow_stress_integral(law, p->a - more, p->temperature);
+}
+
 /* Returns for eight points the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress
- * and back stress along the path on which the trial stress grows in proportion, at constant temperature and direction
- * of flow. The integral of the back stress over the increment a of plastic strain is X:N b + (C/gamma) (a - b), b = (1
+ * and back stress along the path on which the trial stress grows in proportion, at a constant direction of flow. The
+ * integral of the back stress over the increment a of plastic strain is X:N b + (C/gamma) (a - b), b = (1
  * - exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. law: flow law; p: state at the end of the step;
  * back: back stress X at its start [Pa]; more: increment a [1]; strain: increments of the components of plastic strain
  * [1], xx yy zz xy yz zx. space: compile-time constant. */
@@ -309,8 +328,7 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
                                      const lanes *strain, const enum space space)
 {
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
-    const lanes work = law_flow_stress_integral(law, p->a, p->temperature) -
-                       law_flow_stress_integral(law, p->a - more, p->temperature);
+    const lanes work = isotropic_work(law, p, more);
     lanes along = lanes_broadcast(0);
     if (!(C > 0)) return work;
     for (int c = 0; c < tensor_components(space); c++) along += (c < 3 ? 1.0 : 2.0) * back[c] * strain[c];

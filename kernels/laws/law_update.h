@@ -4,7 +4,8 @@
  *     f = q - sigma_y <= 0,   d eps_p = da (3/2) xi/q,   da >= 0,   da f = 0
  *     dX = (2/3) C d eps_p - gamma X da   (Armstrong & Frederick 1966; gamma = 0: Prager)
  * by implicit Euler steps (Simo & Hughes 1998, chapter 3), the back stress exactly along the direction of flow of the
- * step. The rate is that of the step, 0 in load steps; the temperature is that at the start of the step. */
+ * step. The rate is that of the step, 0 in load steps; the temperature is that at the start of an explicit
+ * step. In load steps yield stress and temperature follow the adiabatic curve of the law within the step. */
 #ifndef CLEAVE_KERNELS_LAW_UPDATE
 #define CLEAVE_KERNELS_LAW_UPDATE
 

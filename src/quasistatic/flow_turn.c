@@ -1,4 +1,4 @@
-/* The turn of the direction of plastic flow within a load step. */
+/* The turn of the direction of plastic flow, and the fall of the yield stress, within a load step. */
 #include "flow_turn.h"
 
 #include <math.h>
@@ -17,6 +17,8 @@
 #define ERROR_PER_DEGREE 0.5
 #define ERROR_MOST 22.0
 
+#define SOFTENING_MOST 1e-3 /* largest fall of the yield stress in a load step without a warning, relative [1] */
+
 #define DEGREE (M_PI / 180)
 
 /* Returns the scalar product x:y of two symmetric tensors, each with the components xx yy zz xy yz zx. */
@@ -33,6 +35,15 @@ static void deviator(real *x)
 {
     const real mean = (x[0] + x[1] + x[2]) / 3;
     for (int c = 0; c < 3; c++) x[c] -= mean;
+}
+
+/* Returns Hooke's stress zz [Pa] of a sheet (plane stress) for its whole strain, which includes the change of thickness
+ * by plastic flow. It is 0 in an elastic sheet; without it, a bar that flows to and fro seems to turn its direction of
+ * flow. poisson: Poisson's ratio [1]; corrections: sum of the normal components of the plastic stress correction
+ * [Pa]. */
+static real elastic_stress_of_plastic_thickness(real poisson, real corrections)
+{
+    return -(1 - 2 * poisson) / (1 + poisson) * corrections;
 }
 
 /* Returns the present state of material point i of p: deviators of stress less back stress and of the elastic stress
@@ -55,6 +66,9 @@ static struct flow_start point_state(const struct particles *p, const struct ela
         state.relative[2] = m->law->poisson * (state.relative[0] + state.relative[1]) + p->out_of_plane[i];
         state.elastic[2] = m->law->poisson * (state.elastic[0] + state.elastic[1]);
     }
+    if (m->space == SPACE_PLANE_STRESS)
+        state.elastic[2] = elastic_stress_of_plastic_thickness(m->law->poisson, p->plastic_correction[0][i] +
+                                                                                    p->plastic_correction[1][i]);
     deviator(state.relative), deviator(state.elastic);
     for (int c = 0; c < SYM_MAX; c++) state.relative[c] -= back[c];
     state.bound = law_flow_stress(m->law, lanes_broadcast(state.strain), lanes_broadcast(T), &slope)[0];
@@ -77,35 +91,59 @@ static real turn_between(const struct flow_start *start, const struct flow_start
     return size > 0 ? acos(real_max(-1, real_min(1, tensor_scalar_product(first, end->relative) / size))) : 0;
 }
 
+/* Updates the largest turn of the direction of flow and the largest fall of the yield stress in *s by those of particle
+ * i of p, which flows in the load step number `load_step` from the state *start to the state *end. */
+static void record_point(struct statics *s, const struct particles *p, int64_t i, const struct flow_start *start,
+                         const struct flow_start *end, int64_t load_step)
+{
+    const real angle = p->dim > 1 ? turn_between(start, end) : 0;
+    const real share = 1 - end->bound / real_max(start->bound, 1e-300);
+    if (angle > s->turn.angle) {
+        s->turn = (struct flow_turn){.angle = angle, .step = load_step};
+        particle_reference_position(p, i, s->turn.position);
+    }
+    if (share > s->softening.share) {
+        s->softening = (struct flow_softening){.share = share, .step = load_step};
+        particle_reference_position(p, i, s->softening.position);
+    }
+}
+
 void flow_turn_measure_over_load_step(struct statics *s, const struct particles *p,
                                       const struct elastic *elastic_constants, int64_t load_step)
 {
-    if (!p->mesh_stress[0] || p->dim < 2) return;
+    if (!p->mesh_stress[0]) return;
     const bool known = s->flow_start != NULL;
     if (!known) s->flow_start = NEW("statics.flow_start", p->n, struct flow_start);
     for (int64_t i = 0; i < p->n; i++) {
         const struct elastic *own = &elastic_constants[p->material[i]];
         if (!own->law) continue;
         const struct flow_start now = point_state(p, own, i);
-        const bool flows = known && now.strain > s->flow_start[i].strain;
-        const real angle = flows ? turn_between(&s->flow_start[i], &now) : 0;
+        if (known && now.strain > s->flow_start[i].strain) record_point(s, p, i, &s->flow_start[i], &now, load_step);
         s->flow_start[i] = now;
-        if (!(angle > s->turn.angle)) continue;
-        s->turn = (struct flow_turn){.angle = angle, .step = load_step};
-        particle_reference_position(p, i, s->turn.position);
     }
 }
 
 void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings)
 {
     const real angle = turn->angle / DEGREE;
-    char text[320], z[40] = "";
-    if (dim > 2) snprintf(z, sizeof z, ", z = %.4g", turn->position[2]);
+    char text[320];
     snprintf(
         text, sizeof text,
-        "the direction of plastic flow turns by %.0f degrees within load step %lld, near x = %.4g, y = %.4g%s m, so "
-        "stresses there may be off by %.0f %%: use more load steps (steps.number; twice as many halve the error)",
-        angle, (long long)turn->step, turn->position[0], turn->position[1], z,
+        "the direction of plastic flow turns by %.0f degrees within load step %lld, near (%s) m, so stresses there "
+        "may be off by %.0f %%: use more load steps (steps.number; twice as many halve the error)",
+        angle, (long long)turn->step, position_text(turn->position, dim, 4).text,
         real_min(ERROR_PER_DEGREE * angle, ERROR_MOST));
     if (angle > TURN_MOST) warnings_add_and_print(warnings, text);
+}
+
+void flow_turn_warn_of_softening(const struct flow_softening *softening, int dim, struct warnings *warnings)
+{
+    char text[400];
+    snprintf(
+        text, sizeof text,
+        "plastic work heats a material so much that its yield stress falls, by %.2g %% within load step %lld near "
+        "(%s) m: flow gathers in one row of cells, and plastic strains depend on the spacing; slow loads leave heat "
+        "time to spread: remove specific_heat, or use solver: explicit",
+        100 * softening->share, (long long)softening->step, position_text(softening->position, dim, 4).text);
+    if (softening->share > SOFTENING_MOST) warnings_add_and_print(warnings, text);
 }

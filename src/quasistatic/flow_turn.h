@@ -1,6 +1,6 @@
-/* The turn of the direction of plastic flow within a load step. The return mapping of a load step has one direction of
- * flow, that at the end of the step (kernels/laws/law_update.c), so that steps of any size are exact where this
- * direction is constant, and of first order in the turn elsewhere. */
+/* The turn of the direction of plastic flow, and the fall of the yield stress, within a load step. The return mapping
+ * of a load step has one direction of flow, that at the end of the step (kernels/laws/law_update.c), so that steps of
+ * any size are exact where this direction is constant, and of first order in the turn elsewhere. */
 #ifndef CLEAVE_FLOW_TURN
 #define CLEAVE_FLOW_TURN
 
@@ -8,16 +8,21 @@
 #include "kernels/kernels.h"
 #include "quasistatic/statics.h"
 
-/* Measures by how much the direction of flow has turned at each point since the last call, from where the trial stress
- * of the load step reached the yield surface to the end of the step. Updates the largest turn so far in s->turn, and
- * stores the present state as the start of the next load step. The first call stores the state only. elastic_constants:
- * elastic constants of all materials; load_step: number of the load step. Does nothing if no point of p yields, or in
- * 1D, where the direction of flow only changes its sign. */
+/* Measures by how much the direction of flow of each point has turned since the last call, from where the trial stress
+ * of the load step reached the yield surface to the end of the step, and by how much its yield stress has fallen.
+ * Updates the largest values so far in s->turn (not in 1D, where the direction of flow only changes its sign) and
+ * s->softening, and stores the present state as the start of the next load step. The first call stores the state only.
+ * elastic_constants: elastic constants of all materials; load_step: number of the load step. Does nothing if no point
+ * of p yields. */
 void flow_turn_measure_over_load_step(struct statics *s, const struct particles *p,
                                       const struct elastic *elastic_constants, int64_t load_step);
 
 /* Adds a warning to *warnings if the largest angle *turn by which the direction of plastic flow has turned within a
  * load step is so large that stresses may be wrong by more than 5 %. dim: dimension of the space. */
 void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings);
+
+/* Adds a warning to *warnings if heat has lowered the yield stress of a point that flows by more than a thousandth
+ * within a load step, so that flow may gather in one row of cells. dim: dimension of the space. */
+void flow_turn_warn_of_softening(const struct flow_softening *softening, int dim, struct warnings *warnings);
 
 #endif

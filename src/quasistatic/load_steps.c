@@ -355,6 +355,7 @@ static void warn_at_end(struct run *e)
     warn_of_flow_in_one_cell(&e->warnings, &e->part, e->scene->material);
     warn_of_sliding(&e->warnings, e->statics->slid, e->scene->spacing);
     flow_turn_warn_of_inexact_stress(&e->statics->turn, e->part.dim, &e->warnings);
+    flow_turn_warn_of_softening(&e->statics->softening, e->part.dim, &e->warnings);
     rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 

@@ -76,6 +76,7 @@ static status search_archive(struct statics *s, struct run_clock *clock, struct 
     ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
     ARCHIVE_VALUE(a, "statics/record", s->record);
     ARCHIVE_VALUE(a, "statics/turn", s->turn);
+    ARCHIVE_VALUE(a, "statics/flow_softening", s->softening);
     clock->load_step = s->record.step;
     return OK;
 }

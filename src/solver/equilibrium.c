@@ -344,16 +344,17 @@ static real line_search(struct newton_solver *q, real left, bool prescribed)
 }
 
 /* Returns the work of all forces over the displacement increment share q->x [J]. It is computed by the trapezoidal
- * rule, or if the forces are not linear along the increment by Simpson's rule. The loads grow linearly along it, from
- * their values in q->before. share: factor of the line search [1]; left: norm of the residual before the increment [N].
+ * rule, or if the forces may not be linear along the increment by Simpson's rule. The loads grow linearly along it,
+ * from their values in q->before. share: factor of the line search [1]; left: norm of the residual before the increment
+ * [N]; prescribed: true if supports move, so that a body that yields evenly may have no residual after the increment.
  * Overwrites the vectors q->at and q->r. */
-static real work_along(struct newton_solver *q, real share, real left)
+static real work_along(struct newton_solver *q, real share, real left, bool prescribed)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
     dots(q, &q->before, &q->x, ends);
     dots(q, &q->q, &q->x, after);
     const real even = 0.5 * share * (ends[0] + ends[1] + after[0] + after[1]);
-    if (sqrt(dot_free(q, &q->q, &q->q)) <= WORK_CURVED * left) return even;
+    if (!(q->kinked && prescribed) && sqrt(dot_free(q, &q->q, &q->q)) <= WORK_CURVED * left) return even;
     const int parts = q->kinked ? WORK_PARTS : 2;
     dots(q, &q->f, &q->x, grown);
     for (int k = 1; k < parts; k++) {
@@ -372,7 +373,7 @@ static real work_along(struct newton_solver *q, real share, real left)
 static real advance(struct newton_solver *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
-    const real share = line_search(q, left, prescribed), work = work_along(q, share, left);
+    const real share = line_search(q, left, prescribed), work = work_along(q, share, left, prescribed);
     if (q->laws) q->laws(q->context, true);
     combine(q, &q->u, 1, &q->z, 0, &q->z);
     combine(q, &q->f, 1, &q->q, 0, &q->q);

@@ -57,6 +57,7 @@ for one in voce:20e-6:100e-6 voce_steps:0.2:1; do
     near "$name: work [MJ/m^3]" "$(work_of $name)" 12.3281 2e-5
 done
 balanced Voce voce
+apart "Voce in load steps: energy balance" "$(f voce_steps energy.balance_error)" 0 1e-4
 
 # A curve through points is exact on its segments and beyond: strains are a + stress/E. Explicit steps: to the digits of histories.
 for one in 0.00615:230 0.03145:290 0.0616:320; do
@@ -83,11 +84,17 @@ for one in 0.2:309.393:307.771 0.5:367.131:334.689; do
     near "copper at $a: temperature [K]" "$(column "$work/copper$a" point.temperature 1)" "$hot" 5e-5
     balanced "copper at $a" copper$a
 done
-# Load steps are slow: the rate has no effect, and the temperature of a step is that before it. 100 of them lag by half a step.
-calm "$work/copper_steps" "$work/steps.yaml" -s "$copper" -s 'boundary[0].displacement=["0.5*x"]' -s steps.number=100
+# Load steps are slow: the rate has no effect. Within a step the metal follows its adiabatic curve, also near T_melt, where it softens.
+calm "$work/copper_steps" "$work/steps.yaml" -s "$copper" -s 'boundary[0].displacement=["0.5*x"]' -s steps.number=4
 a=$(column "$work/copper_steps" point.plastic_strain 1) hot=$(column "$work/copper_steps" point.temperature 1)
-near "slow copper: stress [MPa]" "$(stress copper_steps 1)" "$(compute "(90 + 292*exp(0.31*log($a)))*(1 - ($hot - 294)/1062)")" 1e-3
+near "slow copper: stress [MPa]" "$(stress copper_steps 1)" "$(compute "(90 + 292*exp(0.31*log($a)))*(1 - ($hot - 294)/1062)")" 1e-6
 near "slow copper: heat" "$(compute "($hot - 294)*8960*383*0.002")" "$(compute "0.9*$(f copper_steps energy.plastic)")" 1e-6
+near "slow copper: temperature [K]" "$hot" "$(compute "1356 - 1062*exp(-0.9*(90e6*$a + 292e6/1.31*exp(1.31*log($a)))/(8960*383*1062))")" 1e-6
+warned "slow copper that melts at 324 K" "$work/copper_melts" 'yield stress falls, by .* % within load step 10 .*remove specific_heat' "$work/steps.yaml" \
+    -s "$copper" -s material.johnson_cook.T_melt=324 -s 'boundary[0].displacement=["0.5*x"]' -s steps.number=10
+near "slow copper that melts at 324 K: temperature [K]" "$(column "$work/copper_melts" point.temperature 1)" \
+    "$(a=$(column "$work/copper_melts" point.plastic_strain 1); compute "324 - 30*exp(-0.9*(90e6*$a + 292e6/1.31*exp(1.31*log($a)))/(8960*383*30))")" 1e-6
+apart "slow copper that melts: balance" "$(f copper_melts energy.balance_error)" 0 1e-3
 
 # Cycles of +-0.01: Prager's law reaches +-(k + C e)/(1 + C/E) at once, in every cycle.
 cycles='boundary[0].velocity=["200*pi/s*x*cos(2*pi*t/(100 us))"]'
@@ -178,7 +185,7 @@ boundary:
 probes: [{point: {at: [0.5 mm, 0.5 mm, 0.5 mm]}}]
 output: {frames: 0}
 END
-warned "turn of 63 degrees" "$work/turned" 'flow turns by 63 degrees within load step 2, near x = 0.0005, y = 0.0005, z = 0.0005 m, so .* off by 22 %' "$work/turn.yaml"
+warned "turn of 63 degrees" "$work/turned" 'flow turns by 63 degrees within load step 2, near .0.0005, 0.0005, 0.0005. m, so .* off by 22 %' "$work/turn.yaml"
 near "turn in one step [rad]" "$(f turned load_steps.flow_turn)" "$(compute "atan2(2, 1)")" 1e-6
 near "what is left of the tension" "$(compute "($(f turned probes.point.stress_xx) - $(f turned probes.point.stress_yy))/240e6")" 0.4472136 1e-6
 warned "turn of 11 degrees" "$work/turned" 'flow turns by 11 degrees within load step 11, .* off by 6 %' "$work/turn.yaml" -s steps.number=20 --overwrite

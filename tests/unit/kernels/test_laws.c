@@ -302,9 +302,36 @@ static void test_melting(void **state)
         }
 }
 
-/* Checks single elements against closed forms. Tolerances: the digits of the expected values; explicit steps of 1e-6
- * over 1/gamma; the direction of flow in plane strain changes by 1e-5/1e-3 over a step; Johnson-Cook: steps of 1e-4, at
- * which the temperature is that of the start. */
+/* A metal that heats by 40 K of the 110 K to T_melt: temperature, stress and plastic work of one load step are those of
+ * 1000. Exact for m = 1, else up to the four steps of the integration of the temperature. */
+static void test_heat_in_load_steps(void **state)
+{
+    static const real m_of[] = {1, 1.09, 0.55}, within[] = {1e-9, 3e-4, 6e-3};
+    (void)state;
+    for (int k = 0; k < (int)COUNT_OF(m_of); k++) {
+        struct law_points p[2];
+        struct law m = laws_steel(FLOW_JOHNSON_COOK);
+        m.johnson_cook.T_melt = 404, m.johnson_cook.m = m_of[k], m.specific_heat = 383, m.taylor_quinney = 0.9;
+        m = laws_law_with_derived_constants(m, 200e9, 0.3, 0, 7800);
+        for (int few = 0; few < 2; few++) {
+            const int steps = few ? 1 : 1000;
+            const real strain[SYM_MAX] = {0.6 / steps, -0.3 / steps, -0.3 / steps};
+            p[few] = laws_points_at_rest();
+            for (int n = 0; n < steps; n++) {
+                laws_add_elastic_stress_of_increment(&m, &p[few], strain, SPACE_SOLID);
+                law_update(&m, &p[few], SPACE_SOLID, LAW_LOAD_STEP);
+            }
+        }
+        assert_true(p[0].temperature[0] > 324);
+        assert_near(p[1].temperature[0] - 294, p[0].temperature[0] - 294, within[k] * 110);
+        assert_near(p[1].s[0][0], p[0].s[0][0], within[k] * m.yield);
+        assert_near(p[1].work[0], p[0].work[0], within[k] * p[0].work[0]);
+    }
+}
+
+/* Closed forms. The reasons of the tolerances: the digits of the expected values; explicit steps of 1e-6 over 1/gamma;
+ * the direction of flow in plane strain changes by 1e-5/1e-3 over a step; Johnson-Cook: steps of 1e-4, at which the
+ * temperature is that of the start. */
 static void test_elements(void **state)
 {
     int checked = 0;
@@ -324,9 +351,11 @@ static void test_elements(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_functions),   cmocka_unit_test(test_flow_laws),   cmocka_unit_test(test_load_steps),
-        cmocka_unit_test(test_steep_power), cmocka_unit_test(test_path_energy), cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_elements),    cmocka_unit_test(test_melting),     cmocka_unit_test(test_rate),
+        cmocka_unit_test(test_functions),   cmocka_unit_test(test_flow_laws),
+        cmocka_unit_test(test_load_steps),  cmocka_unit_test(test_steep_power),
+        cmocka_unit_test(test_path_energy), cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_elements),    cmocka_unit_test(test_melting),
+        cmocka_unit_test(test_rate),        cmocka_unit_test(test_heat_in_load_steps),
     };
     return cmocka_run_group_tests_name("laws", tests, NULL, NULL);
 }
