@@ -95,4 +95,10 @@ void law_compute_derived_constants(struct law *law, real yield_stress, real youn
 /* Returns true if plastic work heats the material with this law: the law is given and has a specific heat. */
 static inline bool law_heats_material(const struct law *law) { return law->given && law->specific_heat > 0; }
 
+/* Returns true if the flow law `law` has a room temperature, at which its material starts. */
+static inline bool law_has_room_temperature(const struct law *law)
+{
+    return law->given && law->flow == FLOW_JOHNSON_COOK;
+}
+
 #endif

@@ -38,8 +38,12 @@ status fill_check_particle_lists_fit_spacing(const struct particles *p, const st
  * of the particle a random strength, else 1. Does nothing if p->strength is NULL. */
 void fill_set_particle_strength_factors(struct particles *p, const struct scene *s);
 
-/* Sets the temperature of each particle, p->temperature [K]: the room temperature in the flow law of its material in
- * the scene s, or ROOM_TEMPERATURE if it gives none. Does nothing if p->temperature is NULL. */
+/* Returns the temperature at which `material` of the scene s starts [K]: the room temperature of its flow law, or if it
+ * has none, that of the first material which has one, or else ROOM_TEMPERATURE. */
+real scene_initial_temperature(const struct scene *s, const struct material *material);
+
+/* Sets the temperature of each particle, p->temperature [K], to that at which its material in the scene s starts. Does
+ * nothing if p->temperature is NULL. */
 void fill_set_initial_temperatures(struct particles *p, const struct scene *s);
 #define ROOM_TEMPERATURE 293.15
 

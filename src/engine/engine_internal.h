@@ -118,6 +118,10 @@ bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct par
  * including mirror images beyond planes of symmetry. */
 real engine_particle_count_between_positions(const struct scene *s, real low, real high, int axis);
 
+/* Adds warnings to *warnings about room temperatures of the materials of scene s that seem to be in degrees Celsius
+ * and, if particles p have temperatures, about materials that start at different ones, or flow without being heated. */
+void engine_warn_of_temperatures(const struct scene *s, const struct particles *p, struct warnings *warnings);
+
 /* Adds warnings to *warnings about solids in the shapes of the bodies of scene s that add nothing to the body or remove
  * nothing from it. */
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);

@@ -270,6 +270,21 @@ static status check_loads_grow(const struct scene *s, real quarter, real half, r
         s->duration);
 }
 
+/* Returns the remedy for load steps of scene s with a body in the current frame: method pd where bonds can have the
+ * materials, else one body or explicit steps. */
+static const char *remedy_without_reference_frame(const struct scene *s)
+{
+    bool bonds = true;
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *a = &s->material[m];
+        const real ratio = s->dim > 1 ? bond_based_poisson_ratio(s->space) : a->poisson;
+        const bool linear = !a->law.given || (a->law.flow == FLOW_LINEAR && !(a->law.kinematic.modulus > 0));
+        bonds &= linear && !(material_yields(a) && fabs(a->poisson - ratio) > 1e-6);
+    }
+    if (bonds) return "set method: pd, or solver: explicit";
+    return s->bodies > 1 ? "join the bodies to one with parts, or set solver: explicit" : "set solver: explicit";
+}
+
 status statics_check_scene_is_solvable(const struct run *e)
 {
     const struct scene *s = e->scene;
@@ -282,9 +297,10 @@ status statics_check_scene_is_solvable(const struct run *e)
         if (!e->frame->choice[b].reference)
             return status_set(REFUSED,
                               "solver: load steps need material points in the reference frame, but body %s is in the "
-                              "current frame%s%s; set method: pd, or solver: explicit",
+                              "current frame%s%s; %s",
                               s->body[b].name, e->frame->choice[b].reason ? ": " : "",
-                              e->frame->choice[b].reason ? e->frame->choice[b].reason : "");
+                              e->frame->choice[b].reason ? e->frame->choice[b].reason : "",
+                              remedy_without_reference_frame(s));
     return OK;
 }
 

@@ -460,8 +460,9 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
     if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver, "%s is for elastic materials, but material %s yields; set solver: explicit",
-                         node_text(r, solver), s->material[m].name);
+            return fault(r, solver, "%s is for elastic materials, but material %s yields; set solver: %s",
+                         node_text(r, solver), s->material[m].name,
+                         s->method == METHOD_ADAPTIVE ? "explicit" : "static (load steps), or explicit");
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
         return fault(r, solver, "cg works with method pd only; with material points use relaxation");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)

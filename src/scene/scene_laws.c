@@ -149,6 +149,14 @@ static status check_law_place(struct reader *r, const struct yaml_node *law_node
     return r->scene->method == METHOD_MPM ? OK : refuse_flow_law_without_mpm(r, law_node);
 }
 
+const struct yaml_node *scene_material_yield_key(const struct yaml_node *material_node)
+{
+    static const char *const keys[] = {"yield_stress", "johnson_cook", "hardening"};
+    for (size_t k = 0; k < COUNT_OF(keys); k++)
+        if (yaml_node_find(material_node, keys[k])) return yaml_node_find(material_node, keys[k]);
+    return material_node;
+}
+
 status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material)
 {
     struct law *law = &material->law;

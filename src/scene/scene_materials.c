@@ -136,8 +136,8 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     TRY(read_flow_law(r, n, m));
     TRY(read_scatter(r, yaml_node_find(n, "scatter"), m));
     TRY(read_viscosity(r, yaml_node_find(n, "viscosity"), m));
-    const struct yaml_node *yield = yaml_node_find(n, "yield_stress");
-    if (s->model != MODEL_BOND && material_yields(m)) return refuse_yield_with_state_model(r, yield ? yield : n);
+    if (s->model != MODEL_BOND && material_yields(m))
+        return refuse_yield_with_state_model(r, scene_material_yield_key(n));
     material_compute_derived_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return read_softening_onset(r, n, m);

@@ -41,6 +41,10 @@ status read_motions(struct reader *r, const struct yaml_node *solid_node, struct
  * invalid. */
 status read_materials(struct reader *r, const struct yaml_node *root);
 
+/* Returns the node of the key by which a material yields: yield_stress, johnson_cook or hardening; material_node, the
+ * node of the material, if it has none of them. */
+const struct yaml_node *scene_material_yield_key(const struct yaml_node *material_node);
+
 /* Reads the flow law (yield stress as a function of plastic strain, rate and temperature), kinematic hardening and
  * heating of `material`. material_node: node of the material. The keys of linear hardening must have been read before.
  * Returns REFUSED, with a message, for invalid constants, contradictions, and if the method or solver does not support

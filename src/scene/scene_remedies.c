@@ -104,7 +104,9 @@ static void write_change(const struct scene *s, int row, unsigned has, char *tex
     const enum method method = combination[row].method;
     const char *model = models[combination[row].model];
     const bool other = combination[row].model != s->model;
-    if (method == s->method)
+    if (method == s->method && method == METHOD_MPM)
+        snprintf(text, capacity, "no key model");
+    else if (method == s->method)
         snprintf(text, capacity, "%s", model);
     else if (method == METHOD_MPM)
         snprintf(text, capacity, "%s%s", methods[method],

@@ -157,10 +157,11 @@ status read_softening_onset(struct reader *r, const struct yaml_node *material_n
         return fault(r, law, "has no effect without tensile_strength, whose decrease it describes; give both");
     if (!strength) return check_no_surface(r, material_node);
     if (!material_yields(material) && s->method == METHOD_MPM) return refuse_unsupported_softening(r, strength);
+    if (material_yields(material))
+        return fault(r, strength, "cannot be combined with %s: bonds either soften or yield; remove one of the two",
+                     scene_material_yield_key(material_node)->key);
     const char *why =
-        material_yields(material)
-            ? "cannot be combined with yield_stress: bonds either soften or yield; remove one of the two"
-        : scene_is_single_equilibrium(s)
+        scene_is_single_equilibrium(s)
             ? s->method == METHOD_PD
                   ? "has no effect in a single equilibrium, in which no bond breaks; set solver: explicit or static"
                   : "has no effect in a single equilibrium, in which no bond breaks; set solver: explicit"

@@ -299,5 +299,21 @@ refused "constants of a lattice" "$work/no" 'mpm.constants: isotropic' "$work/be
 refused "conversion" "$work/no" 'materials that yield need method: mpm in this frame' "$work/beam.yaml" -s method=adaptive \
     -s "material={young: 200 GPa, density: 7850, yield_stress: 200 MPa}"
 refused "bonds" "$work/no" 'is for material points; use `method: mpm`' "$work/beam.yaml" -s method=pd -s material.poisson=1/3
-refused "one equilibrium" "$work/no" 'relaxation is for elastic materials, but material material yields' "$work/beam.yaml" -s mpm.frame=current -s solver=relaxation
+refused "one equilibrium" "$work/no" 'material material yields; set solver: static (load steps), or explicit' "$work/beam.yaml" -s mpm.frame=current -s solver=relaxation
+refused "softening" "$work/no" 'tensile_strength: cannot be combined with johnson_cook' "$work/beam.yaml" \
+    -s 'material={young: 200 GPa, density: 7850, tensile_strength: 1 GPa, energy_release_rate: 100, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0, T_melt: 900}}'
+scene touching <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 s
+method: mpm
+solver: static
+material: {young: 200 GPa, poisson: 0.3, density: 7850, yield_stress: 350 MPa, hardening: {voce: {saturation: 150 MPa, rate: 20}}}
+bodies:
+  - {name: a, shape: {box: {from: [0, 0], to: [4 mm, 4 mm]}}}
+  - {name: b, shape: {box: {from: [4 mm, 0], to: [8 mm, 4 mm]}}}
+particles: {spacing: 1 mm}
+boundary: [{displacement: [0.01 mm, free], face: x+, time: {ramp: {until: 1 s}}}, {fixed: [x, y], face: x-}]
+END
+refused "two bodies in load steps" "$work/no" 'join the bodies to one with parts, or set solver: explicit' "$work/touching.yaml"
 finish

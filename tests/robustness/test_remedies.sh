@@ -95,6 +95,8 @@ other "$work/mirror.yaml"
 
 refused 'model ospd cannot yield; use `model: bond`' "$plate" -s model=ospd $yields
 remedied -s model=bond
+refused 'model ospd cannot yield; use no key model' "$plate" -s method=mpm -s model=ospd $cook
+remedied -s model=
 refused 'model mospd cannot yield; use `method: mpm` without the key model' "$plate" -s model=mospd -s material.poisson=0.2 $yields
 remedied -s method=mpm -s model=
 refused "no method has all of rigid bodies and a Poisson's ratio that bonds do not have and yield_stress; remove one" "$wall" -s model=ospd \
@@ -110,10 +112,11 @@ remedied -s method=mpm -s model=
 remedied -s material.hardening= -s model=bond -s material.poisson=1/3 -s material.yield_hardening=1GPa
 refused 'is for material points; use yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
 remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
-refused 'material m yields; set solver: explicit' "$plate" $yields -s solver=cg
+refused 'material m yields; set solver: static (load steps), or explicit' "$plate" $yields -s solver=cg
 remedied -s solver=explicit
-refused 'material m yields; set solver: explicit' "$plate" $yields -s solver=cg -s method=mpm
+refused 'material m yields; set solver: static (load steps), or explicit' "$plate" $yields -s solver=cg -s method=mpm
 remedied -s solver=explicit
+remedied -s solver=static
 
 # ---- strength ----------------------------------------------------------------------------------------------------------
 

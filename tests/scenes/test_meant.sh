@@ -49,6 +49,13 @@ says "a specific heat in kJ/(kg K)" '^warning: material material: its specific h
     -s "$hot 0.875}"
 silent "a specific heat with its unit" 'its specific heat is' "$glass" -s method=mpm -s cracks=[] -s "$hot 0.875 kJ/(kg K)}"
 silent "a specific heat that is meant" 'its specific heat is' "$glass" -s method=mpm -s cracks=[] -s "$hot 0.875}" -s 'accept=[heat]'
+says "a start in degrees Celsius" '^warning: material material: its T_room is 20 K, below 150 K: .* (775 K)' "$glass" -s method=mpm -s cracks=[] \
+    -s "$hot 875}" -s material.johnson_cook.T_room=20
+silent "a start in kelvin" 'T_room' "$glass" -s method=mpm -s cracks=[] -s "$hot 875}"
+two="materials=[{name: a, $(echo "$hot 875}" | sed 's/.*={//'), {name: b, young: 200 GPa, density: 7800, yield_stress: 300 MPa}, {name: c, $(echo "$hot 875}" | sed 's/.*={//; s/T_melt/T_room: 400 K, T_melt/')]"
+sed 's/^body:.*/&\nparts: [{region: {disc: {centre: [0, 0], radius: 5 mm}}, material: b}, {region: {disc: {centre: [30 mm, 0], radius: 5 mm}}, material: c}]/; /^material:/d' "$glass" >"$work/two.yaml"
+says "two temperatures at the start" '^warning: materials a and c start at 293.15 K and 400 K, their T_room' "$work/two.yaml" -s method=mpm -s cracks=[] -s "$two"
+says "a metal that is not heated" '^warning: material b flows but is not heated, so its temperature stays at 293.15 K' "$work/two.yaml" -s method=mpm -s cracks=[] -s "$two"
 says "a yield stress in MPa" '^warning: material material: its yield stress over Young.s modulus is 4.17e-09 (300 Pa over 7.2e+10 Pa), below 2e-05' "$glass" \
     -s material.yield_stress=300
 says "a yield stress in GPa" "its yield stress over Young.s modulus is 4.17 .*, above 0.3" "$glass" -s material.yield_stress=300GPa

@@ -52,8 +52,8 @@ curve plane "$bar" 8e-6 160e-9
 curve solid "$work/solid.yaml" 48e-6 960e-9
 curve line "$work/line.yaml" 1 0.02
 
-# Equal states for any number of steps; with 4 of them the first one ends beyond yielding.
-for steps in 4 60; do
+# Equal states for any number of steps; with 2 and 4 of them the first one ends beyond yielding. A bar that is reversed does not turn its flow.
+for steps in 2 4 60; do
     calm "$work/bar$steps" "$bar" -t 1 -s steps.number=$steps
     near "$steps steps: stress" "$(column "$work/bar$steps" reaction.force_x 0.5)" 3840 1e-5
     near "$steps steps: at the end" "$(column "$work/bar$steps" reaction.force_x 1)" -4992 1e-5
