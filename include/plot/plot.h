@@ -220,6 +220,14 @@ struct rigid_shown {
                                        */
 };
 
+/* A plane of symmetry, beyond which a picture shows nothing of a particle: normal to the axis 0 .. 2 for x y z, at the
+ * coordinate `at` [m]. */
+struct shown_mirror {
+    int axis;
+    double at;
+};
+enum { MIRRORS_SHOWN_MOST = 6 }; /* largest number of planes of symmetry that a picture regards */
+
 /* Particles of one frame that are drawn: all particles in 2D; in 3D a slice, or all in an outside view. Arrays are
  * owned and have n entries unless noted. */
 struct plotted_particles {
@@ -249,8 +257,10 @@ struct plotted_particles {
     float *gradient;       /* [n][9] deformation gradient F of each particle, rows along x, y, z [1]; NULL: no visible
                             * deformation */
     double from[2], to[2]; /* bounding box of the reference positions [m] */
-    int dim, rigids;       /* dimension of the rigid bodies; their number */
-    struct rigid_shown *rigid; /* [rigids] rigid bodies at this time */
+    int mirrors;           /* number of planes of symmetry */
+    struct shown_mirror mirror[MIRRORS_SHOWN_MOST];
+    int dim, rigids;           /* of the rigid bodies: dimension, number */
+    struct rigid_shown *rigid; /* [rigids] */
 };
 
 /* Copies those particles of the frame f that a picture shows into *c: in 2D all, in 3D those selected by `projection`,

@@ -25,10 +25,32 @@ struct scene_canvas {
 };
 
 /* A cube that deforms with the body: half sizes of the undeformed cube [m], F and its inverse, and the direction
- * towards the viewer before the deformation. */
+ * towards the viewer before the deformation. Planes of symmetry cut off what is beyond them. */
 struct cube {
     double half[3], F[3][3], inverse[3][3], towards[3];
+    const struct plotted_particles *cloud; /* for its planes of symmetry */
+    double beyond[MIRRORS_SHOWN_MOST];     /* coordinate of each plane less that of the centre [m] */
 };
+
+/* Limits the range *enters .. *leaves of depths [m] of a line of sight within the cube b to the part before all planes
+ * of symmetry, as seen from its centre. at[2]: distances of the line from the centre, along eye->right and eye->up [m].
+ * Returns the axis of the plane through which the line leaves towards the viewer, else `face`. */
+static int clip_line_at_mirrors(const struct camera *eye, const struct cube *b, const double *at, double *enters,
+                                double *leaves, int face)
+{
+    for (int m = 0; m < b->cloud->mirrors; m++) {
+        const int n = b->cloud->mirror[m].axis;
+        const double side = b->beyond[m] > 0 ? -1 : 1, slope = side * eye->towards[n];
+        const double inside = side * (at[0] * eye->right[n] + at[1] * eye->up[n] - b->beyond[m]);
+        if (fabs(slope) < 1e-9) {
+            if (inside < 0) *leaves = -INFINITY;
+        } else if (slope > 0)
+            *enters = fmax(*enters, -inside / slope);
+        else if (-inside / slope < *leaves)
+            *leaves = -inside / slope, face = n;
+    }
+    return face;
+}
 
 /* Intersects a line of sight of the camera `eye` with the deformed cube b. at[2]: distances of the line from the cube's
  * centre in the picture plane, along eye->right and eye->up [m]. Returns the axis of the face through which the line
@@ -50,6 +72,7 @@ static int leaves_cube(const struct camera *eye, const struct cube *b, const dou
         enters = fmax(enters, middle - reach);
         if (middle + reach < leaves) leaves = middle + reach, face = k;
     }
+    face = clip_line_at_mirrors(eye, b, at, &enters, &leaves, face);
     *depth = leaves;
     return enters < leaves ? face : -1;
 }
@@ -58,12 +81,19 @@ static int leaves_cube(const struct camera *eye, const struct cube *b, const dou
  * pixel of the canvas v is enlarged to one pixel. */
 static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct cube *b)
 {
+    const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
     const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
     for (int k = 0; k < 3; k++) b->half[k] = fmax(own, least);
     if (c->tall > 0) b->half[1] = c->tall;
     for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = c->gradient ? (double)c->gradient[9 * i + k] : k % 4 == 0;
     if (!matrix_invert_3x3((const double(*)[3])b->F, b->inverse))
         for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = b->inverse[k / 3][k % 3] = k % 4 == 0;
+    b->cloud = c;
+    for (int m = 0; m < c->mirrors; m++) {
+        b->beyond[m] = c->mirror[m].at;
+        for (int a = 0; a < 3; a++)
+            if (c->position[a]) b->beyond[m] -= c->position[a][i] * axis[a][c->mirror[m].axis];
+    }
     for (int k = 0; k < 3; k++) {
         b->towards[k] = 0;
         for (int d = 0; d < 3; d++) b->towards[k] += b->inverse[k][d] * c->camera.towards[d];

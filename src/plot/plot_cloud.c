@@ -228,6 +228,14 @@ static void cloud_place(struct plotted_particles *c, const struct output_frame *
     }
 }
 
+/* Copies the planes of symmetry of the scene s to the cloud c; s may be NULL: there are none. */
+static void cloud_copy_mirrors(struct plotted_particles *c, const struct scene *s)
+{
+    for (int b = 0; s && b < s->boundaries && c->mirrors < MIRRORS_SHOWN_MOST; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR)
+            c->mirror[c->mirrors++] = (struct shown_mirror){s->boundary[b].axis, s->boundary[b].at};
+}
+
 static void cloud_allocate(struct plotted_particles *c, const struct output_frame *f,
                            const struct projection *projection)
 {
@@ -268,6 +276,7 @@ void plotted_particles_select_from_frame(struct plotted_particles *c, const stru
                                     .from = {INFINITY, INFINITY},
                                     .to = {-INFINITY, -INFINITY}};
     cloud_axes(c, f, projection);
+    cloud_copy_mirrors(c, projection->scene);
     cloud_allocate(c, f, projection);
     for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, double);
     c->gradient = deformation_gradients_fit_to_displacements(f, c->spacing, c->magnify, projection->scene);

@@ -63,6 +63,21 @@ static double distance_within(const struct outline *s, const double *off, double
     return far <= s->half + beside ? hypot(xi[0], xi[1]) : INFINITY;
 }
 
+/* Limits the range *low .. *high [m] along axis k of the map that particle i of c covers to the side of each plane of
+ * symmetry on which its centre is. */
+static void clip_at_mirrors(const struct plotted_particles *c, int64_t i, int k, double *low, double *high)
+{
+    const double *axis = k == 0 ? c->camera.right : c->camera.up;
+    for (int m = 0; m < c->mirrors; m++) {
+        const double along = axis[c->mirror[m].axis], plane = along * c->mirror[m].at;
+        if (fabs(along) < 0.999) continue;
+        if (c->position[k][i] > plane)
+            *low = fmax(*low, plane);
+        else
+            *high = fmin(*high, plane);
+    }
+}
+
 /* Paints particle i of c on all pixels of the canvas v that it covers, except those with a particle of better rank. The
  * rank is better the nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the
  * more damaged the particle is. view: rectangle that is shown; map: what the colours show. */
@@ -78,8 +93,11 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
         at[k] = (c->position[k][i] - view->from[k]) * v->per_metre[k];
         reach[k] = fmax(outline_reach(&outline, k) * v->per_metre[k], 0.5);
         if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return; /* outside the picture, or NaN */
-        from[k] = (int)fmax(ceil(at[k] - reach[k] - 0.5), 0);
-        to[k] = (int)fmin(floor(at[k] + reach[k] - 0.5), size[k] - 1);
+        double low = -INFINITY, high = INFINITY;
+        clip_at_mirrors(c, i, k, &low, &high);
+        low = fmax((low - view->from[k]) * v->per_metre[k], at[k] - reach[k]);
+        high = fmin((high - view->from[k]) * v->per_metre[k], at[k] + reach[k]);
+        from[k] = (int)fmax(ceil(low - 0.5), 0), to[k] = (int)fmin(floor(high - 0.5), size[k] - 1);
     }
     const struct colour colour = particle_colour(view, c, i, map);
     for (int row = from[1]; row <= to[1]; row++) {
