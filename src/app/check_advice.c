@@ -281,7 +281,7 @@ static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
         if (loads_check_formulas_are_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
-        fprintf(out, "accuracy       %s: the run will stop at that time\n", status_message());
+        fprintf(out, "accuracy       %s; the run will stop at that time\n", status_message());
         return;
     }
 }

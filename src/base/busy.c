@@ -16,11 +16,10 @@ double machine_load_average(void)
 bool machine_describe_overload_if_any(char *text, size_t capacity, double other_process_load, int cores, int threads)
 {
     if (cores < 1 || other_process_load + threads <= cores + UNNOTICED) return false;
-    snprintf(
-        text, capacity,
-        "other programs use %.1f of this machine's %d core%s: on %d thread%s the wall time will be about %.2g times "
-        "the processor time",
-        other_process_load, cores, cores > 1 ? "s" : "", threads, threads > 1 ? "s" : "",
-        (other_process_load + threads) / cores);
+    snprintf(text, capacity,
+             "other programs use %.1f of this machine's %d core%s, so on %d thread%s the run takes about %.2g times as "
+             "long as alone; stop them to run faster",
+             other_process_load, cores, cores > 1 ? "s" : "", threads, threads > 1 ? "s" : "",
+             (other_process_load + threads) / cores);
     return true;
 }

@@ -17,7 +17,8 @@ static const char out_of_memory[] =
     "out of memory: a library could not continue; results up to the last checkpoint are complete: continue with "
     "--resume where there is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n";
 
-static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimit -s 8192 sets the usual one\n";
+static const char out_of_stack[] =
+    "out of stack memory: its limit is below 1 MB; set the usual limit by `ulimit -s 8192` and run again\n";
 
 /* Path of the file that HDF5 reads at present, without control characters; "": none. */
 static char reading[512];
@@ -53,7 +54,8 @@ static _Noreturn void say_damaged_and_leave(void)
 {
     say("cannot read ");
     say(reading);
-    say_and_leave(": the HDF5 library crashed while reading it; it is damaged, or not what it seems\n");
+    say_and_leave(": the HDF5 library crashed while reading this file, which is damaged or of another kind; replace it "
+                  "by an undamaged one\n");
 }
 
 /* Returns true if 256 MiB of memory cannot be reserved any more, so that an allocation of a library has probably

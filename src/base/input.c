@@ -102,6 +102,6 @@ status input_file_open(FILE **file, const char *path, const char *expected_conte
     }
     if (!fault) fault = strerror(errno);
     if (fd >= 0) close(fd);
-    return status_set(REFUSED, "%s: %s%s%s%s", path, fault, expected_content ? "; " : "",
-                      expected_content ? expected_content : "", expected_content ? " is expected" : "");
+    return status_set(REFUSED, "%s: %s%s%s", path, fault, expected_content ? "; give " : "",
+                      expected_content ? expected_content : "");
 }

@@ -47,8 +47,10 @@ _Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
 static _Noreturn void out_of_memory(const char *label, int64_t count, size_t size)
 {
-    fprintf(stderr, "out of memory: %s needs %lld entries of %zu bytes; this run has used %.1f MB so far\n", label,
-            (long long)count, size, (double)memory_peak_resident_size() * 1e-6);
+    fprintf(stderr,
+            "out of memory: the array %s needs %lld entries of %zu bytes, and %.1f MB are already in use; use a larger "
+            "particles.spacing, or a machine with more memory\n",
+            label, (long long)count, size, (double)memory_peak_resident_size() * 1e-6);
     _exit(FAILED);
 }
 

@@ -15,7 +15,10 @@ static status exchange(struct archive *a, const char *name, void *data, size_t s
         return OK;
     }
     if (m->next >= m->n || m->entry[m->next].size != size)
-        return status_set(FAILED, "%s: the stored state does not have the size that this run needs", name);
+        return status_set(FAILED,
+                          "%s: the state saved in memory has another size than this run needs; this is a fault of the "
+                          "program: please report it with the scene",
+                          name);
     array_copy(data, m->entry[m->next++].data, (int64_t)size, 1);
     return OK;
 }

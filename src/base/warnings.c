@@ -58,7 +58,8 @@ status warnings_save_or_load(struct warnings *w, struct archive *a)
     for (int k = 0; k < w->n; k++) length += (int64_t)strlen(w->text[k]) + 1;
     ARCHIVE_VALUE(a, "warnings/length", length);
     if (length < 0 || (!a->saving && length > 0 && a->stored_size(a, "warnings/text") != length))
-        return status_set(FAILED, "the checkpoint's warnings do not fit their length");
+        return status_set(FAILED, "cannot resume: the warnings in the checkpoint have a wrong length; it is damaged, "
+                                  "start again with --overwrite");
     if (length == 0) return OK;
     char *text = NEW("warnings.all", length + 1, char), *to = text;
     for (int k = 0; k < w->n && a->saving; k++) to = stpcpy(to, w->text[k]) + 1;

@@ -10,10 +10,11 @@ static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
         if (row > 0 && b->particle[row] <= b->particle[row - 1]) return "rows do not ascend by particle";
-        if (b->row_of[b->particle[row]] != row) return "row_of does not lead back to the row of a particle";
+        if (b->row_of[b->particle[row]] != row) return "row_of is not the inverse of `particle`";
     }
     for (int64_t row = b->rows; row < b->row_blocks * LANES; row++)
-        if (b->rows > 0 && b->particle[row] != b->particle[b->rows - 1]) return "padding rows do not repeat the last";
+        if (b->rows > 0 && b->particle[row] != b->particle[b->rows - 1])
+            return "padding rows do not repeat the last particle";
     return NULL;
 }
 
@@ -21,8 +22,9 @@ static const char *rows_fault(const struct bonds *b)
  * text that names the first fault; NULL if there is none. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
-    if (!b->stencil[g]) return "an implicit row block follows no stencil";
-    if (b->stencil[g]->columns != b->column_count[g]) return "a row block has other columns than its stencil";
+    if (!b->stencil[g]) return "an implicit row block has no stencil";
+    if (b->stencil[g]->columns != b->column_count[g])
+        return "a row block and its stencil have different numbers of columns";
     for (int l = 0; l < LANES && b->broken; l++)
         if (b->broken[g * LANES + l] > 0) return "an implicit row block has a broken bond";
     return NULL;
@@ -33,12 +35,12 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];
-    if (common->first != b->first[column]) return "first is not what a column shares";
+    if (common->first != b->first[column]) return "the first neighbour of a column differs from its common value";
     for (int l = 0; l < LANES; l++) {
         const int64_t q = column * LANES + l;
         const bool there = b->inverse_length[q] != 0, intact = b->w[q] != 0;
-        if (intact && !(b->inverse_length[q] > 0)) return "a bond that is broken or unused has a weight";
-        if (intact != (common->intact >> l & 1)) return "intact is not what the weights say";
+        if (intact && !(b->inverse_length[q] > 0)) return "a broken or unused bond has a weight other than 0";
+        if (intact != (common->intact >> l & 1)) return "the marks of intact bonds differ from their weights";
         if (there && b->first[column] >= 0 && b->nbr[q] != b->first[column] + l)
             return "neighbours are not consecutive";
     }
@@ -52,7 +54,8 @@ static const char *reach_fault(const struct bonds *b, int64_t row)
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const int64_t to = b->row_of[it.bond.nbr];
         const int64_t away = to < 0 ? 0 : to / LANES - row / LANES;
-        if (it.bond.w != 0 && (away > b->reach || -away > b->reach)) return "a bond leads farther than reach";
+        if (it.bond.w != 0 && (away > b->reach || -away > b->reach))
+            return "a bond reaches more row blocks than allowed";
     }
     return NULL;
 }

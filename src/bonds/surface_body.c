@@ -324,7 +324,8 @@ status near_faces_list_particles_and_neighbours(struct near_faces *b, const stru
     site_map_free(&map);
     if (lattice) return OK;
     near_faces_free(b);
-    return status_set(REFUSED, "pd.surface: moments requires particles on a lattice; set volume or none");
+    return status_set(REFUSED,
+                      "pd.surface: moments needs particles on a regular lattice; set pd.surface: volume or none");
 }
 
 void near_faces_free(struct near_faces *b)

@@ -85,9 +85,9 @@ status contact_check_largest_overlap(struct run *e)
         const struct particles *p = &e->part;
         const int32_t i = c->deepest;
         return status_set(FAILED,
-                          "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, overlaps "
-                          "another one by %.2f spacings and is about to pass through it: check the speeds (wave speed "
-                          "%.4g m/s), or use a larger contact.stiffness (now %.3g) with a smaller time.safety",
+                          "contact at step %lld, t = %.3g s: particle %d at (%.6g, %.6g, %.6g) m overlaps another one "
+                          "by %.2f spacings and is about to pass through it. Check the speeds (wave speed: %.4g m/s), "
+                          "or use a larger contact.stiffness (now %.3g) with a smaller time.safety",
                           (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
                           p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
     }
@@ -95,7 +95,7 @@ status contact_check_largest_overlap(struct run *e)
     e->contact->overlap_said = true;
     snprintf(text, sizeof text,
              "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary), so contact "
-             "pressures are wrong: use a larger contact.stiffness",
+             "pressures are wrong; use a larger contact.stiffness",
              OVERLAP_DOUBTFUL);
     warnings_add_and_print(&e->warnings, text);
     return OK;

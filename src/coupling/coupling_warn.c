@@ -38,8 +38,8 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
         if (reference->choice[b].reference) name_add(&names, s->body[b].name);
     warnings_add_if_new(
         to,
-        "%s %s in the reference frame (mpm.frame): material points there have no contact and pass through other "
-        "bodies; use mpm.frame: current for contact; if this is intended, add accept: [contact]",
+        "%s %s in the reference frame (mpm.frame), in which material points have no contact and pass through other "
+        "bodies; set mpm.frame: current for contact; if this is intended, add accept: [contact]",
         names.text, names.all > 1 ? "are" : "is");
 }
 
@@ -54,21 +54,20 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     if (!scene_bodies_can_meet(s) || approaches || scene_silences_warning(s, ACCEPT_CONTACT)) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_is_single_equilibrium(s))) return;
     if (s->method == METHOD_PD)
-        warnings_add_if_new(
-            to,
-            "contact.between: none: peridynamic bodies have no contact and pass through each other%s; use "
-            "contact.between: bodies or all for contact; if this is intended, add accept: [contact]",
-            s->rigids > 0 ? " (they have contact with rigid bodies)" : "");
+        warnings_add_if_new(to,
+                            "contact.between is none, so peridynamic bodies pass through each other%s; set "
+                            "contact.between: bodies or all; if this is intended, add accept: [contact]",
+                            s->rigids > 0 ? " (they have contact with rigid bodies)" : "");
     else
         warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)
         warnings_add_if_new(to,
-                            "particles that become peridynamic pass through the material points of other bodies; "
-                            "contact with them needs contact.between: bodies or all, contact.convert: true and "
-                            "coupling: partial stress or handshake, but %s; if this is intended, add accept: [contact]",
+                            "particles that become peridynamic pass through the material points of other bodies, "
+                            "because %s; for contact set contact.between: bodies or all, contact.convert: true and "
+                            "coupling: partial stress or handshake; if this is intended, add accept: [contact]",
                             s->contact_between == CONTACT_NONE ? "contact.between is none"
                             : !s->contact_convert              ? "contact.convert is false"
-                                                               : "the coupling is another one");
+                                                               : "the key coupling has another value");
 }
 
 /* Returns true if particles i and j start with nearly the same velocity, up to 0.1 %. Parts of bodies that are meant to
@@ -122,10 +121,11 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
     memory_free(touch);
     if (names.all > 0)
         warnings_add_if_new(
-            to, "bodies touch at the start (%s), but are not joined: no bond connects them%s", names.text,
+            to, "bodies touch at the start (%s), but no bond joins them%s; to join them, use the key interfaces",
+            names.text,
             s->method == METHOD_PD || e->grid->fields > 1
                 ? ""
-                : "; on the grid of mpm.frame current they stick together until a gap of two cells opens");
+                : ", and on the grid of mpm.frame: current they stick together until a gap of two cells opens");
 }
 
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list)

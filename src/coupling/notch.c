@@ -155,12 +155,12 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
                                   real radius)
 {
     const struct crack_edges zone = crack_edges_of(c, p, s, radius);
-    if (p->dim == 1) return "a cut divides a line";
+    if (p->dim == 1) return "in space line a cut divides the body";
     if (c->n > EDGES_MAX) return "its polygon has more than 64 corners";
     if (zone.edges == 0) return "neither of its ends is inside the body, so it may cut the body in two";
     const struct flanks f = flanks_of(&zone, p, s);
-    if (f.particles == 0) return "the zones around its ends contain all of it";
-    if (f.elsewhere > 0) return "it is not among material points in the reference frame";
+    if (f.particles == 0) return "it is so short that the peridynamic zones around its ends contain all of it";
+    if (f.elsewhere > 0) return "particles beside it are not material points in the reference frame";
     return NULL;
 }
 

@@ -13,11 +13,11 @@
 static const char *scene_obstacle(const struct scene *s)
 {
     if (s->conversion.notch == NOTCH_BONDS) return "the scene sets this";
-    if (s->growths > 0) return "growth lets bonds along cracks fade";
+    if (s->growths > 0) return "the key growth weakens the bonds along cracks";
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_SIF) return "a sif probe needs the bonds of its crack";
     if (s->contact_between == CONTACT_ALL && !s->contact_convert)
-        return "with contact.convert: false its faces would pass through each other";
+        return "with contact.convert: false the faces of a slit would pass through each other";
     return NULL;
 }
 
@@ -68,7 +68,7 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
                                          size_t capacity)
 {
     if (n->notch[crack_number].slit)
-        snprintf(text, capacity, "slit of the mesh; bonds within %.3g spacings of its ends", n->radius / spacing);
+        snprintf(text, capacity, "slit of the mesh, with bonds within %.3g spacings of its ends", n->radius / spacing);
     else
         snprintf(text, capacity, "cut bonds: %s", n->notch[crack_number].reason);
 }

@@ -24,13 +24,16 @@ status reversion_check_scene_allows_reversion(const struct scene *s)
     const char *why = NULL;
     if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
     if (!(s->conversion.criteria & CONVERT_ON_STRESS))
-        why = "stress among conversion.criteria, since low_stress is a share of the stress at which points convert";
+        why = "stress in conversion.criteria, because low_stress is a share of the stress at which points convert; add "
+              "it, or set reversion: false";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
-        why = "coupling: partial stress or handshake";
-    if (s->growths > 0) why = "no key growth, whose bonds fade";
-    if (scene_is_single_equilibrium(s)) why = "solver: explicit";
+        why = "coupling: partial stress or handshake; set one of them, or reversion: false";
+    if (s->growths > 0)
+        why = "a scene without the key growth, which weakens bonds; remove growth, or set reversion: false";
+    if (scene_is_single_equilibrium(s)) why = "solver: explicit; set it, or reversion: false";
     for (int m = 0; m < s->materials; m++)
-        if (material_yields(&s->material[m])) why = "materials that do not yield";
+        if (material_yields(&s->material[m]))
+            why = "materials that do not yield; remove their yield stress, or set reversion: false";
     return why ? status_set(REFUSED, "conversion.reversion: true needs %s", why) : OK;
 }
 

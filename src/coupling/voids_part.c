@@ -120,17 +120,17 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
     closed_on_grid(&e->part, e->source.voids, &e->cells, reach, uncut, &grid, &plane);
     if (grid.n > 0)
         warnings_add_if_new(warning_list,
-                            "body %s has a void too narrow for its grid, at (%s) m: %lld material points share grid "
-                            "nodes with points on the other side, so the void has no effect; use %smethod: pd, method: "
-                            "adaptive or a smaller particles.spacing",
+                            "body %s has a void too narrow for its grid at (%s) m, where %lld material points share "
+                            "grid nodes with points on the other side, so the void has no effect; use %smethod: pd, "
+                            "method: adaptive or a smaller particles.spacing",
                             s->body[e->part.body[grid.first]].name,
                             particle_position_text(&e->part, grid.first, 4).text, (long long)grid.n,
                             reference_possible && !uncut ? "mpm.frame: reference, " : "");
     if (plane.n > 0)
         warnings_add_if_new(warning_list,
-                            "body %s: the gap between it and a plane of symmetry is too narrow for its grid, at (%s) "
-                            "m: the plane holds %lld material points that do not touch it; use method: pd, method: "
-                            "adaptive or a smaller particles.spacing",
+                            "body %s: the gap between this body and a plane of symmetry is too narrow for the grid at "
+                            "(%s) m, where the plane holds %lld material points that do not touch it; use method: pd, "
+                            "method: adaptive or a smaller particles.spacing",
                             s->body[e->part.body[plane.first]].name,
                             particle_position_text(&e->part, plane.first, 4).text, (long long)plane.n);
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
@@ -139,7 +139,7 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
         if (gap.n == 0) continue;
         warnings_add_if_new(warning_list,
                             "body %s has a void one or two particles wide at (%s) m, beside %lld particles in all: a "
-                            "list or image defines no faces, so %s join both sides of the void; define its faces by "
+                            "list or image defines no faces, so %s join both sides of the void; define the faces by "
                             "the key cracks, or use a smaller particles.spacing",
                             s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
                             s->method == METHOD_MPM  ? "cells"

@@ -27,10 +27,9 @@ struct extent_text particles_far_from_origin_text(const struct particles *p)
         middle2 += square(0.5 * (low + high));
     }
     if (sqrt(middle2) > FAR * size)
-        snprintf(
-            t.text, sizeof t.text,
-            "; the body is %.3g m from the origin, %.2g times its size, and round-off of positions grows with that: "
-            "move it to the origin",
-            sqrt(middle2), sqrt(middle2) / size);
+        snprintf(t.text, sizeof t.text,
+                 "; the body is %.3g m from the origin, %.2g times its size, and round-off of positions grows with "
+                 "this distance: move the body to the origin",
+                 sqrt(middle2), sqrt(middle2) / size);
     return t;
 }

@@ -68,8 +68,8 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
         low[d] = floor((lower[d] - g->anchor[d]) / g->h), high[d] = floor((upper[d] - g->anchor[d]) / g->h);
         if (!(fabs(low[d]) < NODE_FARTHEST && fabs(high[d]) < NODE_FARTHEST))
             return status_set(FAILED,
-                              "a material point is at %.3g m, %.3g cells from the beginning of the grid; check for an "
-                              "instability (smaller time step)",
+                              "a material point is at %.3g m, %.3g cells from the beginning of the grid: the run may "
+                              "be unstable; use a smaller time.safety",
                               fabs(low[d]) < NODE_FARTHEST ? upper[d] : lower[d],
                               real_max(fabs(low[d]), fabs(high[d])));
     }
@@ -88,8 +88,8 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
     }
     if (!(nodes <= (real)max_nodes))
         return status_set(FAILED,
-                          "the material points have spread so far that their grid would need %.3g nodes; check for an "
-                          "instability (smaller time step) or a fragment flying away",
+                          "the material points have spread so far that their grid would need %.3g nodes: the run may "
+                          "be unstable (use a smaller time.safety), or a fragment flies away (use a shorter duration)",
                           nodes);
     if (!*changed) return OK;
     if (g->n > 0) grid_arrays_free(g);

@@ -93,8 +93,8 @@ void engine_announce_long_set_up(const struct scene *s)
         s->method == METHOD_PD && n * BYTES_OF_BONDS > (real)machine_memory_size(); /* at once, in a line */
     if (n < POSITIONS_QUICK || refused) return;
     fprintf(stderr,
-            "particles.spacing %.3g m: the bodies have about %.2g lattice positions, %.2g along the longest edge; the "
-            "set-up takes about %.1g min\n",
+            "particles.spacing %.3g m: the bodies have about %.2g lattice positions, %.2g along the longest edge, so "
+            "the set-up takes about %.1g min; a larger spacing shortens it\n",
             s->spacing, n, longest, n * SECONDS_PER_POSITION / 60);
 }
 

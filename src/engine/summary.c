@@ -95,12 +95,15 @@ static status fragments_write(const struct particles *part, const struct run_rep
     char *text = NULL;
     size_t length = 0;
     FILE *file = memory_stream_open(&text, &length);
-    if (!file) return status_set(FAILED, "cannot write fragments.csv: out of memory; run on a machine with more");
+    if (!file)
+        return status_set(
+            FAILED,
+            "cannot write fragments.csv: out of memory; use a larger particles.spacing, or a machine with more memory");
     fragments_print(file, part, f);
     const bool whole = fclose(file) == 0;
-    const status written =
-        whole ? output_write_text(report->out, "fragments.csv", text, length)
-              : status_set(FAILED, "cannot write fragments.csv: out of memory; run on a machine with more");
+    const status written = whole ? output_write_text(report->out, "fragments.csv", text, length)
+                                 : status_set(FAILED, "cannot write fragments.csv: out of memory; use a larger "
+                                                      "particles.spacing, or a machine with more memory");
     free(text);
     return written;
 }
@@ -166,12 +169,16 @@ status summary_write(const struct run *e, status end_status, int thread_count)
         TRY(fragments_write(&e->part, e->report, &fragments));
     }
     FILE *file = memory_stream_open(&text, &length);
-    if (!file) return status_set(FAILED, "cannot write summary.json: out of memory; run on a machine with more");
+    if (!file)
+        return status_set(
+            FAILED,
+            "cannot write summary.json: out of memory; use a larger particles.spacing, or a machine with more memory");
     summary_print(file, e, &fragments, end_status, message, thread_count);
     fragments_free(&fragments);
     const bool whole = fclose(file) == 0;
     status written = whole ? output_write_text(e->report->out, "summary.json", text, length)
-                           : status_set(FAILED, "cannot write summary.json: out of memory; run on a machine with more");
+                           : status_set(FAILED, "cannot write summary.json: out of memory; use a larger "
+                                                "particles.spacing, or a machine with more memory");
     free(text);
     /* the cause of a failed run has precedence over a failure to write its summary */
     if (written != OK && end_status != OK) return status_set(end_status, "%s", message);

@@ -32,9 +32,9 @@ static bool spins(const struct scene *s)
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
     if (scene_is_dynamic(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
-        warnings_add_if_new(
-            to, "mpm.transfer: flip with this coupling loses angular momentum of bodies that rotate: a plate of "
-                "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
+        warnings_add_if_new(to,
+                            "mpm.transfer: flip loses angular momentum of rotating bodies with this coupling (a plate "
+                            "of 20 x 10 points: 28 %% in half a turn, with apic 0.002 %%); set mpm.transfer: apic");
 }
 
 /* Adds warnings to *to about pre-cracks in scenes without bonds, which have no effect there, and about coupling methods
@@ -43,16 +43,15 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
         warnings_add_if_new(to, "method: mpm ignores the key cracks: points on both sides of a crack share the nodes "
-                                "of the grid, so the body stays whole; use method: pd or adaptive");
+                                "of the grid, so the body stays whole; set method: pd or adaptive");
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
-        warnings_add_if_new(
-            to,
-            "coupling pm and pmg are defined with mpm.shape: linear only; with another shape they act as pg and pgg");
+        warnings_add_if_new(to, "coupling: pm and pmg are defined with mpm.shape: linear only, and act as pg and pgg "
+                                "with another shape; set mpm.shape: linear, or coupling: pg or pgg");
     if (coupling_moves_by_grid(kind) && !scene_silences_warning(s, ACCEPT_COUPLING))
         warnings_add_if_new(
             to,
-            "coupling %s, as published, has no potential energy, so a long run may gain energy: watch "
-            "energy.balance_error, or use coupling: partial stress; if this is intended, add accept: [coupling]",
+            "coupling: %s has no potential energy (as published), so a long run may gain energy; watch "
+            "energy.balance_error, or set coupling: partial stress; if this is intended, add accept: [coupling]",
             coupling_name[kind]);
 }
 
@@ -66,14 +65,14 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
     if (driven && on_grid && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
         warnings_add_if_new(
             to,
-            "mpm.shape: %s beside fixed and driven particles: there stress is up to a third too large and "
-            "displacements 2 to 3 %%; use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
+            "mpm.shape: %s makes stress up to a third too large beside fixed and driven particles, and displacements 2 "
+            "to 3 %%; hold the face by a boundary `mirror`, or set mpm.shape: linear or gimp",
             s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
     if (s->method != METHOD_PD && s->cell < 1.5 && !scene_silences_warning(s, ACCEPT_CELL))
         warnings_add_if_new(
             to,
-            "mpm.cell: %.3g puts one point into a cell, so a wave that crosses a coupling interface leaves an "
-            "oscillation of 0.8 %% of its amplitude; use mpm.cell: 2; if this is intended, add accept: [cell]",
+            "mpm.cell: %.3g puts one point into a cell, so a wave that crosses from material points to bonds leaves an "
+            "oscillation of 0.8 %% of its amplitude; set mpm.cell: 2; if this is intended, add accept: [cell]",
             s->cell);
 }
 
@@ -87,14 +86,15 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                                                 : NULL;
     const char *all = scene_why_all_particles_needed(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
-        warnings_add_if_new(to, "mpm.levels: %d has no effect: %s; use auto or 0", s->levels, why);
+        warnings_add_if_new(to, "mpm.levels: %d has no effect, because %s; set mpm.levels: auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
-        warnings_add_if_new(to, "mpm.fill: needed has no effect (all particles are made): %s; use auto or all",
-                            why   ? why
-                            : all ? all
-                                  : "there are no coarse cells");
+        warnings_add_if_new(
+            to, "mpm.fill: needed has no effect (all particles are made), because %s; set mpm.fill: auto or all",
+            why   ? why
+            : all ? all
+                  : "there are no coarse cells");
     if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
-        warnings_add_if_new(to, "conversion.notch: slit has no effect with method %s%s; use conversion.notch: auto",
+        warnings_add_if_new(to, "conversion.notch: slit has no effect with method: %s%s; set conversion.notch: auto",
                             s->method == METHOD_PD ? "pd" : "mpm",
                             s->method == METHOD_PD ? ", in which pre-cracks are cut bonds" : "");
 }
@@ -109,7 +109,7 @@ static void warn_of_materials(const struct scene *s, const struct material_table
             warnings_add_if_new(
                 to,
                 "material %s: material points become peridynamic at a stress of %.4g Pa, above the %.4g Pa (E %s) at "
-                "which bonds %s, so they may exceed %s stretch before they do: use a lower conversion.stress",
+                "which bonds %s, so points may exceed %s stretch before they convert; use a lower conversion.stress",
                 a->name, tables->elastic[m].trigger_mean, a->young * a->onset_stretch,
                 material_has_softening_bonds(a) ? "s_0" : "s_c",
                 material_has_softening_bonds(a) ? "begin to soften" : "break",
@@ -139,10 +139,11 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
     for (int m = 0; m < s->materials; m++) yields |= material_yields(&s->material[m]);
     for (int k = 0; k < s->probes && yields; k++)
         if (s->probe[k].kind == PROBE_SIF)
-            warnings_add_if_new(to,
-                                "probe %s: K_I, K_II and J hold for an elastic body; they are wrong while the material "
-                                "yields within the ring, and then differ with the radius (contour_spread)",
-                                s->probe[k].name);
+            warnings_add_if_new(
+                to,
+                "probe %s: K_I, K_II and J are those of an elastic body and wrong while the material yields within the "
+                "ring; use a smaller ring (outer), and distrust values with a large contour_spread",
+                s->probe[k].name);
 }
 
 /* Adds warnings to *to about columns of particle lists that the bodies of scene s do not read, or for which a default
@@ -166,9 +167,11 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
     };
     if ((asked & ASK_OTHERS) == ASK_OTHERS) return;
     if (asked & ASK_TEMPERATURE && !p->temperature)
-        warnings_add_if_new(to, "output.fields: no material has a specific_heat, so frames will have no temperature");
+        warnings_add_if_new(to, "output.fields: no material has a specific_heat, so frames will have no temperature; "
+                                "give one, or remove the field temperature");
     if (asked & ASK_PLASTIC_STRAIN && !p->plastic_strain && !b->plastic_path)
-        warnings_add_if_new(to, "output.fields: no material has a yield_stress, so frames will have no plastic_strain");
+        warnings_add_if_new(to, "output.fields: no material has a yield_stress, so frames will have no plastic_strain; "
+                                "give one, or remove this field");
 }
 
 /* Adds warnings to *to about regions for which scene s requests frames of their own but which contain no particle of p.
@@ -179,7 +182,7 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
     for (int k = 0; k < s->n_series; k++)
         if (!region_is_met(frame, p, &s->series[k].region))
             warnings_add_if_new(to,
-                                "output.regions: %s holds no particle, so its frames will be empty: check its "
+                                "output.regions: %s contains no particle, so its frames will be empty; check its "
                                 "coordinates and their unit (m if none is written)",
                                 s->series[k].name);
 }
@@ -192,7 +195,7 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
     for (int b = 0; b < l->n; b++)
         if (l->load[b].n == 0 && s->boundary[b].kind == BOUNDARY_VELOCITY)
             warnings_add_if_new(
-                to, "boundary %s holds no particle%s; %s: check its region and the unit (m if none is written)",
+                to, "boundary %s contains no particle%s (%s); check its region and the unit (m if none is written)",
                 s->boundary[b].name, s->method == METHOD_PD ? "" : " and acts on grid nodes in its region only",
                 particles_extent_text(p).text);
 }
@@ -204,7 +207,7 @@ static void warn_of_step(const struct scene *s, const struct run_clock *clock, s
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
     warnings_add_if_new(to,
                         "the time step is too large: time.step is %.4g s, %.3g times the critical %.4g s, so the run "
-                        "will be unstable; remove time.step, or use at most %.3g s",
+                        "will be unstable; remove time.step, or set it to at most %.3g s",
                         clock->dt, clock->dt / clock->dt_critical, clock->dt_critical, 0.8 * clock->dt_critical);
 }
 
@@ -217,13 +220,13 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
     if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;
     if (s->dim == 1)
         warnings_add_if_new(to,
-                            "particles.horizon: %.3g: the neighbours of a bar are exactly at the horizon; use 1.015 "
-                            "for one neighbour on each side, or 3.015",
+                            "particles.horizon: %.3g puts the neighbours in a bar exactly at the horizon, where "
+                            "round-off decides; set 1.015 for one neighbour on each side, or 3.015",
                             s->horizon);
     else
         warnings_add_if_new(to,
-                            "particles.horizon: %.3g: each particle has bonds along the axes of the lattice only (%d), "
-                            "so the body has no shear stiffness, and cracks follow the axes; use 3.015",
+                            "particles.horizon: %.3g gives each particle bonds along the axes of the lattice only "
+                            "(%d), so the body has no shear stiffness and cracks follow the axes; set 3.015",
                             s->horizon, 2 * s->dim);
 }
 
@@ -242,7 +245,7 @@ static void warn_of_stiffness(const struct scene *s, const struct family *f, str
     if (fabs(ratio - 1) > STIFFNESS_APART)
         warnings_add_if_new(to,
                             "pd.calibration: %s gives bonds of this influence function and horizon %.2f times the bulk "
-                            "modulus of the material; use pd.calibration: lattice, which is exact",
+                            "modulus of the material; set pd.calibration: lattice, which is exact",
                             f->calibration == CALIBRATION_CONTINUUM ? "continuum" : "vmpd", ratio);
 }
 
@@ -253,7 +256,7 @@ void engine_warn_of_suspicious_input(struct run *e)
     if (s->renamed[0])
         warnings_add_if_new(to,
                             "the scene uses earlier names of keys (%s), which this version still accepts with the same "
-                            "meaning; use the new names",
+                            "meaning; write the new names",
                             s->renamed);
     warn_of_step(s, &e->clock, to);
     warn_of_horizon(s, to);

@@ -77,7 +77,7 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
             continue;
         far++;
         warnings_add_if_new(to,
-                            "crack %d is outside all bodies, %.3g m from the nearest particle, and has no effect: "
+                            "crack %d is outside all bodies, %.3g m from the nearest particle, and has no effect; "
                             "check its coordinates and their unit (m if none is written)",
                             k + 1, crack_distance(c, p));
     }
@@ -123,13 +123,11 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
         const real outside = particle_distance(p, c->corner[end]);
         near += particles_near(p, c->corner[end], reach, prescribed, &loose);
         if (outside > real_max(reach, FAR_OUTSIDE * longest)) {
-            warnings_add_if_new(
-                to,
-                "crack %d ends nowhere inside a body, so that it cannot grow and may cut the body in two: its "
-                "end at (%s) m is %.3g m from the nearest particle; check its coordinates and their unit (m if none is "
-                "written); "
-                "if this is intended, add accept: [growth]",
-                k + 1, position_text(c->corner[end], p->dim, 6).text, outside);
+            warnings_add_if_new(to,
+                                "crack %d has no end inside a body, so it cannot grow and may cut the body in two; its "
+                                "end at (%s) m is %.3g m from the nearest particle: check its coordinates and their "
+                                "unit (m if none is written); if this is intended, add accept: [growth]",
+                                k + 1, position_text(c->corner[end], p->dim, 6).text, outside);
             return;
         }
     }
@@ -137,7 +135,7 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
         warnings_add_if_new(
             to,
             "crack %d cannot grow: supports prescribe the motion of all %lld particles within a horizon of its ends; "
-            "use a smaller depth or region for them; if this is intended, add accept: [growth]",
+            "use a smaller depth or region for these supports; if this is intended, add accept: [growth]",
             k + 1, (long long)near);
 }
 
@@ -163,10 +161,11 @@ static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
     const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);
     for (int k = 0; k < s->probes && !breaks; k++)
         if (s->probe[k].kind == PROBE_TIP || s->probe[k].kind == PROBE_BREAK)
-            warnings_add_if_new(to, "probe %s will have no result, because no bond can break: %s", s->probe[k].name,
-                                s->method == METHOD_MPM ? "method mpm has no bonds (use pd or adaptive)"
-                                                        : "no material has an energy_release_rate, toughness or "
-                                                          "critical_stretch");
+            warnings_add_if_new(
+                to, "probe %s will have no result, because no bond can break: %s", s->probe[k].name,
+                s->method == METHOD_MPM
+                    ? "method: mpm has no bonds; set method: pd or adaptive"
+                    : "no material has an energy_release_rate, toughness or critical_stretch; give one of them");
 }
 
 /* Adds warnings to *to about cracks with prescribed growth in scene s that begin outside of all bodies (particles p) or
@@ -180,24 +179,24 @@ static void warn_of_growths(const struct scene *s, const struct particles *p, st
         const real outside = particle_distance(p, g->at), growth = g->speed * (s->duration - g->start);
         if (outside > s->horizon * s->spacing && p->n == p->n_body)
             warnings_add_if_new(to,
-                                "growth %s: its tip starts %.3g m from the nearest particle: check `at` and its unit "
-                                "(m if none is written)",
+                                "growth %s: its tip starts %.3g m from the nearest particle, outside all bodies; check "
+                                "`at` and its unit (m if none is written)",
                                 g->name, outside);
         if (g->start >= s->duration)
             warnings_add_if_new(to,
-                                "growth %s: starts at %.3g s, after the duration of %.3g s: check the unit of start (s "
-                                "if none is written)",
+                                "growth %s: starts at %.3g s, after the duration of %.3g s, so it has no effect; check "
+                                "the unit of start (s if none is written)",
                                 g->name, g->start, s->duration);
         else if (growth < s->spacing)
             warnings_add_if_new(to,
-                                "growth %s: at %.3g m/s it grows by %.3g m in the run, less than a spacing of %.3g m: "
-                                "check the units of speed (m/s) and duration",
+                                "growth %s: at %.3g m/s the crack grows by %.3g m in the run, less than a spacing of "
+                                "%.3g m; check the units of speed (m/s) and duration",
                                 g->name, g->speed, growth, s->spacing);
         if (g->speed > rayleigh && rayleigh > 0 && !scene_silences_warning(s, ACCEPT_RAYLEIGH))
             warnings_add_if_new(
                 to,
-                "growth %s: %.3g m/s is %.3g times the speed of Rayleigh waves, %.4g m/s, the limit for a crack that "
-                "opens: check the unit of speed (m/s); if this is intended, add accept: [rayleigh]",
+                "growth %s: %.3g m/s is %.3g times the speed of Rayleigh waves, %.4g m/s, the limit for an opening "
+                "crack; check the unit of speed (m/s); if this is intended, add accept: [rayleigh]",
                 g->name, g->speed, g->speed / rayleigh, rayleigh);
     }
 }
@@ -212,9 +211,8 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, longest_bond, warnings)) return;
     tips_make_at_precrack_ends(&tips, p, cells, s->crack, s->cracks, s->spacing, 0);
     if (!bonds_are_cut(b))
-        warnings_add_if_new(
-            warnings,
-            "the pre-cracks cut no bond: check that they are inside the body, and their unit (m if none is written)");
+        warnings_add_if_new(warnings, "the pre-cracks cut no bond and have no effect; check that they are inside the "
+                                      "body, and their unit (m if none is written)");
     else
         warn_of_fixed_cracks(s, p, loads, &tips, longest_bond, warnings);
     engine_warn_of_cracks_beyond_waves(s, p, loads, &tips, wave_speed, warnings);

@@ -105,12 +105,12 @@ static void warn_of_flight(const struct scene *s, const struct flight *f, int a,
     if (other < 0 || soonest <= s->duration) return;
     if (isfinite(soonest))
         warnings_add_if_new(to,
-                            "body %s reaches %s after %.3g s, but the duration is %.3g s: check its position (m if no "
-                            "unit is written) and velocity, or the duration",
+                            "body %s would reach %s after %.3g s, but the duration is %.3g s; check its position (m if "
+                            "no unit is written) and velocity, or the duration",
                             s->body[a].name, s->body[other].name, soonest, s->duration);
     else
         warnings_add_if_new(to,
-                            "body %s never reaches another body, because its velocity leads past %s or away from it: "
+                            "body %s never reaches another body, because its velocity leads past %s or away from it; "
                             "check its position and the sign of its velocity",
                             s->body[a].name, s->body[other].name);
 }

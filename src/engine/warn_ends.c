@@ -81,8 +81,8 @@ static void warn_of_end(const struct supported *a, const char *boundary, const c
     warnings_add_if_new(
         to,
         "boundary %s: the end of body %s at %c = %.6g m is in the middle of a cell of two spacings, so the support "
-        "acts as if the %.0f spacings of the body were %.0f: its stiffness is off by %+.2g %% in tension, %+.2g %% in "
-        "bending; make the length from the other end, or from mpm.origin, to %c = %.6g m an even number of spacings",
+        "acts as if the %.0f spacings of the body were %.0f. The stiffness is off by %+.2g %% in tension, %+.2g %% in "
+        "bending; make the length from the other end (or mpm.origin) to %c = %.6g m an even number of spacings",
         boundary, body, axis, a->end, length, length + off, 100 * tension, 100 * bending, axis, a->end);
 }
 

@@ -24,8 +24,8 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
     warnings_add_if_new(
         to,
         "body %s has %.0f row%s of particles along %c, so with pd.surface: moments it carries up to 1.8 times the "
-        "force of the continuum in tension and bending; with particles.spacing: %.3g m (%d rows) the error is 2 %% in "
-        "the plane, 12 %% in space; if this is intended, add accept: [particles]",
+        "force of the continuum in tension and bending. Set particles.spacing: %.3g m (%d rows) for an error of 2 %% "
+        "in the plane, 12 %% in space; if this is intended, add accept: [particles]",
         s->body[b].name, rows, rows > 1.5 ? "s" : "", "xyz"[axis], s -> spacing *rows / ROWS_ENOUGH, ROWS_ENOUGH);
 }
 
@@ -34,11 +34,11 @@ void engine_warn_of_uncorrected_faces(const struct scene *s, const struct partic
 {
     if (s->surface != SURFACE_MOMENTS || s->method != METHOD_PD || s->dim < 2) return;
     if (weights->residual > UNSOLVED)
-        warnings_add_if_new(warnings,
-                            "pd.surface: moments: the weights of bonds near faces have not converged (residual %.2g, "
-                            "required 1e-13): the stiffness near faces is between that of moments and that of none; "
-                            "use a larger particles.spacing, or pd.surface: volume",
-                            weights->residual);
+        warnings_add_if_new(
+            warnings,
+            "pd.surface: moments: the weights of bonds near faces have not converged (residual %.2g, required 1e-13): "
+            "the stiffness near faces is only partly corrected; use a larger particles.spacing, or pd.surface: volume",
+            weights->residual);
     for (int b = 0; b < s->bodies && p->n == p->n_body && !scene_silences_warning(s, ACCEPT_PARTICLES); b++)
         warn_of_thin(s, p, b, warnings);
 }

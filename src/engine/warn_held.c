@@ -18,7 +18,7 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
     const unsigned all = (1u << s->dim) - 1;
     if (!boundary_holds_at_rest(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all) return;
     warnings_add_if_new(to,
-                        "boundary %s holds all %lld particles, so nothing can move; check the units of its region (m "
+                        "boundary %s fixes all %lld particles, so nothing can move; check the units of its region (m "
                         "if none is written)",
                         b->name, (long long)l->n);
 }
@@ -70,7 +70,7 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
     warnings_add_if_new(
         to,
         "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s: the later one, %s, "
-        "moves %s; change their order, or give each a face or region of its own",
+        "moves %s; change their order, or give each boundary a face or region of its own",
         a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s", b->boundary->name,
         common == 1 ? "it" : "them");
 }
@@ -120,8 +120,8 @@ static void warn_of_idle_forces(const struct scene *s, const struct loads *loads
             if (!(idle > IDLE_SHARE * all)) continue;
             warnings_add_if_new(to,
                                 "boundary %s: %.3g %% of its force along %c acts on particles whose motion along %c a "
-                                "support prescribes, and does nothing: remove one of them, or give each a face or "
-                                "region of its own",
+                                "support prescribes, and has no effect there; remove the load or the support, or give "
+                                "each a face or region of its own",
                                 l->boundary->name, 100 * idle / all, "xyz"[d], "xyz"[d]);
         }
     memory_free(prescribed);

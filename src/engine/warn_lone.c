@@ -115,8 +115,8 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
         (lattice && fabs(distance / spacing - 1) > LATTICE_OFF))
         warnings_add_if_new(
             to,
-            "%.200s has no volumes: each particle gets that of the spacing of %.4g m, but nearest neighbours are %.4g "
-            "m apart, so masses and forces are wrong: use particles.spacing %.4g m, or a column volume",
+            "%.200s has no volumes, so each particle gets that of the spacing of %.4g m, but nearest neighbours are "
+            "%.4g m apart: masses and forces are wrong; set particles.spacing: %.4g m, or add a column volume",
             b->file, spacing, distance, distance);
 }
 
@@ -133,10 +133,11 @@ void engine_warn_of_isolated_particles(const struct scene *s, const struct cells
     for (int k = 0; k < s->bodies; k++) {
         if (lone[k].n == 0 || lone[k].all <= MASS_POINTS) continue;
         warnings_add_if_new(
-            warnings, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m: nothing holds %s%s",
+            warnings, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m, so nothing holds %s; %s",
             s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve",
             particle_position_text(p, lone[k].first, 6).text, lone[k].n == 1 ? "it" : "them",
-            scene_is_single_equilibrium(s) ? ", so there is no equilibrium; remove such particles" : "");
+            scene_is_single_equilibrium(s) ? "remove such particles, because no equilibrium exists with them"
+                                           : "check the shape or list there");
     }
     memory_free(lone);
 }

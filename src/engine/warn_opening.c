@@ -52,9 +52,8 @@ void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct part
     if (!isfinite(distance) || distance <= reach + s->horizon * s->spacing) return;
     warnings_add_if_new(
         warnings,
-        "duration: in %.3g s waves travel %.3g m, but from the loads to the nearest end of a crack it "
-        "is %.3g m, so that no crack can grow: use a duration of more than %.2g s; if this is intended, add "
-        "accept: [reach]",
+        "duration: in %.3g s waves travel %.3g m, but the nearest end of a crack is %.3g m from the loads, so no crack "
+        "can grow; use a duration of more than %.2g s; if this is intended, add accept: [reach]",
         s->duration, reach, distance, distance / wave_speed);
 }
 
@@ -95,10 +94,9 @@ void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct part
     }
     for (int k = 0; k < s->cracks_given && all && load; k++) all = lies_across(&s->crack[k], s->dim, load->face);
     if (!all || !load || scene_silences_warning(s, ACCEPT_GROWTH)) return;
-    warnings_add_if_new(warnings,
-                        "boundary %s: its traction of %.3g Pa on %c%c presses crack 1 shut, as all loads do, so that "
-                        "it cannot grow: one that opens it points outwards, %.3g Pa; if this is intended, add accept: "
-                        "[growth]",
-                        load->name, load->value[load->face], "xyz"[load->face], load -> side > 0 ? '+' : '-',
-                        -load->value[load->face]);
+    warnings_add_if_new(
+        warnings,
+        "boundary %s: its traction of %.3g Pa on %c%c closes crack 1, as all loads do, so the crack cannot grow; give "
+        "an outward traction, %.3g Pa, to open it; if this is intended, add accept: [growth]",
+        load->name, load->value[load->face], "xyz"[load->face], load -> side > 0 ? '+' : '-', -load->value[load->face]);
 }

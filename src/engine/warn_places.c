@@ -60,7 +60,7 @@ static void warn_of_overlap(const struct scene *s, const struct particles *p, in
     const char *name = s->body[inner].name, *other = s->body[outer].name;
     warnings_add_if_new(
         to,
-        "bodies %s and %s overlap: %lld particles of %s are inside %s, the deepest by %.3g m at (%s) m: move one body, "
+        "bodies %s and %s overlap: %lld particles of %s are inside %s, the deepest by %.3g m at (%s) m; move one body, "
         "or subtract its shape from the other; if this is intended, add accept: [contact]",
         name, other, (long long)found->n, name, other, found->depth, particle_position_text(p, found->deepest, 4).text);
 }
@@ -128,9 +128,9 @@ static void warn_of_empty_parts(const struct scene *s, const struct particles *p
             if (!held[k] && !region_beyond_mirror(s, &body->part[k].region))
                 warnings_add_if_new(
                     to,
-                    "body %s: its part %d, of material %s, holds no particle, because it is outside "
-                    "the body, thinner than the spacing, or covered by a later part: check its region and the unit (m "
-                    "if none is written), or remove the part: its material counts in the time step",
+                    "body %s: its part %d, of material %s, holds no particle, because it is outside the body, thinner "
+                    "than the spacing, or covered by a later part: check its region and the unit (m if none is "
+                    "written), or remove the part, because its material may shorten the time step",
                     body->name, k + 1, s->material[body->part[k].material].name);
         memory_free(held);
     }
@@ -164,13 +164,13 @@ static void warn_of_mirror_beside(const struct scene *s, const struct particles 
     const real reach = p->n_free > 0 ? 1.5 * s->cell : s->cell + 0.5; /* of nodes of the grid, of the mesh */
     const bool nodes = s->method != METHOD_PD && distance < (reach - ON_SURFACE) * s->spacing;
     const bool meets = s->contact_between == CONTACT_ALL && scene_is_dynamic(s);
-    const char *effect = bonds || nodes ? "holds the body too softly across the gap"
-                         : meets        ? "only acts on the body by contact with its mirror image"
+    const char *effect = bonds || nodes ? "holds the body too softly"
+                         : meets        ? "acts on the body only by contact with the mirror image"
                                         : "has no effect";
     warnings_add_if_new(
         to,
-        "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, but "
-        "should be half a spacing (%.3g m) away: it %s (%s); check its position and unit (m if none is written)",
+        "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, but should be half a "
+        "spacing (%.3g m) away, so it %s (%s); check its position and unit (m if none is written)",
         mirror->name, "xyz"[mirror->axis], mirror -> at, distance, 0.5 * s -> spacing, effect,
         particles_extent_text(p).text);
 }
@@ -186,13 +186,14 @@ void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struc
     }
     for (int k = 0; k < s->initials; k++)
         if (!initial_is_met(s, p, k))
-            warnings_add_if_new(
-                warnings,
-                "initial[%d]: no particle is in its region; %s: check the region and its unit (m if none is written)",
-                k, particles_extent_text(p).text);
+            warnings_add_if_new(warnings,
+                                "initial[%d]: no particle is in its region, so it has no effect (%s); check the region "
+                                "and its unit (m if none is written)",
+                                k, particles_extent_text(p).text);
     warn_of_empty_parts(s, p, warnings);
     if (s->has_pd_region && !region_holds_particle(s, p, &s->pd_region, -1))
         warnings_add_if_new(warnings,
-                            "pd.region: no particle is in it; %s: check the region and its unit (m if none is written)",
+                            "pd.region contains no particle, so it has no effect (%s); check the region and its unit "
+                            "(m if none is written)",
                             particles_extent_text(p).text);
 }

@@ -78,7 +78,7 @@ static void warn_of_added(const struct scene_body *b, int k, int dim, struct war
     if (!point_found(&b->shape.solid[k], &before, dim, false, box.low, box.high))
         warnings_add_if_new(to,
                             "body %s: solid %d of its shape adds nothing, because the solids before it contain it; to "
-                            "cut it out, use subtract: {...}",
+                            "cut this solid out, use subtract: {...}",
                             b->name, k + 1);
 }
 
@@ -104,8 +104,8 @@ void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *war
             warnings_add_if_new(
                 warnings,
                 "%s: about %.2g of the %.4g m^%d that its %lld shells enclose are enclosed twice but filled once, "
-                "because shells overlap or are inside each other with normals that all point outwards: the shell of a "
-                "cavity needs normals into the cavity, or a file of its own and subtract",
+                "because shells overlap or are nested with all normals outwards; for a cavity turn the normals of its "
+                "shell into the cavity, or put it into a file of its own and use subtract",
                 printable_name(f->path[0]).text, again, h->volume, h->dim, (long long)h->shells);
     }
 }

@@ -86,8 +86,8 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
     if (change > d->limit)
         warnings_add_if_new(to,
                             "boundary %s: its velocity changes by up to %.3g m/s within %.3g s, the time a wave takes "
-                            "across its body; from %.3g m/s on (critical stretch x wave speed) bonds beside it break: "
-                            "change it more slowly; if an impact is intended, add accept: [speed]",
+                            "across its body; from %.3g m/s on (critical stretch x wave speed) bonds beside it break; "
+                            "change the velocity more slowly; if an impact is intended, add accept: [speed]",
                             d->load->boundary->name, change, within, d->limit);
 }
 
@@ -115,12 +115,12 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
             warnings_add_if_new(
                 warnings,
                 "boundary %s: its displacement grows by up to %.3g m/s; from %.3g m/s on (critical stretch x wave "
-                "speed) bonds beside it break: use a longer time; if an impact is intended, add accept: [speed]",
+                "speed) bonds beside it break; use a longer time; if an impact is intended, add accept: [speed]",
                 s->boundary[b].name, speed, limit);
         else
             warnings_add_if_new(warnings,
                                 "boundary %s: it moves its particles up to %.3g m/s faster than they are at t = 0; "
-                                "from %.3g m/s on (critical stretch x wave speed) bonds beside it break: use a lower "
+                                "from %.3g m/s on (critical stretch x wave speed) bonds beside it break; use a lower "
                                 "velocity; if an impact is intended, add accept: [speed]",
                                 s->boundary[b].name, jump, limit);
     }
@@ -132,7 +132,7 @@ void engine_warn_of_particles_faster_than_waves(const struct particles *p, real 
     const real speed = particles_largest_speed_of_all(p);
     if (speed > wave_speed)
         warnings_add_if_new(warnings,
-                            "particles start with %.3g m/s, %.3g times the wave speed, but a run stops where particles "
-                            "are faster than waves: check the initial velocities and their units",
+                            "particles start with %.3g m/s, %.3g times the wave speed, but a run stops when particles "
+                            "are faster than waves; check the initial velocities and their units",
                             speed, speed / wave_speed);
 }

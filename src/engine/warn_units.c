@@ -98,7 +98,7 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
     else if (!scene_silences_warning(s, ACCEPT_WAVES))
         warnings_add_if_new(to,
                             "%s: its Poisson's ratio of %.6g makes waves as fast as %.3g m/s, %.3g times as fast as at "
-                            "0.4: check it; if this is intended, add accept: [waves]",
+                            "0.4; check this value; if this is intended, add accept: [waves]",
                             subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
@@ -120,10 +120,11 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
     if (!l->given || scene_silences_warning(s, ACCEPT_YIELD)) return;
     for (size_t k = 0; k < COUNT_OF(constant); k++)
         if (constant[k].value > 0 && constant[k].value < HARDENING_LEAST * a->young)
-            warnings_add_if_new(to,
-                                "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so it does not harden: "
-                                "check the unit (Pa if none is written); if this is intended, add accept: [yield]",
-                                subject, constant[k].key, constant[k].value);
+            warnings_add_if_new(
+                to,
+                "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so the material hardly hardens; check "
+                "the unit (Pa if none is written); if this is intended, add accept: [yield]",
+                subject, constant[k].key, constant[k].value);
 }
 
 /* Adds a warning to *to if material m of scene s is stiff and has a toughness (E G_c)^(1/2) below that of any solid but
@@ -220,8 +221,8 @@ static void units_of_times(const struct scene *s, real dt, struct warnings *to)
 {
     static const char *const early[] = {[TIME_STEP] = "it never acts",
                                         [TIME_PULSE] = "it never acts",
-                                        [TIME_RAMP] = "it acts at once, as if without time",
-                                        [TIME_TABLE] = "it has its last value at once"};
+                                        [TIME_RAMP] = "the load acts in full at once",
+                                        [TIME_TABLE] = "the load has its last value at once"};
     char subject[NAME_MAX_LENGTH + 16];
     for (int b = 0; b < s->boundaries; b++) {
         const struct time_function *f = &s->boundary[b].time;
@@ -388,8 +389,8 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     if (stress == 0 && scene_has_moving_rigid_body(s)) return; /* it loads by contact alone */
     if (stress == 0 && !scene_silences_warning(s, ACCEPT_STRESS)) {
         warnings_add_if_new(to,
-                            "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g "
-                            "s; check their values and times (s); if this is intended, add accept: [stress]",
+                            "nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
+                            "their values and times (s); if this is intended, add accept: [stress]",
                             s->duration);
         return;
     }

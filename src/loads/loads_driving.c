@@ -59,10 +59,11 @@ void load_displacement_of_particle(const struct load *l, const struct particles 
 status boundary_check_displacement_known(const struct boundary *b)
 {
     if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_formula_uses_time(b)) return OK;
-    return status_set(REFUSED,
-                      "boundary %s: a velocity given as a formula of t cannot be integrated here (solver or "
-                      "mpm.frame); give a displacement as a formula of t, or a velocity times a function of time",
-                      b->name);
+    return status_set(
+        REFUSED,
+        "boundary %s: a velocity that is a formula of t cannot be used with this solver or mpm.frame, which need the "
+        "displacement; give a displacement as a formula of t, or a velocity with the key time",
+        b->name);
 }
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */

@@ -93,7 +93,7 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
     }
     if (!(below && above)) return OK;
     return status_set(REFUSED,
-                      "boundary %s: the mirror plane %c = %.6g m cuts the body; move it to the border of the body",
+                      "boundary %s: the mirror plane %c = %.6g m cuts the body; move the plane to a face of the body",
                       b->name, "xyz"[b->axis], b -> at);
 }
 
@@ -130,8 +130,9 @@ static status mirrors_differ(const struct boundary *b, int n, real spacing)
     const int k = close_mirrors(b, n, 1e-6 * spacing, &m);
     if (k < 0) return OK;
     return status_prepend_location(
-        b[k].place, status_set(REFUSED, "boundary %s: its mirror plane is also that of %s; remove one of the two",
-                               b[k].name, b[m].name));
+        b[k].place,
+        status_set(REFUSED, "boundary %s: its mirror plane is also that of boundary %s; remove one of the two",
+                   b[k].name, b[m].name));
 }
 
 status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length)
@@ -141,10 +142,11 @@ status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length
     const int k = close_mirrors(b, l->n, bond_length - l->spacing, &m);
     if (k < 0) return OK;
     return status_prepend_location(
-        b[k].place, status_set(REFUSED,
-                               "boundary %s: the mirror is %.6g m from that of %s; bonds of %.6g m need more than %.6g "
-                               "m between them: move one, or use a smaller horizon",
-                               b[k].name, fabs(b[k].at - b[m].at), b[m].name, bond_length, bond_length - l->spacing));
+        b[k].place,
+        status_set(REFUSED,
+                   "boundary %s: its mirror plane is %.6g m from that of boundary %s, but bonds of %.6g m need more "
+                   "than %.6g m between the planes; move one of them, or use a smaller particles.horizon",
+                   b[k].name, fabs(b[k].at - b[m].at), b[m].name, bond_length, bond_length - l->spacing));
 }
 
 status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays)

@@ -36,7 +36,9 @@ static status formula_finite(const struct load *l, const struct particles *p, re
         for (int64_t k = 0; k < l->n; k++) {
             const int32_t i = l->particle[k];
             if (isfinite(formula_at(b, d, p, i, t))) continue;
-            return status_set(fault, "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m, %.4g s",
+            return status_set(fault,
+                              "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m and t = %.4g s; "
+                              "check its divisions and powers",
                               b->name, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0,
                               boundary_evaluation_time(b, t));
         }

@@ -119,7 +119,7 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
     if (!any)
         s = status_set(
             REFUSED,
-            "boundary %s: no particle is in its region; %s: check the region and its unit (m if none is written)",
+            "boundary %s: no particle is in its region (%s); check the region and its unit (m if none is written)",
             b->name, particles_extent_text(p).text);
     else if (follows)
         s = load_surface_make(l, &faces, boundary, boundaries, p, spacing);

@@ -161,7 +161,7 @@ status load_find_particles_of_boundary(struct load *l, const struct boundary *b,
     if (!any && (boundary_applies_force(b) || needs_face(b)))
         return status_set(
             REFUSED,
-            "boundary %s: no particle is in its region; %s: check the region and its unit (m if none is written)",
+            "boundary %s: no particle is in its region (%s); check the region and its unit (m if none is written)",
             b->name, particles_extent_text(p).text);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,

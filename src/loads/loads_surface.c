@@ -121,8 +121,8 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
         const bool on = place_on_lattice(s, (int32_t)i, k);
         s->site[s->n] = (struct site){site_key(s->p->body[i], k, s->p->dim), (int32_t)i};
         if (!on || s->site[s->n++].key < 0)
-            return status_set(REFUSED, "follow: true needs particles on a regular lattice of the spacing; set follow: "
-                                       "false, or particles.irregularity: 0 without a list");
+            return status_set(REFUSED, "follow: true needs particles on a regular lattice; set follow: false, or use a "
+                                       "shape in place of a particle list, and particles.irregularity: 0");
     }
     array_sort(s->site, s->n, sizeof *s->site, by_key);
     return OK;
@@ -147,7 +147,7 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
                 s->all[m].place,
                 status_set(REFUSED,
                            "boundary %s: follow: true needs mirror planes midway between particles; move the plane to "
-                           "half a spacing from the first particles, or set follow: false",
+                           "half a spacing from the nearest particles, or set follow: false",
                            s->all[m].name));
         }
     return OK;

@@ -91,10 +91,11 @@ static void warn_of_plane_apart(const struct reference_frame *r, const struct pa
 {
     const struct boundary *b = plane_with_fit(p, s, body, r->hollow.absent, PLANE_APART);
     if (b)
-        warnings_add_if_new(to,
-                            "boundary %s: body %s does not touch this plane of symmetry at the start, and in the "
-                            "reference frame passes through it later; if they meet, choose mpm.frame: current",
-                            b->name, s->body[body].name);
+        warnings_add_if_new(
+            to,
+            "boundary %s: body %s does not touch this plane of symmetry at the start, and in the reference frame would "
+            "later pass through it; if the body can reach the plane, set mpm.frame: current",
+            b->name, s->body[body].name);
 }
 
 /* Adds warnings to warning_list of planes of symmetry of run e that do not fit the nodes. On a background grid these
@@ -109,8 +110,8 @@ void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings 
             !mirror_plane_fits_grid_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
             warnings_add_if_new(
                 warning_list,
-                "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: this causes "
-                "errors of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",
+                "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: displacements "
+                "are 15 to 20 %% off, and refinement hardly helps; move the nodes by mpm.origin or mpm.cell",
                 s->boundary[b].name);
     for (int body = 0; body < s->bodies && s->method != METHOD_PD && scene_is_dynamic(s); body++)
         if (e->frame->choice[body].reference) warn_of_plane_apart(e->frame, &e->part, s, body, warning_list);
@@ -143,7 +144,10 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
         const enum grid_frame said = s->body[b].frame;
         const char *why = scene_why_reference_frame_unsupported(s, b);
         if (why && said == FRAME_REFERENCE)
-            return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
+            return status_set(
+                REFUSED,
+                "mpm.frame: body %s cannot be in the reference frame: %s; set mpm.frame: current, or change this",
+                s->body[b].name, why);
         take_frame(&r->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene sets this" : s->body[b].frame_reason);
     }

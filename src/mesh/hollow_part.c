@@ -26,8 +26,8 @@ const char *scene_why_all_particles_needed(const struct scene *s)
     if (s->fill == FILL_ALL) return "the scene sets this";
     if (s->method == METHOD_PD || scene_is_single_equilibrium(s) || s->levels == 0) return "there are no coarse cells";
     if (s->bodies != 1 || s->rigids > 0) return "bodies may touch";
-    if (s->body[0].file) return "they come from a list";
-    if (scene_strength_scatters(s)) return "strength scatters from place to place";
+    if (s->body[0].file) return "the particles come from a list";
+    if (scene_strength_scatters(s)) return "the strength varies in space (scatter)";
     if (s->body[0].parts > 0) return "the body has parts of another material";
     if (s->body[0].frame == FRAME_CURRENT || scene_why_reference_frame_not_chosen_by_auto(s, 0))
         return "the body is in the current frame";
@@ -36,17 +36,18 @@ const char *scene_why_all_particles_needed(const struct scene *s)
     if (s->growths > 0) return "cracks grow by the key growth";
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts)
         return "peridynamic particles may become material points again";
-    if (s->method == METHOD_ADAPTIVE && s->surface == SURFACE_MOMENTS) return "pd.surface: moments needs all faces";
+    if (s->method == METHOD_ADAPTIVE && s->surface == SURFACE_MOMENTS)
+        return "pd.surface: moments needs the particles at all faces";
     if (s->contact_friction > 0) return "faces slide with friction";
     for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_PRESSURE) return "a pressure needs all faces";
+        if (s->boundary[b].kind == BOUNDARY_PRESSURE) return "a pressure needs the particles at all faces";
     for (int k = 0; k < s->probes; k++) {
         const enum probe_kind kind = s->probe[k].kind;
         const bool moves = kind == PROBE_SIF && isfinite(s->material[0].critical_stretch);
-        if (moves) return "the ring of a sif probe may move";
+        if (moves) return "the ring of a sif probe may move with the crack tip";
         if (kind != PROBE_SIF && kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION &&
             kind != PROBE_POINT)
-            return "a probe measures many of them";
+            return "a probe measures many particles";
     }
     return NULL;
 }
@@ -62,10 +63,9 @@ static status box_find(struct grid *box, const struct scene *s)
     grid_choose_reference_node_position(s, from, site, true, box->anchor);
     return grid_set_box_if_not_too_large(box, from, to, INT32_MAX)
                ? OK
-               : status_set(
-                     REFUSED,
-                     "body %s: too large for its spacing, with more than 2e9 cells; use a larger particles.spacing",
-                     s->body[0].name);
+               : status_set(REFUSED,
+                            "body %s: it needs more than 2e9 cells at this spacing; use a larger particles.spacing",
+                            s->body[0].name);
 }
 
 /* Returns true if a pre-crack of scene s is so near the position X[dim] [m] that particles are needed there: nearer

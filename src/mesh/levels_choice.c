@@ -209,17 +209,18 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 4, ACROSS, want, sizeof want);
     if (c->why == LEVELS_AT_REST)
-        snprintf(text, capacity, "no coarse cells: they save no time with a static solver");
+        snprintf(text, capacity, "no coarse cells: they save time only in explicit steps (solver: explicit)");
     else if (c->why == LEVELS_NO_MESH)
         snprintf(text, capacity,
-                 "no coarse cells: they need material points in the reference frame, and there are none");
+                 "no coarse cells: they need material points in the reference frame, and this scene has none");
     else if (c->why == LEVELS_FEW)
         snprintf(text, capacity,
-                 "no coarse cells: the body has only %lld particles, and they save time only from %d particles on",
+                 "no coarse cells: the body has only %lld particles, and coarse cells save time only with %d or more",
                  (long long)c->particles, PAYS);
     else if (c->why == LEVELS_DAMPED)
         snprintf(text, capacity,
-                 "no coarse cells: they have time steps of their own, but damping needs one for the whole body");
+                 "no coarse cells: they have longer time steps, but damping needs one step for the whole body; remove "
+                 "damping to get them");
     else if (c->why == LEVELS_LONG_STEP)
         snprintf(text, capacity,
                  "no coarse cells: time.step is %.2f of the critical time step, but coarse cells are stable only up to "
@@ -227,12 +228,13 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
                  c->step_share, LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
         snprintf(text, capacity,
-                 "no coarse cells: no part of the body is %d spacings thick, which %d cells of 4 spacings need",
+                 "no coarse cells: they need parts at least %d spacings thick (%d cells of 4 spacings), and the body "
+                 "has none",
                  4 * CELLS_ACROSS, CELLS_ACROSS);
     else if (c->why == LEVELS_THIN)
         snprintf(
             text, capacity,
-            "coarse cells of up to %d spacings: no part of the body is thick enough for %d cells of twice that size",
+            "coarse cells of up to %d spacings: larger ones need parts thick enough for %d cells of twice that size",
             edge, CELLS_ACROSS);
     else if (c->automatic == 0)
         snprintf(text, capacity, "no coarse cells: %s, but cells of 4 spacings %s", load, want);
@@ -241,8 +243,8 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
                  load);
     else
         snprintf(text, capacity,
-                 "coarse cells of up to %d spacings, the largest that resolve the waves (%s) or the body, which is "
-                 "%.3g spacings thick: at least %d such cells",
+                 "coarse cells of up to %d spacings, the largest that resolve the waves (%s) or fit into the body, "
+                 "which is %.3g spacings thick, at least %d times",
                  edge, load, c->across, ACROSS);
 }
 
@@ -276,8 +278,8 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t capaci
     for (int d = 0; d < g->dim; d++) at[d] = grid_node_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
     snprintf(text, capacity,
              "mpm.levels: %d makes coarse cells of %d spacings in thin parts, such as at (%.4g, %.4g, %.4g) m, with "
-             "fewer than %d cells across the part (%.0f %% of all coarse cells): such parts bend too stiffly, and "
-             "natural frequencies are about 5 %% too high; with mpm.levels: auto thin parts have no coarse cells",
+             "fewer than %d cells across (%.0f %% of all coarse cells). Such parts bend too stiffly, with natural "
+             "frequencies about 5 %% too high; set mpm.levels: auto, which makes no coarse cells there",
              r->levels.n, 2 << level, at[0], at[1], at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
     return true;
 }
@@ -295,7 +297,7 @@ bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const stru
     want_text(c, 2 << c->levels, ACROSS_LEAST, want, sizeof want);
     snprintf(
         reason, capacity,
-        "mpm.levels: %d makes coarse cells of %d spacings, but %s: cells of this size %s; use mpm.levels: %d or auto",
+        "mpm.levels: %d makes coarse cells of %d spacings, but %s: cells of this size %s; set mpm.levels: %d or auto",
         c->levels, 2 << c->levels, load, want, levels);
     return true;
 }

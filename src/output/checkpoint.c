@@ -52,10 +52,16 @@ static status entry_restore(struct archive *a, const char *name, void *data, siz
     entry_path(path, sizeof path, name);
     int64_t stored = hdf_dataset_size(f, path);
     if (stored != (int64_t)size)
-        return status_set(FAILED, "the checkpoint's entry %s has %lld bytes where this program needs %zu", name,
-                          (long long)stored, size);
+        return status_set(FAILED,
+                          "cannot resume: entry %s of the checkpoint has %lld bytes, but this program needs %zu; "
+                          "restore the file from a copy, or start again with --overwrite",
+                          name, (long long)stored, size);
     hdf_read_rows(f, path, HDF_U8, stored, data);
-    return f->failed ? status_set(FAILED, "the checkpoint's entry %s cannot be read", name) : OK;
+    return f->failed ? status_set(FAILED,
+                                  "cannot resume: entry %s of the checkpoint cannot be read; restore the file from a "
+                                  "copy, or start again with --overwrite",
+                                  name)
+                     : OK;
 }
 
 static int64_t checkpoint_entry_size(struct archive *a, const char *name)
@@ -152,7 +158,9 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
     struct archive a = archive_of(&f, false);
     status s;
     if (f.failed)
-        s = status_set(FAILED, "cannot resume: %s is not a checkpoint of this program; start again with --overwrite",
+        s = status_set(FAILED,
+                       "cannot resume: %s is not a checkpoint of this program; restore it from a copy, or start again "
+                       "with --overwrite",
                        path);
     else if (version != CHECKPOINT_VERSION)
         s = status_set(FAILED,
@@ -166,7 +174,10 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
         s = archive_all(context, &a);
     hdf_close(&f);
     crash_message_set_file_in_use(NULL);
-    if (f.failed && f.cause) return status_set(FAILED, "cannot resume: cannot read %s: %s", path, strerror(f.cause));
+    if (f.failed && f.cause)
+        return status_set(
+            FAILED, "cannot resume: %s cannot be read (%s); restore it from a copy, or start again with --overwrite",
+            path, strerror(f.cause));
     return s;
 }
 
@@ -177,8 +188,10 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
     if (!fault) return state_read(newest.text, scene_text, save_or_load_all, context);
     const char *older_fault = file_describe_damage(previous.text);
     if (older_fault)
-        return status_set(FAILED, "cannot resume: in %s %s %s and %s %s; start again with --overwrite", o->folder,
-                          newest_name, fault, previous_name, older_fault);
+        return status_set(FAILED,
+                          "cannot resume: in the folder %s %s %s and %s %s; restore one of the two from a copy, or "
+                          "start again with --overwrite",
+                          o->folder, newest_name, fault, previous_name, older_fault);
     fprintf(stderr, "%s %s: resuming from %s\n", printable_name(newest.text).text, fault, previous_name);
     TRY(state_read(previous.text, scene_text, save_or_load_all, context));
     /* Rename the damaged file: the next checkpoint would otherwise replace the whole one by it. */

@@ -49,7 +49,8 @@ static status find_bar(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     struct bar *b = q->bar;
-    if (p->dim != 1) return refuse(q, "compares with the solution of a bar, which has one dimension; set space: line");
+    if (p->dim != 1)
+        return refuse(q, "compares with the solution of a bar in one dimension; set space: line, or remove this probe");
     if (p->n < 3) return refuse(q, "the bar has fewer than three particles; use a smaller particles.spacing");
     for (int64_t i = 1; i < p->n; i++)
         if (p->material[i] != p->material[0])
@@ -182,8 +183,8 @@ static status find_load(struct probe *q, const struct observed_run *o)
         q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
         return starts_with_pulses(&q->bar->exact, o->part)
                    ? OK
-                   : refuse(q, "the initial state is not that of its pulses alone, away from the ends; remove other "
-                               "initial states, or move the pulses");
+                   : refuse(q, "the initial state must be pulses alone, away from the ends; remove other initial "
+                               "states, or move the pulses");
     }
     if (!probes_bar_make_at_rest(o->part))
         return refuse(q, "the bar moves or is strained at the start; let it start at rest");
@@ -191,8 +192,8 @@ static status find_load(struct probe *q, const struct observed_run *o)
     if (q->request.form == EXACT_STEP_BAR) return OK;
     if (!material_yields(m)) return refuse(q, "the material does not yield; add material.yield_stress");
     if (m->law.given && (m->law.flow != FLOW_LINEAR || m->law.kinematic.modulus > 0))
-        return refuse(q, "its analytical solution is for yield_stress and yield_tangent, but the material has another "
-                         "law; use these keys");
+        return refuse(q, "the analytical solution is for a material with yield_stress and yield_tangent; give these "
+                         "keys in place of another law");
     if (fabs(q->bar->exact.load) > m->yield_stress && !(m->yield_tangent > 0))
         return refuse(q, "without hardening there is no plastic front; add material.yield_tangent");
     return OK;

@@ -92,7 +92,7 @@ static status bind_point(struct probe *q, const struct observed_run *o)
     q->list[q->n++] = probe_find_nearest_particle(o, q->request.at);
     if (q->list[0] >= 0) return OK;
     return status_set(REFUSED,
-                      "probe \"%s\": the point (%s) m is outside the bodies; %s: check its coordinates and their unit "
+                      "probe \"%s\": the point (%s) m is outside the bodies (%s); check its coordinates and their unit "
                       "(m if none is written)",
                       q->request.name, position_text(q->request.at, o->part->dim, 6).text,
                       particles_extent_text(o->part).text);
@@ -106,7 +106,7 @@ static status bind_line(struct probe *q, const struct observed_run *o)
     int dim = o->part->dim, inside = 0;
     real X[DIM_MAX];
     if (q->request.points < 1)
-        return status_set(REFUSED, "probe \"%s\": stations: 0 positions on its line are too few; give at least 1",
+        return status_set(REFUSED, "probe \"%s\": stations is 0, so its line has no position; give at least 1",
                           q->request.name);
     q->list = NEW("probes.list", q->request.points, int32_t);
     for (; q->n < q->request.points; q->n++) {
@@ -117,7 +117,7 @@ static status bind_line(struct probe *q, const struct observed_run *o)
     if (inside > 0) return OK;
     return status_set(
         REFUSED,
-        "probe \"%s\": the whole line is outside the bodies; %s: check its ends and their unit (m if none is written)",
+        "probe \"%s\": the whole line is outside the bodies (%s); check its ends and their unit (m if none is written)",
         q->request.name, particles_extent_text(o->part).text);
 }
 
@@ -135,7 +135,7 @@ static status bind_region(struct probe *q, const struct observed_run *o)
     if (q->n > 0) return OK;
     return status_set(
         REFUSED,
-        "probe \"%s\": its region holds no particle: check its coordinates and their unit (m if none is written)",
+        "probe \"%s\": its region contains no particle; check its coordinates and their unit (m if none is written)",
         q->request.name);
 }
 
@@ -150,18 +150,18 @@ static status bind_support(const struct probe *q, const struct observed_run *o)
         bool has_reaction = b->kind == BOUNDARY_VELOCITY || (o->in_steps && boundary_applies_force(b));
         if (strcmp(b->name, q->request.boundary) == 0 && has_reaction) return OK;
         if (strcmp(b->name, q->request.boundary) == 0)
-            return status_set(
-                REFUSED,
-                "probe \"%s\": boundary \"%s\" prescribes no motion%s, so it has no reaction; name another one",
-                q->request.name, b->name,
-                o->in_steps                 ? " and no force"
-                : boundary_applies_force(b) ? " (its force is given in the scene)"
-                                            : "");
+            return status_set(REFUSED,
+                              "probe \"%s\": boundary \"%s\" prescribes no motion%s, so it has no reaction; name a "
+                              "boundary that does",
+                              q->request.name, b->name,
+                              o->in_steps                 ? " and no force"
+                              : boundary_applies_force(b) ? " (its force is given in the scene)"
+                                                          : "");
         if (has_reaction && used < sizeof known)
             used += (size_t)snprintf(known + used, sizeof known - used, "%s\"%s\"", used > 0 ? ", " : "", b->name);
     }
-    return status_set(REFUSED, "probe \"%s\": no boundary is named \"%s\"; there are: %s", q->request.name,
-                      q->request.boundary, used > 0 ? known : "none");
+    return status_set(REFUSED, "probe \"%s\": no boundary is named \"%s\"; give one of these names: %s",
+                      q->request.name, q->request.boundary, used > 0 ? known : "none");
 }
 
 /* Sets q->growth to the index of the growing crack of run o that GROWTH probe q measures: the crack that the probe

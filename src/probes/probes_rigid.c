@@ -79,8 +79,9 @@ status rigid_probe_store_initial_motion(struct probe *q, const struct observed_r
 {
     struct rigid_memory *m = &q->memory.rigid;
     if (o->part->dim != 2)
-        return status_set(REFUSED, "probe \"%s\": it needs space: plane stress or plane strain; remove it",
-                          q->request.name);
+        return status_set(
+            REFUSED, "probe \"%s\" needs space: plane stress or plane strain; set one of these, or remove the probe",
+            q->request.name);
     probes_rigid_turn(q, o->part, &m->spin, &m->spin_scale, &m->kinetic);
     return OK;
 }

@@ -79,8 +79,7 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
         const struct growth_rule *g = o->growth[k].rule;
         if (strcmp(g->probe, r->name) == 0 && k != w->growth)
             return status_set(
-                REFUSED,
-                "probe \"%s\": it controls %s but measures the tip at (%.6g, %.6g) m; set at: [%.6g m, %.6g m]",
+                REFUSED, "probe \"%s\" controls %s, but measures the tip at (%.6g, %.6g) m; set at: [%.6g m, %.6g m]",
                 r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
     }
     return OK;
@@ -264,7 +263,9 @@ status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_ru
 {
     const struct probe_request *r = &q->request;
     if (o->part->dim != 2)
-        return status_set(REFUSED, "probe \"%s\": it needs space: plane stress or plane strain; remove it", r->name);
+        return status_set(
+            REFUSED, "probe \"%s\" needs space: plane stress or plane strain; set one of these, or remove the probe",
+            r->name);
     struct sif_tracked *w = q->sif = NEW("sif", 1, struct sif_tracked);
     TRY(find_tip(w, r, o));
     make_contours(w, r, o);
@@ -436,15 +437,15 @@ bool sif_probe_factors_are_meaningful(const struct probe *q)
  * the sample [s]. */
 static void describe_meaningless_factors(const struct probe *q, real t, char *text, size_t size)
 {
-    char why[160] = "its ring leaves the body";
+    char why[200] = "its ring leaves the body";
     if (!isnan(q->memory.factors[0]))
         snprintf(why, sizeof why,
-                 "its contours differ by %.3g %% (contour_spread), more than %.3g %%, as where a crack "
-                 "branches or kinks within them or K is near 0",
+                 "values of its contours differ by %.3g %% (contour_spread), more than %.3g %%, as happens if the "
+                 "crack branches or kinks within them or K is near 0",
                  100 * q->memory.factors[SIF_FIGURES - 1], 100 * SPREAD_MOST);
     snprintf(text, size,
-             "probe %s: K_I, K_II and J have no value at t = %.4g s and wherever this happens again: %s; a smaller "
-             "probes.sif.outer, now %.3g m, may help",
+             "probe %s: K_I, K_II and J have no value at t = %.4g s, nor later in the same case: %s; use a smaller "
+             "probes.sif.outer (now %.3g m)",
              q->request.name, t, why, q->sif->contour[0].outer);
 }
 

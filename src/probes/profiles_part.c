@@ -38,7 +38,7 @@ void profiles_warn_of_missing_files(const struct probes *s, const struct output 
     const char *more = "";
     char others[48];
     if (lost > 1) snprintf(others, sizeof others, ", and %lld more profiles are", (long long)lost - 1), more = others;
-    snprintf(text, sizeof text, "%s is missing%s: run the scene again to write it", first, more);
+    snprintf(text, sizeof text, "%s is missing%s; run the scene again to write it", first, more);
     warnings_add_and_print(warning_list, text);
 }
 

@@ -111,9 +111,9 @@ static status equilibrium_failed(const struct statics *s, const struct particles
     if (s->balance.n > 0) unknown_compute_reference_position(s, p, mesh, s->balance.worst, X);
     return status_set(
         FAILED,
-        "load step %lld, t = %.6g s: no equilibrium: the out-of-balance force stays at %.3g of the load (at most %.3g "
-        "is allowed), most of it near x = %.6g, y = %.6g, z = %.6g m: check that every part is held and that the body "
-        "can carry the loads, or use %ssteps.control: energy, more steps or a larger solver_tolerance",
+        "load step %lld, t = %.6g s: no equilibrium: the out-of-balance force stays at %.3g of the load (allowed: "
+        "%.3g), most of it near x = %.6g, y = %.6g, z = %.6g m. Check that every part is held and that the body can "
+        "carry the loads, or use %ssteps.control: energy, more load steps (steps.number) or a larger solver_tolerance",
         (long long)step, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
         p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
@@ -207,8 +207,8 @@ static status solve_whole(struct run *e, real t)
         trial_equilibrium_end(e, &saved, false, NULL);
     }
     return status_set(FAILED,
-                      "load step %lld, t = %.6g s: crack faces pass through each other before equilibrium is reached: "
-                      "use more load steps or a larger spacing",
+                      "load step %lld, t = %.6g s: crack faces pass through each other before equilibrium is reached; "
+                      "use more load steps (steps.number) or a larger particles.spacing",
                       (long long)e->clock.step + 1, t);
 }
 

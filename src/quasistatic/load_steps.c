@@ -323,7 +323,7 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
     char text[200];
     for (int64_t i = 0; i < p->n && p->plastic_correction[0]; i++) most = real_max(most, p->plastic_strain[i]);
     snprintf(text, sizeof text,
-             "the plastic strain has reached %.2g; load steps assume small strains, of a few percent: check that the "
+             "the plastic strain has reached %.2g; load steps assume small strains, of a few percent; check that the "
              "body can carry its loads, or use smaller loads or solver: explicit",
              most);
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
@@ -339,9 +339,8 @@ static void warn_of_flow_in_one_cell(struct warnings *to, const struct particles
         const struct law *law = &m[p->material[i]].law;
         if (!(p->plastic_strain[i] > 0) || law->flow != FLOW_LINEAR) continue;
         if (law->hardening > 0 || law->kinematic.modulus > 0) continue;
-        warnings_add_and_print(to,
-                               "a bar that flows without hardening has no unique plastic strain: one cell takes the "
-                               "whole of it; forces are right; set yield_tangent to a thousandth of young");
+        warnings_add_and_print(to, "a bar that yields without hardening has no unique plastic strain: all of it is in "
+                                   "one cell, although forces are right; set yield_tangent to a thousandth of young");
         return;
     }
 }
@@ -353,8 +352,8 @@ static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
     for (int a = 0; a < DIM_MAX; a++) {
         char text[240];
         snprintf(text, sizeof text,
-                 "a body slid by %.3g m along %c, where only contact holds it: load steps have no friction, so forces "
-                 "change with its position; add a boundary with fixed: [%c] on a few of its particles",
+                 "a body moved by %.3g m along %c, where only contact holds it: load steps have no friction, so "
+                 "contact forces change with its position; add a boundary with fixed: [%c] on a few of its particles",
                  slid[a], 'x' + a, 'x' + a);
         if (slid[a] > SLID_LEAST * spacing) warnings_add_and_print(to, text);
     }
@@ -384,8 +383,10 @@ static status check_constrained(struct run *e, bool *apart)
     const status held = unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
-        warnings_add_and_print(&e->warnings, "the crack cuts the body: after its next increment a fragment would be "
-                                             "almost unsupported under its loads; the run ends before it");
+        warnings_add_and_print(
+            &e->warnings,
+            "the crack cuts the body in two: after its next increment a fragment would carry loads almost without "
+            "support, so the run ends before that increment; to continue, hold the fragment by a boundary");
     return parts ? OK : held;
 }
 

@@ -127,8 +127,9 @@ status opening_go_to(struct run *e, real wanted, real t)
         t = e->statics->t + (wanted - at) / slope;
     }
     if (opening_is_near(at, wanted, OPENING_FAR)) return OK;
-    return status_set(FAILED,
-                      "load step %lld: no load opens the gauge by %.6g m; the last one tried opens it by %.6g m: use "
-                      "larger loads or more steps, or a displacement with steps.control: load",
-                      (long long)e->clock.step + 1, wanted, at);
+    return status_set(
+        FAILED,
+        "load step %lld: no load opens the gauge (steps.from to steps.to) by %.6g m, and the last one tried opens it "
+        "by %.6g m; use larger loads or more steps, or a displacement with steps.control: load",
+        (long long)e->clock.step + 1, wanted, at);
 }

@@ -174,7 +174,7 @@ const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struc
         plane->axis[0][0] = plane->axis[1][1] = 1;
         return mirrors_find(plane);
     }
-    if (plane->dim != 3) return "a line has no crack tips";
+    if (plane->dim != 3) return "space line has no crack tips";
     fault = front_find(tips, plane);
     if (!fault) axes_make(plane), front_middle(tips, plane), fault = mirrors_find(plane);
     if (!fault) fault = cracks_check(precracks, plane);

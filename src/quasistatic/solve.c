@@ -66,8 +66,8 @@ static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[200];
     snprintf(text, sizeof text,
-             "in this equilibrium %lld bonds exceed their critical stretch, but this solver breaks no bonds: use "
-             "smaller loads, load steps or solver: explicit",
+             "in this equilibrium %lld bonds exceed their critical stretch, but this solver breaks no bonds; use "
+             "smaller loads, load steps (solver: static) or solver: explicit",
              (long long)past);
     if (past > 0) warnings_add_and_print(to, text);
 }
@@ -116,7 +116,7 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
             most = real_max(most, fabs(p->stress[k][i]) / material[p->material[i]].young);
     snprintf(text, sizeof text,
              "stresses of the solution reach %.3g times Young's modulus, more than any solid can carry and too much "
-             "for small strains: check the loads and their units",
+             "for small strains; check the loads and their units",
              most);
     if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);
 }
@@ -218,14 +218,14 @@ static void solver_finish(struct run *e)
 static status not_converged(const struct static_solver *s, real tolerance, int64_t step)
 {
     if (!(s->residual < INFINITY))
-        return status_set(
-            FAILED,
-            "the solver diverged at step %lld: use smaller loads, or solver: relaxation (instead of cg) or explicit",
-            (long long)step);
+        return status_set(FAILED,
+                          "the solver diverged at step %lld; use smaller loads, or set solver: relaxation (in place of "
+                          "cg) or explicit",
+                          (long long)step);
     if (s->residual * s->scale <= s->noise)
         return status_set(FAILED,
-                          "the out-of-balance force stays at %.3g of the load, but %.3g is required: strains are so "
-                          "small that round-off of the positions dominates; use a larger solver_tolerance",
+                          "the out-of-balance force stays at %.3g of the load, but %.3g is required, because strains "
+                          "are so small that round-off of positions dominates; use a larger solver_tolerance",
                           s->residual, tolerance);
     return status_set(
         FAILED,

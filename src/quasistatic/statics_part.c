@@ -30,8 +30,9 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
                    elastic = family_crack_energy_per_area(family, own);
         if (dissipated < (1 - ROUNDING) * elastic)
             warnings_add_if_new(to,
-                                "bonds of material %s yield before they break, so a crack dissipates %.3g J/m^2; "
-                                "elastic bonds of the same critical stretch would dissipate %.3g J/m^2",
+                                "bonds of material %s yield before they break, so a crack dissipates %.3g J/m^2, "
+                                "elastic bonds of the same critical stretch %.3g J/m^2; if this is too little, raise "
+                                "energy_release_rate or critical_stretch",
                                 own->name, dissipated, elastic);
     }
 }
@@ -48,7 +49,7 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
     warnings_add_if_new(
         to,
         "steps.energy: one load step dissipates as much energy as a crack that grows by %.3g spacings, so the largest "
-        "load may be off by %s; at most %.3g J (the default is less) keeps the error within 4 %%",
+        "load may be off by %s; set steps.energy to at most %.3g J (the default is less) for an error within 4 %%",
         spacings,
         spacings <= ALIKE       ? "8 %"
         : spacings <= 2 * ALIKE ? "15 %"
@@ -79,10 +80,11 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
         warnings_add_if_new(to, "bodies have no contact in a static equilibrium: they pass through each other where "
                                 "gaps close; if none closes, add accept: [contact]");
     if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
-        warnings_add_if_new(to,
-                            "nothing loads the body at t = %.4g s, the end of the duration: this solver applies the "
-                            "loads of that time (a load with time: {step: ...} that ends earlier is zero then)",
-                            s->duration);
+        warnings_add_if_new(
+            to,
+            "nothing loads the body at t = %.4g s, the end of the duration, and this solver applies the loads of that "
+            "time; check the key time of the loads (one with time: {step: ...} that ends earlier is zero then)",
+            s->duration);
 }
 
 /* Writes the results of load steps of run e to the summary j: control, steps, equilibria, energy released. It is the

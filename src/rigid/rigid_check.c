@@ -22,11 +22,11 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
         if (distance < deepest) deepest = distance, at = i;
     }
     if (!(deepest < -DEEP_MOST * s->spacing)) return OK;
-    return status_set(
-        REFUSED,
-        "rigid body %s overlaps body %s: a particle at (%.6g, %.6g, %.6g) m is %.3g m inside it; move one of the two",
-        r->name, s->body[p->body[at]].name, p->x[0][at], p->dim > 1 ? p->x[1][at] : 0, p->dim > 2 ? p->x[2][at] : 0,
-        -deepest);
+    return status_set(REFUSED,
+                      "rigid body %s overlaps body %s: its particle at (%.6g, %.6g, %.6g) m is %.3g m inside the rigid "
+                      "body; move one of the two",
+                      r->name, s->body[p->body[at]].name, p->x[0][at], p->dim > 1 ? p->x[1][at] : 0,
+                      p->dim > 2 ? p->x[2][at] : 0, -deepest);
 }
 
 /* Returns REFUSED, with a message, if r is a free body and touches a mirror of scene s: its mirror image would be

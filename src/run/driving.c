@@ -48,7 +48,7 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
             if (!(fabs(u[d]) <= DISPLACEMENT_TOLERANCE * spacing))
                 return status_set(REFUSED,
                                   "boundary %s: its displacement is %.4g m at t = 0 already, a jump within the first "
-                                  "step; let it grow from 0, such as with time: {ramp: {until: 100 us}}",
+                                  "step; let it grow from 0, for example by time: {ramp: {until: 100 us}}",
                                   b->name, u[d]);
     }
     return OK;
@@ -74,13 +74,13 @@ status prescribed_motion_check(const struct loads *loads, const struct particles
             return status_prepend_location(b->place,
                                            status_set(REFUSED,
                                                       "boundary %s: its displacement jumps (time: step), which no body "
-                                                      "can follow; use time: ramp, pulse or table",
+                                                      "can follow; set time: ramp, pulse or table",
                                                       b->name));
-        return status_prepend_location(b->place,
-                                       status_set(REFUSED,
-                                                  "boundary %s: its displacement grows by %.3g m/s, faster than the "
-                                                  "waves, %.4g m/s; use a longer time, or a smaller displacement",
-                                                  b->name, speed, wave_speed));
+        return status_prepend_location(
+            b->place, status_set(REFUSED,
+                                 "boundary %s: its displacement grows by %.3g m/s, faster than waves in the body (%.4g "
+                                 "m/s); use a longer time, or a smaller displacement",
+                                 b->name, speed, wave_speed));
     }
     return OK;
 }

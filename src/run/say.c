@@ -23,7 +23,7 @@ void warn_of_bond_plasticity(const struct scene *s, struct warnings *warning_lis
                 warning_list,
                 "material %s: its bonds%s yield one by one, so this plasticity is approximate: a %s yields at about "
                 "%.2f times yield_stress in tension and %.2f times the von Mises value in shear, and its lateral "
-                "plastic strain is %.2f of the axial one; method: mpm is exact: 1, 1 and %s",
+                "plastic strain is %.2f of the axial one; with method: mpm these figures are exact (1, 1 and %s)",
                 s->material[m].name, s->method == METHOD_PD ? "" : ", to which points convert,",
                 bonds_bear[s->space].body, bonds_bear[s->space].pull, bonds_bear[s->space].shear,
                 bonds_bear[s->space].across, s->space == SPACE_PLANE_STRAIN ? "1" : "0.5");

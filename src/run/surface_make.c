@@ -35,9 +35,9 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
     particle_reference_position(p, i, X);
     const real rows = fabs(X[m->axis] - m->at) / s->spacing, beside = rows - floor(rows);
     return status_set(REFUSED,
-                      "body %s: the mirror of boundary %s at %c = %.6g m does not continue its lattice: its first row "
-                      "of particles is %.3g spacings from the plane, not 0.5; make its size along %c a multiple of "
-                      "particles.spacing, or set pd.surface: volume",
+                      "body %s: the mirror of boundary %s at %c = %.6g m does not continue the lattice of particles, "
+                      "whose first row is %.3g spacings from the plane, not 0.5; make the size of the body along %c a "
+                      "multiple of particles.spacing, or set pd.surface: volume",
                       s->body[body_made_for(s, X, p->body[i])].name, m->name, "xyz"[m->axis], m -> at, beside,
                       "xyz"[m->axis]);
 }

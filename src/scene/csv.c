@@ -39,10 +39,12 @@ status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comm
         c->line++;
         const size_t length = strlen(c->text), first = strcspn(c->text, "\r");
         if (c->text[first] && c->text[first + 1 + strspn(c->text + first + 1, "\r\n")])
-            return status_set(REFUSED, "%s:%lld: lines end in carriage returns only; convert the file to line feeds",
+            return status_set(REFUSED,
+                              "%s:%lld: lines end in carriage returns only; convert the line ends to line feeds",
                               c->path, (long long)c->line);
         if (length == 0 || (c->text[length - 1] != '\n' && !feof(c->file)))
-            return status_set(REFUSED, "%s:%lld: not a line of text; %s", c->path, (long long)c->line, c->holds);
+            return status_set(REFUSED, "%s:%lld: this is not a line of text; %s", c->path, (long long)c->line,
+                              c->holds);
         if (c->line == 1 && strncmp(c->text, "\xEF\xBB\xBF", 3) == 0) memmove(c->text, c->text + 3, length - 2);
         size_t blank = strspn(c->text, " \t\r\n");
         *line_is_comment = c->text[blank] == '#';

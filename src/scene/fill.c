@@ -50,8 +50,8 @@ status particle_draft_append_particle(struct particle_draft *d, const real *posi
                                       int body_number)
 {
     if (d->n + d->skipped >= PARTICLES_MAX)
-        return particle_draft_refuse_body(d, body_number,
-                                          "has more than 2147483583 particles; use a larger particles.spacing");
+        return particle_draft_refuse_body(
+            d, body_number, "has more particles than the limit of 2147483583; use a larger particles.spacing");
     if (d->n == d->room) draft_grow(d);
     for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = position[a];
     for (int a = 0; a < d->scene->dim; a++) d->v[a][d->n] = NAN;
@@ -138,7 +138,7 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
             return particle_draft_refuse_body(d, body,
-                                              "too large for particles.spacing: use a larger spacing, or check the "
+                                              "is too large for particles.spacing; use a larger spacing, or check the "
                                               "units of both (m if none is written)");
         x->first = (int64_t)first, x->last = (int64_t)last;
         axis_round(x);
@@ -290,7 +290,7 @@ static status check_values(const struct particles *p, const struct particle_draf
             return particle_draft_refuse_body(
                 d, p->body[i],
                 "a particle is beyond 1e7 spacings from the origin, where double precision no longer resolves strains, "
-                "or has no finite mass: give positions and spacing in the same unit, and move the body to the origin");
+                "or has no finite mass; give positions and spacing in the same unit, and move the body to the origin");
     }
     return OK;
 }
@@ -310,7 +310,7 @@ static status check_start(const struct particles *p, const struct particle_draft
             return particle_draft_refuse_body(
                 d, p->body[i],
                 "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or gives it a "
-                "speed or stress that is not a number: check its values (strains near 1e-3 are usual)");
+                "speed or stress that is not a number; check its values (strains near 1e-3 are usual)");
     }
     return OK;
 }
@@ -507,7 +507,9 @@ status fill_bodies_with_particles(struct particles *p, const struct scene *s,
 {
     struct particle_draft draft = {.scene = s, .hollow = hollow};
     *p = (struct particles){0};
-    status result = s->bodies > 0 ? draft_make(&draft) : status_set(REFUSED, "%s: give body or bodies", s->name);
+    status result = s->bodies > 0
+                        ? draft_make(&draft)
+                        : status_set(REFUSED, "the scene has no body; add the key body or bodies: %s", s->name);
     if (result == OK) result = fill_made(p, &draft, optional_arrays);
     if (result != OK) particles_free(p);
     draft_free(&draft);

@@ -43,7 +43,7 @@ static status refuse_material(const struct scene *s, const struct particle_list 
     entry_place(place, l, path, i, true);
     materials_in_words(names, sizeof names, s);
     if (given < 0)
-        return status_set(REFUSED, "%s: the scene has no material %s; it has %s", place, l->name[-1 - (int)given],
+        return status_set(REFUSED, "%s: the scene has no material %s; use one of %s", place, l->name[-1 - (int)given],
                           names);
     return status_set(REFUSED,
                       "%s: the scene has no material %s%d (numbered from %d in the order of the scene); it has %s",
@@ -105,10 +105,10 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
         if (!shares_file(s, owner, path))
-            return status_set(
-                REFUSED,
-                "%s: the body with the number %d (counted from 0 in the order of the scene) does not use this file",
-                entry_place(place, l, path, i, false), owner);
+            return status_set(REFUSED,
+                              "%s: the body with the number %d (counted from 0 in the order of the scene) does not use "
+                              "this file; correct the column body",
+                              entry_place(place, l, path, i, false), owner);
         if (owner == body) TRY(take_entry(d, body, l, i, volume));
     }
     return OK;

@@ -140,7 +140,7 @@ static const char *unit_guess(real ratio, real by_volume)
     } unit[] = {{1e2, " (is it in cm?)"}, {1e3, " (is it in mm?)"}, {1e6, " (is it in um?)"}};
     for (size_t k = 0; k < COUNT_OF(unit); k++)
         if (fabs(log(by_volume / unit[k].ratio)) < log(1.5)) return unit[k].guess;
-    return ratio > 30 && ratio < 400        ? " (is it in mm, or in cm?)"
+    return ratio > 30 && ratio < 400        ? " (perhaps the list is in mm or cm)"
            : ratio >= 400 && ratio < 3e4    ? " (is it in mm?)"
            : ratio > 1.5e5 && ratio < 1.5e7 ? " (is it in um?)"
                                             : "";
@@ -149,7 +149,7 @@ static const char *unit_guess(real ratio, real by_volume)
 static const char *volume_guess(real ratio)
 {
     return fabs(log10(ratio) - 9) < 1   ? " (are they in mm^3?)"
-           : fabs(log10(ratio) - 6) < 1 ? " (are they in cm^3, or areas in mm^2?)"
+           : fabs(log10(ratio) - 6) < 1 ? " (perhaps the volumes are in cm^3, or areas in mm^2)"
                                         : "";
 }
 

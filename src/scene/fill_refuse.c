@@ -14,7 +14,7 @@ status particle_draft_refuse_body(const struct particle_draft *d, int body_numbe
 status particle_draft_refuse_empty_body(const struct particle_draft *d, int body, bool listed)
 {
     real from[DIM_MAX], to[DIM_MAX];
-    char why[200] = "holds no particle: its shape is at most ";
+    char why[200] = "contains no particle: its shape is at most ";
     size_t used = strlen(why);
     if (listed)
         return particle_draft_refuse_body(d, body, "has no particle in its list: check the column body of the list");

@@ -68,7 +68,7 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     if (hdf_is_link(file, name))
         return status_set(REFUSED, "%s: %s is a link; replace it by a dataset in this file", path, name);
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-    if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset", path, name);
+    if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset; store its numbers as one", path, name);
     bool good = table_shape(set, t);
     status checked = good ? table_check(t, path, name) : OK;
     if (good && !hdf_dataset_is_in_its_file(set))
@@ -120,8 +120,8 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     if (!unit[0]) t.factor = particle_list_default_factor_to_si(l, column);
     if (column == COLUMN_X) l->n = t.rows;
     if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
-        s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers; give %lld x %d", path, name, (long long)t.rows,
-                       (long long)t.columns, (long long)l->n, count);
+        s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers, but must have %lld x %d; correct it", path,
+                       name, (long long)t.rows, (long long)t.columns, (long long)l->n, count);
     else if (unit[0] && !unit_find_factor_to_si(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count)
@@ -148,7 +148,8 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
     particle_list_note_missing_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
     return status_set(
-        REFUSED, "%s: mass and density are both given, but each determines the other; remove one of the two", path);
+        REFUSED, "%s: mass and density are both given, but each determines the other; remove one of the two datasets",
+        path);
 }
 
 /* Reads the list l from the HDF5 file `path`. If the library crashes on a damaged file, the crash message names the
@@ -161,7 +162,8 @@ static status hdf5_read(struct particle_list *l, const char *path)
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-        s = file < 0 ? status_set(REFUSED, "%s: not an HDF5 file", path) : hdf5_columns(l, file, path);
+        s = file < 0 ? status_set(REFUSED, "%s: this is not an HDF5 file; give one, or a .csv file", path)
+                     : hdf5_columns(l, file, path);
         if (file >= 0) H5Fclose(file);
     }
     H5E_END_TRY;
@@ -209,8 +211,10 @@ static status list_read(struct particle_list *l, const char *path, const struct 
     if (l->form.columns && format != LIST_CSV)
         return status_set(
             REFUSED, "%s: this kind of file names its columns itself; remove columns, which are for .csv files", path);
-    if (stat(path, &about) != 0) return status_set(REFUSED, "%s: there is no such file", path);
-    if (!S_ISREG(about.st_mode)) return status_set(REFUSED, "%s: not a plain file", path);
+    if (stat(path, &about) != 0)
+        return status_set(REFUSED, "%s: there is no such file; check the name and the folder", path);
+    if (!S_ISREG(about.st_mode))
+        return status_set(REFUSED, "%s: this is not a regular file; give a .csv, .h5 or .exo file", path);
     status s = format == LIST_CSV    ? particle_list_read_csv(l, path, head)
                : format == LIST_HDF5 ? hdf5_read(l, path)
                                      : particle_list_read_exodus(l, path);

@@ -62,7 +62,8 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
     real one;
     *column = unit_find_factor_to_si(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
     if (*unit && unit_find_factor_to_si(&one, unit, list_quantity[*column].unit, what, sizeof what)) return OK;
-    return csv_report_fault(&c->in, name, "weight may be a mass or a volume; give its unit, such as weight [kg]");
+    return csv_report_fault(&c->in, name,
+                            "the column weight may be a mass or a volume; give its unit, such as weight [kg]");
 }
 
 /* Appends a column to c->column. name: its name with unit, such as `x [mm]`, which is modified; has[COLUMNS]: true for
@@ -79,9 +80,9 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
                                 name);
     if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
     if (k == COLUMN_NONE)
-        particle_list_note_append(&l->head, ", ", *name ? name : "a column has no name");
+        particle_list_note_append(&l->head, ", ", *name ? name : "a column has no name; give every column a name");
     else if (has[k])
-        return csv_report_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
+        return csv_report_fault(&c->in, name, "two columns are named %s; rename or remove one", list_quantity[k].name);
     else if (!unit_find_factor_to_si(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
         return csv_report_fault(&c->in, unit, "%s: [%.40s] %s", list_quantity[k].name, unit, what);
     else
@@ -120,7 +121,8 @@ static status header_read(struct csv *c, struct particle_list *l)
     for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
     for (int k = 0; k < l->dim; k++)
         if (!has[k] && l->form.columns)
-            return status_set(REFUSED, "%s: columns: [%s] lack %s; name every column of the file, such as [%s]",
+            return status_set(REFUSED,
+                              "%s: columns: [%s] does not name %s; name every column of the file, such as [%s]",
                               c->in.path, l->form.columns, list_quantity[k].name, names);
         else if (!has[k])
             return csv_report_fault(&c->in, c->in.text, "column %s is missing; name it in the first line, such as %s",
@@ -128,7 +130,7 @@ static status header_read(struct csv *c, struct particle_list *l)
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
         return csv_report_fault(
             &c->in, c->in.text,
-            "mass and density are both given, but each determines the other; remove one of the two");
+            "mass and density are both given, but each determines the other; remove one of the two columns");
     particle_list_note_missing_columns(&l->head, has);
     return OK;
 }
@@ -326,9 +328,12 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
 {
     int k = 0;
     if (!l->name) l->name = memory_new("list.name", NAMES_MAX, sizeof *l->name);
-    if (strlen(field) >= NAME_MAX_LENGTH) return csv_report_fault(&c->in, field, "material: its name is too long");
+    if (strlen(field) >= NAME_MAX_LENGTH)
+        return csv_report_fault(&c->in, field, "the name of a material is too long; shorten it");
     while (k < l->names && strcmp(l->name[k], field) != 0) k++;
-    if (k == NAMES_MAX) return csv_report_fault(&c->in, field, "material: more than %d names", NAMES_MAX);
+    if (k == NAMES_MAX)
+        return csv_report_fault(&c->in, field, "the column material has more than %d names; use fewer materials",
+                                NAMES_MAX);
     if (k == l->names) strcpy(l->name[l->names++], field);
     *value = -1 - k;
     return OK;
@@ -353,13 +358,13 @@ static status csv_value(struct csv *c, struct particle_list *l, int k, const cha
     if (column == COLUMN_VOLUME) c->whole = c->whole && !field[strspn(field, "0123456789")];
     if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
     if (end == field || *end != '\0' || strpbrk(field, "xX"))
-        return csv_report_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
-                                strchr(field, ',') ? "; write numbers with a point, not a comma" : "");
+        return csv_report_fault(&c->in, field, "%s: '%.40s' is not a number; correct it%s", name, field,
+                                strchr(field, ',') ? " (the decimal sign is a point, not a comma)" : "");
     value = value * c->factor[k] - c->first[k];
     const char *fault = particle_list_reason_value_is_invalid(column, value);
     if (fault != NULL)
         return csv_report_fault(&c->in, field, "%s: %.40s %s", name, field,
-                                c->first[k] ? "must be a whole number from 1 to 256" : fault);
+                                c->first[k] ? "must be a whole number from 1 to 256; correct it" : fault);
     *to = value;
     return OK;
 }
@@ -372,14 +377,15 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     for (int k = 0; k < c->fields; k++) {
         const char *field = csv_cut_field(&c->in, &rest);
         if (field == NULL)
-            return csv_report_fault(&c->in, c->in.text, "%d values, but the %s %d columns", k,
+            return csv_report_fault(&c->in, c->in.text, "this line has %d values, but the %s %d columns", k,
                                     l->form.columns ? "scene names" : "header names", c->fields);
         if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
     }
     if (rest != NULL)
-        return csv_report_fault(&c->in, rest,
-                                "more values than the %d columns of the %s; write numbers with a point, not a comma",
-                                c->fields, l->form.columns ? "scene" : "header");
+        return csv_report_fault(
+            &c->in, rest,
+            "this line has more values than the %d columns of the %s; write numbers with a decimal point, not a comma",
+            c->fields, l->form.columns ? "scene" : "header");
     l->line[l->n++] = c->in.line;
     return OK;
 }
@@ -402,7 +408,8 @@ static status csv_entries(struct csv *c, struct particle_list *l, bool head)
     for (bool more = true;; c->pending = false) {
         if (!c->pending) TRY(csv_read_data_line(&c->in, &more));
         if (!more) return unnamed_check(c, l);
-        if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->in.path, PARTICLES_MAX);
+        if (l->n >= PARTICLES_MAX)
+            return status_set(REFUSED, "%s: the list has more than %d particles; use fewer", c->in.path, PARTICLES_MAX);
         TRY(csv_grow(c, l));
         TRY(csv_entry(c, l));
     }
@@ -411,7 +418,7 @@ static status csv_entries(struct csv *c, struct particle_list *l, bool head)
 status particle_list_read_csv(struct particle_list *l, const char *path, bool only_header)
 {
     struct csv c = {0};
-    TRY(csv_open(&c.in, path, "a particle list has one particle per line"));
+    TRY(csv_open(&c.in, path, "write one particle on each line"));
     status s = csv_entries(&c, l, only_header);
     csv_close(&c.in);
     return s;

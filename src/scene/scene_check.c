@@ -23,8 +23,8 @@ static status check_measure(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *thickness = yaml_node_find(root, "thickness"), *section = yaml_node_find(root, "section");
     const char *space = space_names[s->space];
     if (s->dim == 2 && !thickness) return fault_report_missing_key(r, root, key_find("", "thickness"));
-    if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; remove it", space);
-    if (s->dim != 1 && section) return fault(r, section, "space %s has no section; remove it", space);
+    if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; remove this key", space);
+    if (s->dim != 1 && section) return fault(r, section, "space %s has no section; remove this key", space);
     if (s->dim != 2) s->thickness = 1;
     return OK;
 }
@@ -54,18 +54,19 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
         if (count > PLACES_OF_FILES && s->body[b].shape.n > 0 && s->body[b].shape.solid[0].hull)
             return status_prepend_location(
                 s->body[b].place,
-                status_set(REFUSED,
-                           "body %s: the box around its file is %.4g m long and has %.1e lattice positions, more than "
-                           "the limit of 1e8; check its unit, and look for faces far from the others",
-                           s->body[b].name, longest_side(from, to, s->dim), count));
+                status_set(
+                    REFUSED,
+                    "body %s: the box around the shape in its file is %.4g m long and has %.1e lattice positions, more "
+                    "than the limit of 1e8; check the unit of the file, and look for faces far from the others",
+                    s->body[b].name, longest_side(from, to, s->dim), count));
         total += count, longest = real_max(longest, longest_side(from, to, s->dim));
     }
     if (total <= 2e9) return OK;
     const struct yaml_node *spacing = scene_check_below(root, "particles", "spacing");
-    return fault(
-        r, spacing,
-        "%s makes about %.1e particles, more than the limit of 2e9 (a body is %.4g m long); use a larger spacing",
-        node_text(r, spacing), total, longest);
+    return fault(r, spacing,
+                 "a spacing of %s makes about %.1e particles in bodies up to %.4g m long, more than the limit of 2e9; "
+                 "use a larger spacing",
+                 node_text(r, spacing), total, longest);
 }
 
 /* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of particles,
@@ -77,13 +78,13 @@ status check_friction_is_supported(struct reader *r, const struct yaml_node *roo
     if (!(s->contact_friction > 0)) return OK;
     if (s->contact_form == CONTACT_PAIR)
         return fault(r, friction,
-                     "friction has no meaning with contact.law: pair, whose particles interlock like gears; set "
+                     "friction has no effect with contact.law: pair, whose particles interlock like gears; set "
                      "contact.law: surface");
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].kind == BOUNDARY_MIRROR)
             return fault(r, friction,
-                         "friction cannot be combined with planes of symmetry (boundaries `mirror`); set 0, or remove "
-                         "the mirrors of this body");
+                         "friction cannot be combined with planes of symmetry; set contact.friction: 0, or remove the "
+                         "boundaries `mirror`");
     return OK;
 }
 
@@ -95,7 +96,7 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
     for (int b = 0; b < s->boundaries && n; b++, n = n->next)
         if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_is_dynamic(s))
             return fault(r, yaml_node_find(n, "absorbing"),
-                         "has no effect in a static equilibrium, which has no waves and needs supports; remove it, or "
+                         "an absorbing face has no effect in a static equilibrium, which has no waves; remove it, or "
                          "set solver: explicit");
     return OK;
 }
@@ -109,11 +110,12 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
                            *levels = scene_check_below(root, "mpm", "levels");
     if (!(s->damping > 0)) return OK;
     if (!scene_is_dynamic(s))
-        return fault(r, damping, "a static equilibrium has no velocities to damp; set solver: explicit");
+        return fault(r, damping,
+                     "a static equilibrium has no velocities to damp; remove damping, or set solver: explicit");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
         return fault(r, levels,
-                     "%s levels of coarse cells have different time steps, but damping requires one time step for the "
-                     "whole body; set mpm.levels: 0",
+                     "mpm.levels: %s makes coarse cells with longer time steps, but damping needs one time step for "
+                     "the whole body; set mpm.levels: 0",
                      node_text(r, levels));
     return OK;
 }
@@ -130,22 +132,22 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
         const bool formula = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0;
         if (load->kind == BOUNDARY_PRESSURE && s->irregularity > PRESSURE_SHAKEN)
             return fault(r, yaml_node_find(n, "pressure"),
-                         "a pressure requires the positions of faces, which are undefined if particles.irregularity "
-                         "exceeds %g spacings; use a traction, or reduce particles.irregularity",
+                         "a pressure needs the positions of faces, which are unknown with particles.irregularity above "
+                         "%g; use a traction, or a smaller particles.irregularity",
                          PRESSURE_SHAKEN);
         if (!scene_is_single_equilibrium(s)) continue;
         if (load->follow)
-            return fault(
-                r, yaml_node_find(n, "follow"),
-                "a static equilibrium applies loads to the undeformed body; set solver: explicit with damping");
+            return fault(r, yaml_node_find(n, "follow"),
+                         "a static equilibrium applies loads to the undeformed body; set follow: false, or solver: "
+                         "explicit with damping");
         if (load->rotates)
             return fault(r, yaml_node_find(n, "rotation"),
-                         "cannot be used with a static solver, which moves supports along straight lines only; set "
-                         "solver: explicit");
+                         "a static solver moves supports along straight lines only; use displacement in place of "
+                         "rotation, or set solver: explicit");
         if (formula && boundary_check_displacement_known(load) != OK)
             return fault(r, yaml_node_find(n, "velocity"),
-                         "static solvers need the displacement, but a velocity that is a formula of t does not give "
-                         "it; use displacement");
+                         "static solvers need the displacement, which a velocity as a formula of t does not give; give "
+                         "a displacement");
     }
     return OK;
 }
@@ -181,9 +183,7 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
     if (!transfer || r->scene->shape != SHAPE_LINEAR || r->scene->transfer != TRANSFER_APIC) return OK;
-    return fault(r, transfer,
-                 "apic is unstable with shape linear (its strains come from velocities that are not mapped again); use "
-                 "flip, or shape gimp");
+    return fault(r, transfer, "apic is unstable with mpm.shape: linear; set mpm.transfer: flip, or mpm.shape: gimp");
 }
 
 /* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
@@ -211,11 +211,13 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
-                     "lammps is the rule of LAMMPS' peri/pmb; set contact.law: pair and model: bond");
+                     "contact.distance: lammps is the rule of LAMMPS' peri/pmb; set contact.law: pair and model: bond, "
+                     "or another distance");
     if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
-        return fault(r, between, "a static solver has no contact; set solver: explicit");
+        return fault(r, between, "this static solver has no contact; set contact.between: none, or solver: explicit");
     if (s->contact_between != CONTACT_NONE && scene_has_load_steps_with_softening_bonds(s))
-        return fault(r, between, "load steps have no contact if bonds soften; set none, or solver: explicit");
+        return fault(r, between,
+                     "load steps have no contact if bonds soften; set contact.between: none, or solver: explicit");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
         return fault(r, friction,
                      "nothing has contact (contact.between: none), so friction has no effect; remove it, or set "
@@ -316,7 +318,7 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
     if (s->method == METHOD_PD) return "method pd has no material points";
     if (scene_is_single_equilibrium(s)) return "static solvers need the current frame";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
-        return "couplings pm to pgg need the grid of the current frame";
+        return "couplings pm, pg, pmg and pgg need the grid of the current frame";
     if (s->cell != 2) return "the reference frame needs mpm.cell: 2";
     if (s->irregularity > 0) return "it needs particles on a regular lattice";
     if (s->body[body].list.mass) return "particles with a mass from a list need the current frame";
@@ -324,10 +326,10 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
     if (s->method != METHOD_MPM)
         return scene_has_load_steps(s)
                    ? "its material has a yield_stress, which load steps allow with method: mpm or pd only"
-                   : "materials that yield need method: mpm in this frame";
-    if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic in this frame";
+                   : "materials that yield need method: mpm in the reference frame";
+    if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic in the reference frame";
     if (scene_is_dynamic(s) && s->levels != LEVELS_AUTO && s->levels > 0)
-        return "materials that yield need mpm.levels: 0 (one time step) in this frame";
+        return "materials that yield need mpm.levels: 0 (one time step) in the reference frame";
     return NULL;
 }
 
@@ -428,22 +430,24 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *model = yaml_node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
-        return fault(r, surface, "moments needs a regular lattice in 2D or 3D; use %s",
+        return fault(r, surface, "pd.surface: moments needs a regular lattice in 2D or 3D; set %s",
                      s->model == MODEL_BOND ? "volume or none" : "none");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
         return fault(r, surface,
-                     "with model %s the surface correction moments needs method: pd and pd.normalisation: bulk; set "
-                     "pd.surface: none",
+                     "with model: %s the correction pd.surface: moments needs method: pd and pd.normalisation: bulk; "
+                     "set these, or pd.surface: none",
                      node_text(r, model));
     if (s->dim == 1 && s->calibration != CALIBRATION_LATTICE && s->influence == INFLUENCE_INVERSE_SQUARE)
-        return fault(r, scene_check_below(root, "pd", "influence"),
-                     "inverse square has no continuum integral in one dimension; set pd.calibration: lattice");
+        return fault(
+            r, scene_check_below(root, "pd", "influence"),
+            "pd.influence: inverse square has no continuum integral in one dimension; set pd.calibration: lattice");
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1)
-        return fault(r, model, "model %s is not defined in one dimension (space: line); set model: bond",
-                     node_text(r, model));
+        return fault(r, model, "model: %s is not defined in space: line; set model: bond", node_text(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
-        return fault(r, surface, "%s is for model bond; with model %s, correct bonds near surfaces by pd.normalisation",
+        return fault(r, surface,
+                     "pd.surface: %s is for model: bond; with model: %s set pd.surface: none and correct bonds near "
+                     "surfaces by pd.normalisation",
                      node_text(r, surface), node_text(r, model));
     return OK;
 }
@@ -460,15 +464,15 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
     if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver, "%s is for elastic materials, but material %s yields; set solver: %s",
+            return fault(r, solver, "solver: %s is for elastic materials, but material %s yields; set solver: %s",
                          node_text(r, solver), s->material[m].name,
                          s->method == METHOD_ADAPTIVE ? "explicit" : "static (load steps), or explicit");
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
-        return fault(r, solver, "cg works with method pd only; with material points use relaxation");
+        return fault(r, solver, "solver: cg works with method: pd only; with material points set solver: relaxation");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
         return fault(r, solver,
-                     "with mpm.transfer: flip a relaxation never settles (light nodes at the border keep moving); set "
-                     "mpm.transfer: apic and an mpm.shape other than linear");
+                     "with mpm.transfer: flip a relaxation does not converge, because light nodes at the border keep "
+                     "moving; set mpm.transfer: apic and an mpm.shape other than linear");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
             return fault(r, solver, "solver: %s has no time steps, which probe %s needs; set solver: explicit",

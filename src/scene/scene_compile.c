@@ -102,9 +102,9 @@ bool compile_match_units_of_top_operands(struct compile *c, const char *operatio
     if (is_nothing(compile_operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
     if (is_nothing(compile_operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
     if (same_unit(a, b)) return true;
-    return compile_write_fault_and_return_false(c, "combines %s and %s by %s (character %d); give both the same unit",
-                                                quantity_unit_name(a).text, quantity_unit_name(b).text, operation_name,
-                                                compile_character_number(c, operator_in_text));
+    return compile_write_fault_and_return_false(
+        c, "combines %s and %s by %s (character %d); give both operands the same unit", quantity_unit_name(a).text,
+        quantity_unit_name(b).text, operation_name, compile_character_number(c, operator_in_text));
 }
 
 static bool unit_in_bounds(struct compile *c, const struct quantity *q)

@@ -32,7 +32,7 @@ status fault_report_missing_key(struct reader *r, const struct yaml_node *map, c
     const char *leaf = key_last_part(k);
     const int group = leaf > k->path ? (int)(leaf - k->path) - 1 : 0;       /* length of the path before the last dot */
     const bool helps = k->type != KEY_CHOICE && strcmp(example, "..") != 0; /* the words of a choice are listed */
-    return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; %s is expected%s%s", leaf,
+    return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; give %s%s%s", leaf,
                              group > 0 ? " in " : "", group, k->path, form_text(r, k), helps ? ", such as " : "",
                              helps ? example : "");
 }
@@ -72,5 +72,5 @@ status expect_list_of_valid_length(struct reader *r, const struct key *k, const 
     int least = (int)k->range.least, most = (int)k->range.most;
     TRY(expect_list(r, k, n));
     if (n->n >= least && n->n <= most) return OK;
-    return fault(r, n, "has %d items; %d to %d are expected", n->n, least, most);
+    return fault(r, n, "has %d items; give %d to %d", n->n, least, most);
 }

@@ -189,10 +189,10 @@ static bool compile_coordinate(struct compile *c, char name)
     struct quantity q = {.twice = {2, 0, 0}};
     if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
     if (!(c->of & (name == 't' ? EXPRESS_TIME : EXPRESS_SPACE)))
-        return compile_write_fault_and_return_false(c, "contains %c, which this key does not have; remove it", name);
+        return compile_write_fault_and_return_false(c, "contains %c, on which this key cannot depend; remove it", name);
     if (name != 't' && name - 'x' >= c->r->dim)
-        return compile_write_fault_and_return_false(c, "contains %c, which space %s does not have", name,
-                                                    space_names[c->r->scene->space]);
+        return compile_write_fault_and_return_false(c, "contains %c, but space %s has no such coordinate; remove it",
+                                                    name, space_names[c->r->scene->space]);
     return compile_append_push_of_operand(
         c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
 }
@@ -223,7 +223,7 @@ static bool compile_name(struct compile *c)
         return compile_write_fault_and_return_false(
             c, "has an unknown function %s (character %d); see `cleave help expression`", name,
             compile_character_number(c, at));
-    if (f) return missing(c, "( and what it is of");
+    if (f) return missing(c, "( and an operand");
     if (is_variable_of_formulas(name)) return compile_coordinate(c, *name);
     if (strcmp(name, "pi") == 0) return compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q);
     c->at = at + length;
@@ -239,7 +239,7 @@ static bool compile_number(struct compile *c, bool power)
     const char *why = NULL;
     const size_t length = quantity_read_at_start_of_text(&q, c->at, !power, &why);
     if (length == 0)
-        return compile_write_fault_and_return_false(c, "has no number at character %d: %s",
+        return compile_write_fault_and_return_false(c, "has no valid number at character %d: %s",
                                                     compile_character_number(c, c->at), why);
     c->at += length;
     const char *rest = c->at + strspn(c->at, " ");
@@ -353,8 +353,7 @@ status read_expression(struct reader *r, const struct key *k, const struct yaml_
     struct compile c = {.r = r, .of = allowed_variables, .text = n->text, .what = what, .room = sizeof what};
     const struct unit_row *unit = &unit_rows[k->unit];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not an expression; %s is expected, such as %s", node_text(r, n), unit->name,
-                     unit->example);
+        return fault(r, n, "%s is not an expression; give %s, such as %s", node_text(r, n), unit->name, unit->example);
     if (number_constant(n, k, expression)) return OK;
     if (!compile_text(&c)) return fault(r, n, "%s %s", node_text(r, n), what);
     const struct operand *result = &c.operand[0];

@@ -92,7 +92,7 @@ status check_key_given_once(const struct reader *r, const struct yaml_node *map,
 {
     for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
         if (strcmp(twin->key, n->key) == 0)
-            return fault(r, n, "is given twice, first in line %d; remove one", twin->line);
+            return fault(r, n, "is given twice, first in line %d; remove one of the two", twin->line);
     return OK;
 }
 

@@ -151,7 +151,7 @@ static status help_unknown(const char *path)
     for (int k = 1; k < keys_count; k++)
         if (key_distance(&keys[k], path) < key_distance(nearest, path)) nearest = &keys[k];
     if (words_are_similar(nearest->path, path) || words_are_similar(key_last_part(nearest), path))
-        return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
+        return status_set(REFUSED, "%.64s: unknown key; did you mean %s?", path, nearest->path);
     return status_set(REFUSED,
                       "%.64s: neither a key nor a page; `cleave help scene` lists the keys; pages are units, "
                       "expression, run, theory and trust; the manual is inputs/README.md",

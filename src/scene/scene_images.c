@@ -25,7 +25,8 @@ static status grey_range_read(struct reader *r, const struct yaml_node *n, const
         return fault(
             r, n, "%s is not a grey value; give a number such as 255, or a range such as 100-255 (largest value: %d)",
             text_for_message(r, text), GREY_MAX);
-    if (p->ranges == GREY_RANGES_MAX) return fault(r, n, "more than %d ranges of grey values", GREY_RANGES_MAX);
+    if (p->ranges == GREY_RANGES_MAX)
+        return fault(r, n, "more than %d ranges of grey values; join some", GREY_RANGES_MAX);
     p->range[p->ranges++] = (struct grey_range){low, high};
     return OK;
 }

@@ -39,7 +39,8 @@ static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR 
  * KEYS_MOST keys. */
 static status check_twins(const struct reader *r, const struct yaml_node *map)
 {
-    if (map->n > KEYS_MOST) return fault(r, map, "has %d keys, more than any mapping of a scene can have", map->n);
+    if (map->n > KEYS_MOST)
+        return fault(r, map, "has %d keys, more than any mapping of a scene can have; remove some", map->n);
     for (const struct yaml_node *n = map->first; n; n = n->next) TRY(check_key_given_once(r, map, n));
     return OK;
 }
@@ -111,14 +112,17 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     if (n->kind != NODE_SCALAR || is_empty(n))
         return fault(r, n, "%s is not a file name; give a scene file", node_text(r, n));
     if (!r->files)
-        return fault(r, n, "%s: scenes with include cannot be read here; give a scene without it", node_text(r, n));
+        return fault(r, n, "%s: scenes with the key include cannot be read here; give a scene without this key",
+                     node_text(r, n));
     path = path_from(r, n);
     if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
         return fault(r, n, "%s cannot be read; give a scene file in the folder of this one", node_text(r, n));
     if (is_open(chain, &file))
-        return fault(r, n, "%s includes itself, or this scene; remove one of these includes", node_text(r, n));
+        return fault(r, n, "%s includes itself, or the scene that includes it; remove one of these includes",
+                     node_text(r, n));
     if (length_of(chain) == CHAIN_MOST)
-        return fault(r, n, "%s ends a chain of more than %d scenes, each included by the one before; shorten it",
+        return fault(r, n,
+                     "%s ends a chain of more than %d scenes, each included by the previous one; merge some of them",
                      node_text(r, n), CHAIN_MOST);
     if (r->includes == INCLUDED_MOST)
         return fault(r, n, "more than %d scenes are included; merge some of them", INCLUDED_MOST);
@@ -146,8 +150,7 @@ static status include_all(struct reader *r, struct yaml_node *root, const struct
     struct yaml_node base = {.kind = NODE_MAP, .text = ""};
     const struct yaml_node *n = list->kind == NODE_LIST ? list->first : list;
     TRY(check_twins(r, root));
-    if (!n || list->n > INCLUDED_MOST)
-        return fault(r, list, "has %d items; 1 to %d are expected", list->n, INCLUDED_MOST);
+    if (!n || list->n > INCLUDED_MOST) return fault(r, list, "has %d items; give 1 to %d", list->n, INCLUDED_MOST);
     yaml_node_remove(root, list);
     for (const struct yaml_node *next; n; n = next) {
         next = list->kind == NODE_LIST ? n->next : NULL;
@@ -170,6 +173,6 @@ status tree_merge_included_files(struct reader *r, struct yaml_node *root)
     for (int k = 0; k < r->overrides; k++)
         if (strcmp(r->override[k].key, "include") == 0)
             return fault_at_location(r, k, 0, 0,
-                                     "include: can be given in a file only; write a scene that includes this one");
+                                     "include cannot be given by -s; write a scene file that includes this one");
     return OK;
 }

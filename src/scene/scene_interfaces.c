@@ -24,17 +24,17 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
             if (name->kind == NODE_SCALAR && strcmp(s->body[b].name, name->text) == 0) face->body[k] = b;
         for (int b = 0; b < s->rigids; b++)
             if (name->kind == NODE_SCALAR && strcmp(s->body[s->bodies + b].name, name->text) == 0)
-                return fault(
-                    r, name,
-                    "%s is rigid, but bonds join only bodies with particles; name two such bodies, or rely on contact",
-                    name->text);
+                return fault(r, name,
+                             "%s is rigid, but an interface joins only bodies with particles; name two such bodies, or "
+                             "remove the interface (contact acts without it)",
+                             name->text);
         if (face->body[k] < 0) return fault(r, name, "is not the name of a body with particles; check its spelling");
     }
     if (face->body[0] == face->body[1]) return fault(r, names, "names one body twice; give two bodies");
     for (const struct scene_interface *other = s->interface; other < face; other++)
         if ((other->body[0] == face->body[0] && other->body[1] == face->body[1]) ||
             (other->body[0] == face->body[1] && other->body[1] == face->body[0]))
-            return fault(r, names, "names two bodies that have an interface already; remove one of the two interfaces");
+            return fault(r, names, "these two bodies have an interface already; remove one of the two interfaces");
     return OK;
 }
 
@@ -122,8 +122,9 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
             return fault(r, yaml_node_find(n, "energy_release_rate"),
                          "has no effect on bodies that are not joined; remove it, or set joined: true");
         if (s->method == METHOD_MPM && yaml_node_find(n, "energy_release_rate"))
-            return fault(r, yaml_node_find(n, "energy_release_rate"),
-                         "the grid of method: mpm does not break; set method: pd");
+            return fault(
+                r, yaml_node_find(n, "energy_release_rate"),
+                "bodies joined by the grid of method: mpm do not separate; set method: pd, or remove this key");
         if (!face->joined) continue;
         TRY(interface_strength(r, n, face));
         join_bodies(s, face->body[0], face->body[1]);
@@ -141,8 +142,8 @@ status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_nod
         for (int b = 0; b < s->bodies && body >= 0; b++)
             if (b != body && s->body[b].joined == s->body[body].joined)
                 return fault(r, yaml_node_find(n, "body"),
-                             "is joined to body %s by an interface, so that both count as one body: remove this key "
-                             "and give a region",
+                             "the body is joined to body %s by an interface, and both count as one body; remove this "
+                             "key and give a region",
                              s->body[b].name);
     }
     return OK;

@@ -18,7 +18,7 @@ static status check_curve(struct reader *r, const struct yaml_node *n, const str
     for (int k = 0; k < c->points; k++, point = point->next) {
         if (k == 0 && c->strain[0] != 0)
             return fault(r, point,
-                         "begins at a plastic strain of %g; let the first point be the yield stress, at strain 0",
+                         "begins at a plastic strain of %g; give the yield stress at strain 0 as the first point",
                          c->strain[0]);
         if (k == 0) continue;
         if (!(c->strain[k] > c->strain[k - 1]))
@@ -28,7 +28,7 @@ static status check_curve(struct reader *r, const struct yaml_node *n, const str
                 c->strain[k], c->strain[k - 1]);
         const real slope = (c->stress[k] - c->stress[k - 1]) / (c->strain[k] - c->strain[k - 1]);
         if (slope < 0)
-            return fault(r, point, "the stress falls to %g Pa; give a yield stress that does not fall", c->stress[k]);
+            return fault(r, point, "the yield stress falls to %g Pa; give stresses that do not fall", c->stress[k]);
         if (slope > before * (1 + SLOPE_ROUNDING))
             return fault(r, point,
                          "the slope of the curve increases at this point, to %g Pa from %g Pa; give a curve whose "
@@ -50,7 +50,7 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
                                .unit = UNIT_PRESSURE,
                                .range = {0, INFINITY, true, true}};
     TRY(expect_node_kind(r, n, NODE_LIST, "a list of points [plastic strain, stress]"));
-    if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; 2 to %d are expected", n->n, FLOW_POINTS);
+    if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; give 2 to %d", n->n, FLOW_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next, c->points++) {
         if (point->kind != NODE_LIST || point->n != 2)
             return fault(r, point, "%s is not a point of a curve; give [plastic strain, stress]", node_text(r, point));
@@ -68,7 +68,7 @@ static status fault_no_law(struct reader *r, const struct yaml_node *n)
         const char *word = flow_properties[flow].word;
         if (word) length += snprintf(words + length, sizeof words - (size_t)length, "%s%s", length ? "|" : "", word);
     }
-    return fault(r, n, "has no law; %s is expected", words_for_message(r, words));
+    return fault(r, n, "has no law; give %s", words_for_message(r, words));
 }
 
 /* Reads the flow law in the mapping `hardening` into `law`. material: node of the material; n: node of `hardening`.
@@ -105,7 +105,7 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
     TRY(read_keys_of_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
-    return fault(r, yaml_node_find(n, "T_melt"), "%g K is not above T_room, %g K; give the melting temperature",
+    return fault(r, yaml_node_find(n, "T_melt"), "T_melt is %g K, not above T_room, %g K; give the melting temperature",
                  law->johnson_cook.T_melt, law->johnson_cook.T_room);
 }
 
@@ -116,7 +116,7 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
 {
     const struct yaml_node *heat = yaml_node_find(material, "specific_heat"),
                            *share = yaml_node_find(material, "taylor_quinney");
-    if (!heat && share) return fault(r, share, "has no effect without specific_heat; give both");
+    if (!heat && share) return fault(r, share, "has no effect without specific_heat; add specific_heat, or remove it");
     if (!heat) return OK;
     if (!law->given || law->flow != FLOW_JOHNSON_COOK)
         return fault(r, heat,
@@ -137,7 +137,7 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
     const bool linear = m->law.flow == FLOW_LINEAR && !yaml_node_find(material, "hardening");
     if (own && isfinite(m->yield_stress)) return fault_report_exclusive_keys(r, yield, law_node);
     if (!own && !isfinite(m->yield_stress))
-        return fault(r, law_node, "needs the yield stress without plastic strain; add yield_stress");
+        return fault(r, law_node, "needs the yield stress at zero plastic strain; add yield_stress");
     if (!linear && m->yield_tangent > 0) return fault_report_exclusive_keys(r, tangent, law_node);
     return OK;
 }

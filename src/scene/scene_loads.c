@@ -26,7 +26,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
     real length2 = dot(f->direction, f->direction, r->dim);
     if (length2 > 0 && isfinite(length2)) return OK;
     return fault(r, yaml_node_find(n->first, "direction"),
-                 "has a length that is 0 or infinite; give the direction in which the force varies");
+                 "has a length of 0 or infinity; give the direction in which the force varies, such as [1, 0]");
 }
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
@@ -37,8 +37,7 @@ static status read_axis(struct reader *r, const struct yaml_node *n, const char 
 {
     *axis = word_index_in_list("x|y|z", text);
     if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
-        return fault(r, n, "%s is not an axis of space %s; %s is expected", node_text(r, n),
-                     space_names[r->scene->space],
+        return fault(r, n, "%s is not an axis of space %s; give %s", node_text(r, n), space_names[r->scene->space],
                      r->dim == 1   ? "x"
                      : r->dim == 2 ? "x or y"
                                    : "x, y or z");
@@ -147,7 +146,9 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
     const struct key *k = key_find(group_path, "axis");
     const struct yaml_node *list = yaml_node_find(rotation_node, "axis");
     int d = 0;
-    if (r->dim == 1) return fault(r, rotation_node, "a body in space line cannot turn; use a plane space or solid");
+    if (r->dim == 1)
+        return fault(r, rotation_node,
+                     "a body in space line cannot turn; remove rotation, or set a plane space or solid");
     unit_vector[2] = 1;
     if (!list && r->dim == 2) return OK;
     if (!list) return fault_report_missing_key(r, rotation_node, k);
@@ -160,7 +161,7 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
         TRY(read_number(r, &plain, c, &unit_vector[d++]));
     }
     const real length2 = dot(unit_vector, unit_vector, DIM_MAX);
-    return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; give an axis such as [0, 0, 1]");
+    return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has the length 0; give an axis such as [0, 0, 1]");
 }
 
 /* Reads the prescribed rotation of the boundary condition b from the mapping n: rate, centre and axis. Returns REFUSED,
@@ -210,7 +211,7 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
     if (!n) return fault_report_missing_key(r, map, k);
     int face = n->kind == NODE_SCALAR ? word_index_in_list(k->words, n->text) : -1;
     if (face < 0 || face >= 2 * r->dim)
-        return fault(r, n, "%s is not the name of a face in space %s; %s is expected", node_text(r, n),
+        return fault(r, n, "%s is not the name of a face in space %s; give %s", node_text(r, n),
                      space_names[r->scene->space],
                      r->dim == 1   ? "x+ or x-"
                      : r->dim == 2 ? "x+, x-, y+ or y-"
@@ -245,12 +246,12 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
         if (word_index_in_list(words, n->key) < 0) continue;
         if (*kind)
             return fault(r, n,
-                         "is given together with %s in one item; write each boundary condition as an item of its own "
-                         "in the list",
+                         "is given together with %s in one item of the list; write each boundary condition as an item "
+                         "of its own",
                          (*kind)->key);
         *kind = n;
     }
-    return *kind ? OK : fault(r, map, "does nothing; give one of %s", words_for_message(r, words));
+    return *kind ? OK : fault(r, map, "has no load or support; give one of %s", words_for_message(r, words));
 }
 
 /* Returns true if the text of node n, a number or a formula, contains a unit and is not 0. value: the number that was
@@ -278,8 +279,8 @@ static status check_time_unit(struct reader *r, const struct yaml_node *kind, co
         unit = carries_unit(r, c, b->value[k++]) || unit;
     if (!b->time_unit || (most <= 1 && !unit)) return OK;
     return fault(r, kind,
-                 "%s is multiplied by a column of the file that also has a unit; give a direction such as [0, -1], or "
-                 "a column without unit",
+                 "%s has a unit, and so has the column of the file that multiplies it; give a direction such as [0, "
+                 "-1], or a column without unit",
                  node_text(r, kind));
 }
 
@@ -303,8 +304,8 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
     if (boundary_applies_force(b) || b->kind == BOUNDARY_MIRROR) face = yaml_node_find(n, "face");
     if (face && b->kind == BOUNDARY_PRESSURE)
         return fault(r, face,
-                     "a pressure acts on every free face of the particles in `region`: give region instead of face, or "
-                     "a traction instead of a pressure");
+                     "a pressure acts on every free face of the particles in `region`; give region in place of face, "
+                     "or a traction in place of the pressure");
     if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no effect with %s; remove it", kind->key);
     if (b->follow && b->kind != BOUNDARY_PRESSURE)
         return fault(r, yaml_node_find(n, "follow"), "has no effect without pressure; remove it");
@@ -345,10 +346,12 @@ static status gravity_add(struct reader *r, const struct yaml_node *n)
     struct scene *s = r->scene;
     struct boundary *b = &s->boundary[s->boundaries];
     if (s->boundaries == BOUNDARIES_MAX)
-        return fault(r, n, "is one boundary condition more than the limit of %d", BOUNDARIES_MAX);
+        return fault(r, n, "is one boundary condition more than the limit of %d; join or remove some", BOUNDARIES_MAX);
     for (int k = 0; k < s->boundaries; k++)
         if (strcmp(s->boundary[k].name, "gravity") == 0)
-            return fault(r, n, "a boundary is named gravity, which this key needs; rename the boundary");
+            return fault(
+                r, n,
+                "a boundary has the name gravity, which is the name of the load by this key; rename the boundary");
     *b = (struct boundary){.name = "gravity", .kind = BOUNDARY_BODY_FORCE, .body = -1, .by_mass = true};
     memcpy(b->value, s->gravity, sizeof b->value);
     fault_write_location_of_node(r, n, b->place, sizeof b->place);

@@ -61,10 +61,10 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
     if ((tangent || hardening) && !yaml_node_find(n, "yield_stress"))
         return fault(r, tangent ? tangent : hardening, "has no effect without yield_stress: add yield_stress");
     if (m->yield_tangent < m->young) return OK;
-    return fault(
-        r, tangent ? tangent : hardening,
-        "%s is not below Young's modulus; give the slope of the stress-strain curve after yield, from 0 to below young",
-        node_text(r, tangent ? tangent : hardening));
+    return fault(r, tangent ? tangent : hardening,
+                 "%s is not below Young's modulus; give the slope of the stress-strain curve after yield, at least 0 "
+                 "and below young",
+                 node_text(r, tangent ? tangent : hardening));
 }
 
 /* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
@@ -83,11 +83,12 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
         return fault_report_missing_key(r, n, key_find("material.scatter", own[s->form]));
     if (other)
         return fault(r, other,
-                     "belongs to another distribution of strength; replace it by %s, the parameter of the chosen one",
+                     "belongs to another distribution of strength; give %s in its place, the parameter of the chosen "
+                     "distribution",
                      own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
         return fault(r, n,
-                     "has no effect, because bonds of the material never break; give energy_release_rate, "
+                     "has no effect, because bonds of this material never break; give energy_release_rate, "
                      "critical_stretch or toughness");
     if (material_yields(m) && r->scene->method == METHOD_MPM)
         return fault(r, n,
@@ -95,8 +96,8 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
                      "or remove scatter");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
         return fault(r, n,
-                     "where it yields, the stress does not show how far a bond is from breaking; set method: pd, or "
-                     "remove yield_stress");
+                     "scatter and yield_stress cannot be combined with material points, whose stress after yield does "
+                     "not show how near bonds are to breaking; set method: pd, or remove yield_stress");
     return OK;
 }
 
@@ -110,12 +111,12 @@ static status read_viscosity(struct reader *r, const struct yaml_node *n, struct
     TRY(read_keys_of_group(r, n, n, "material.viscosity", m));
     if (s->levels == LEVELS_AUTO) s->levels = 0;
     s->active_set = false;
-    const char *why = s->space == SPACE_PLANE_STRESS ? "cannot be used in space plane stress, where the rate of volume "
-                                                       "is unknown; use plane strain, solid or line"
+    const char *why = s->space == SPACE_PLANE_STRESS ? "cannot be used in space plane stress, where the change of "
+                                                       "volume is unknown; set space: plane strain, solid or line"
                       : s->model != MODEL_BOND && s->method != METHOD_MPM ? "needs model: bond"
                       : !scene_is_dynamic(s)                              ? "needs solver: explicit"
-                      : s->levels > 0                                     ? "needs mpm.levels: 0 (one time step)"
-                                                                          : NULL;
+                      : s->levels > 0 ? "needs one time step for the whole body; set mpm.levels: 0"
+                                      : NULL;
     return why ? fault(r, n, "%s", why) : OK;
 }
 
@@ -164,7 +165,8 @@ status read_materials(struct reader *r, const struct yaml_node *root)
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
                 return fault(r, yaml_node_find(n, "name"),
-                             "%s is already the name of another material; give each its own", s->material[k].name);
+                             "%s is already the name of another material; give each material its own name",
+                             s->material[k].name);
         TRY(check_single_softening_law(r, n, k));
     }
     return OK;

@@ -20,11 +20,11 @@ static status read_turning_axis(struct reader *r, const struct yaml_node *n, str
 {
     const struct yaml_node *axis = yaml_node_find(n, "axis");
     if (r->dim == 1) return fault(r, n, "a solid on a line cannot turn; use move, mirror or pattern.grid");
-    if (r->dim == 2 && axis) return fault(r, axis, "solids in the plane always turn about z; leave the axis out");
+    if (r->dim == 2 && axis) return fault(r, axis, "solids in the plane always turn about z; remove axis");
     if (!m->has_axis) m->axis[2] = 1;
     m->has_axis = r->dim == 3;
     if (dot(m->axis, m->axis, DIM_MAX) > 0) return OK;
-    return fault(r, axis, "has no length; give an axis such as [0, 0, 1]");
+    return fault(r, axis, "has the length 0; give an axis such as [0, 0, 1]");
 }
 
 /* Reads the centre of a rotation into m->about [m], by default the centre of the bounding box of the solid s. n: node
@@ -39,7 +39,7 @@ static status read_about(struct reader *r, const struct yaml_node *n, const stru
         const real high = solid_support_function(s, along, r->dim);
         m->about[d] = 0.5 * (low + high);
         if (!isfinite(m->about[d]))
-            return fault(r, n, "turns an infinite solid, which has no middle; give a point `about`");
+            return fault(r, n, "an infinite solid has no middle about which to turn; give a point by the key about");
     }
     m->has_about = true;
     return OK;
@@ -58,7 +58,7 @@ static status read_mirror_image(struct reader *r, const struct yaml_node *n, str
     m->kind = MOTION_MIRROR;
     TRY(read_keys_of_group(r, n, n, "solid.mirror", m));
     if (dot(m->axis, m->axis, r->dim) > 0) return OK;
-    return fault(r, yaml_node_find(n, "normal"), "has no length; give the normal of the plane");
+    return fault(r, yaml_node_find(n, "normal"), "has the length 0; give the normal of the plane, such as [1, 0]");
 }
 
 static status read_pattern(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
@@ -102,7 +102,7 @@ status read_motions(struct reader *r, const struct yaml_node *solid_node, struct
         if (!node_is_motion_key_of_solid(c)) continue;
         TRY(read_motion(r, c, solid, &m));
         if (!solid_apply_motion_if_not_too_many_copies(solid, &m, r->dim))
-            return fault(r, c, "makes more than %d copies; use fewer", IMAGES_MOST);
+            return fault(r, c, "makes more than %d copies of the solid; use fewer", IMAGES_MOST);
     }
     return OK;
 }

@@ -25,8 +25,9 @@ static bool evaluate(struct reader *r, struct variable *v, char *message, size_t
     if (v->state == KNOWN) return true;
     if (v->state == OPEN || r->variables_open == CHAIN_MOST) {
         snprintf(message, capacity,
-                 v->state == OPEN ? "depends on itself; change one of the variables in this circle"
-                                  : "depends on other variables through a chain of more than %d; shorten it",
+                 v->state == OPEN
+                     ? "depends on itself, directly or through other variables; change one of them"
+                     : "depends on other variables through a chain of more than %d variables; shorten the chain",
                  CHAIN_MOST);
         return false;
     }
@@ -56,12 +57,13 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 {
     char why[200];
     if (r->variables == 0) {
-        snprintf(message, capacity, "has an unknown name %.40s, and the scene has no variables", name);
+        snprintf(message, capacity,
+                 "has an unknown name %.40s, and the scene has no variables; define it by the key variables", name);
         return NULL;
     }
     struct variable *v = variable_nearest(r, name);
     if (strcmp(v->n->key, name) != 0) {
-        snprintf(message, capacity, "has an unknown name %.40s; the nearest variable is %.40s", name, v->n->key);
+        snprintf(message, capacity, "has an unknown name %.40s; did you mean the variable %.40s?", name, v->n->key);
         return NULL;
     }
     if (evaluate(r, v, why, sizeof why)) return &v->q;
@@ -80,10 +82,11 @@ static status check_variable_name(struct reader *r, const struct yaml_node *n)
     size_t length = 0;
     while (is_letter(n->key[length])) length++;
     if (length == 0 || length > NAME_LONGEST || n->key[length] || isdigit((unsigned char)*n->key))
-        return fault(r, n, "cannot be the name of a variable; use up to %d letters, digits and _, a letter first",
+        return fault(r, n,
+                     "cannot be the name of a variable; use up to %d letters, digits and _, and begin with a letter",
                      NAME_LONGEST);
     const char *meaning = reserved_word_meaning(n->key);
-    return meaning ? fault(r, n, "is %s in expressions; choose another name, such as %.20s1", meaning, n->key) : OK;
+    return meaning ? fault(r, n, "means %s in expressions; choose another name, such as %.20s1", meaning, n->key) : OK;
 }
 
 /* Returns true if `text` contains `name` as a whole word, not only as a part of a longer word. */
@@ -118,7 +121,7 @@ static status check_overrides(struct reader *r, const struct yaml_node *root)
             if (other->n->origin < 0 &&
                 (!nearest || edit_distance(other->n->key, v->n->key) < edit_distance(nearest->n->key, v->n->key)))
                 nearest = other;
-        return fault(r, v->n, "no value of the scene uses this variable%s%s",
+        return fault(r, v->n, "no value of the scene uses this variable; use it or remove it%s%s",
                      nearest ? "; the nearest is " : "; see `cleave help variables`", nearest ? nearest->n->key : "");
     }
     return OK;
@@ -132,8 +135,7 @@ status read_variables(struct reader *r, const struct yaml_node *root)
     r->variables = 0;
     if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
     TRY(expect_node_kind(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
-    if (map->n > k->range.most)
-        return fault(r, map, "has %d variables; at most %g are possible", map->n, k->range.most);
+    if (map->n > k->range.most) return fault(r, map, "has %d variables; give at most %g", map->n, k->range.most);
     r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
@@ -159,7 +161,7 @@ bool number_evaluate_text(struct reader *r, real *value, const char *text, enum 
     if (number_read(value, text, kind_of_unit, allow_infinity, message, capacity)) return true;
     const bool known = quantity_evaluate_text(r, text, &q, other, sizeof other);
     if (known && kind_of_unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
-        snprintf(message, capacity, "has no unit; %s is expected, such as %s", unit_rows[kind_of_unit].name,
+        snprintf(message, capacity, "has no unit; give %s, such as %s", unit_rows[kind_of_unit].name,
                  unit_rows[kind_of_unit].example);
         return false;
     }
@@ -179,9 +181,9 @@ void advise_length_in_spacings(struct reader *r, const struct key *k, const char
     if (k->unit != UNIT_NONE || !k->help || !strstr(k->help, "in spacings")) return;
     if (!number_evaluate_text(r, &length, text, UNIT_LENGTH, false, other, sizeof other)) return;
     if (!(r->scene->spacing > 0)) {
-        snprintf(message, capacity, "is a length; give a number of spacings");
+        snprintf(message, capacity, "is a length; give a plain number, the length in spacings");
         return;
     }
-    snprintf(message, capacity, "is a length; give a number of spacings, here %s: %.4g%s", key_last_part(k),
+    snprintf(message, capacity, "is a length; give it in spacings, here %s: %.4g%s", key_last_part(k),
              length / r->scene->spacing, strcmp(key_last_part(k), "horizon") ? "" : " (3.015 is usual)");
 }

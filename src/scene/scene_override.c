@@ -70,10 +70,12 @@ static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
-        return fault(r, blamed(list, origin), "is not a list in this scene, so [%d] cannot be used", index);
+        return fault(r, blamed(list, origin), "is not a list in this scene, so [%d] cannot be used; remove the number",
+                     index);
     if (index >= list->n)
-        return fault(r, blamed(list, origin), "has %d items, so [%d] is beyond the last one (the first is [0])",
-                     list->n, index);
+        return fault(r, blamed(list, origin),
+                     "has %d items, so [%d] is beyond the last one; use a smaller number (the first is [0])", list->n,
+                     index);
     struct yaml_node *n = list->first;
     while (index-- > 0) n = n->next;
     *out = n;
@@ -114,8 +116,8 @@ static status item_called(struct reader *r, struct yaml_node *list, const char *
             return OK;
         }
     }
-    return fault(r, blamed(list, origin), "has %d item%s, and %s is %s; refer to an item by its number (from 0)%s",
-                 list->n, list->n == 1 ? "" : "s", text_for_message(r, called),
+    return fault(r, blamed(list, origin), "has %d item%s, and %s is %s; name an item by its number (from 0)%s", list->n,
+                 list->n == 1 ? "" : "s", text_for_message(r, called),
                  number ? "beyond the last" : "not the name of one", names_text(r, list));
 }
 
@@ -166,7 +168,7 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
                      map->key ? text_for_message(r, map->key) : "the item", node_text(r, map));
     if (strspn(at.key, "0123456789") == length) {
         at.key = map->key;
-        return fault(r, &at, "is not a list in this scene, so %.*s cannot be used", (int)length, key);
+        return fault(r, &at, "is not a list in this scene, so %.*s cannot be used; remove it", (int)length, key);
     }
     *out = yaml_node_find(map, at.key);
     if (!*out) *out = new_entry(r, map, key, length, origin);

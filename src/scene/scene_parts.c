@@ -19,7 +19,8 @@ static status read_list_columns(struct reader *r, const struct yaml_node *n, str
 {
     size_t length = 1;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is not a list of columns; give one such as [x, y, z, volume, block]", node_text(r, n));
+        return fault(r, n, "%s is not a list of columns; give a list such as [x, y, z, volume, block]",
+                     node_text(r, n));
     for (const struct yaml_node *name = n->first; name; name = name->next) {
         if (name->kind != NODE_SCALAR || strpbrk(name->text, ",;\"'\n"))
             return fault(r, name, "%s is not the name of a column; give names such as [x, y, z, volume, block]",
@@ -64,19 +65,20 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
     static const char *const others[] = {"material", "particles", "frame", "parts"};
     for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
         if (yaml_node_find(n, own[k]))
-            return fault(r, yaml_node_find(n, own[k]), "is for rigid bodies only; add rigid: true, or remove it");
+            return fault(r, yaml_node_find(n, own[k]), "is a key of rigid bodies only; add rigid: true, or remove it");
     if (yaml_node_find(n, "ramp") && (yaml_node_find(n, "mass") || !yaml_node_find(n, "velocity")))
         return fault(r, yaml_node_find(n, "ramp"),
-                     "is for a rigid body with a prescribed velocity; give velocity and no mass");
+                     "is for a rigid body with a prescribed velocity; give velocity, and remove mass");
     if (yaml_node_find(n, "force") && !yaml_node_find(n, "mass"))
         return fault(r, yaml_node_find(n, "force"),
-                     "has no effect on a body without a mass, which keeps its velocity; give a mass");
+                     "has no effect on a rigid body without a mass, which keeps its velocity; give a mass");
     for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
         if (yaml_node_find(n, others[k]))
-            return fault(r, yaml_node_find(n, others[k]),
-                         "cannot be given for a rigid body; give its shape, and a mass if it moves freely");
+            return fault(
+                r, yaml_node_find(n, others[k]),
+                "has no meaning for a rigid body; remove it, and give a shape, and a mass if the body moves freely");
     if (b->rigid && region_contains_infinite_box_solid(&b->shape, r->scene->dim))
-        return fault(r, yaml_node_find(n, "shape"), "has a box without end; use a half-space");
+        return fault(r, yaml_node_find(n, "shape"), "has an infinite box; use a half-space");
     return OK;
 }
 
@@ -129,7 +131,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     if (!one && !many) return fault_report_missing_key(r, root, key_find("", "body"));
     if (one && many) return fault_report_exclusive_keys(r, one, many);
     const struct yaml_node *parts = yaml_node_find(root, "parts");
-    if (many && parts) return fault(r, parts, "belongs to the key body; with bodies, give each body its own parts");
+    if (many && parts) return fault(r, parts, "belongs to the key body; with the key bodies, give parts in each body");
     if (many) TRY(expect_list_of_valid_length(r, key_find("", "bodies"), many));
     const int n_bodies = many ? many->n : 1;
     s->body = NEW("bodies", n_bodies, struct scene_body);
@@ -157,7 +159,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     }
     s->bodies = 0;
     sort_bodies(s, n_bodies);
-    if (s->bodies == 0) return fault(r, many, "all bodies are rigid; add one with a material");
+    if (s->bodies == 0) return fault(r, many, "all bodies are rigid; add a body with a material");
     if (s->rigids == 0) return OK;
     return s->method == METHOD_MPM || scene_is_single_equilibrium(s) ? refuse_unsupported_rigid_bodies(r, many) : OK;
 }
@@ -173,13 +175,14 @@ static status read_polarisation(struct reader *r, const struct yaml_node *n, str
     if (!n)
         memcpy(moved, w->direction, sizeof w->direction);
     else if (!(length > 0))
-        return fault(r, n, "has no length, so it has no direction; give `direction`, or move one of its ends");
+        return fault(r, n, "has the length 0 and thus no direction; give `direction`, or move one of the two ends");
     for (int d = 0; n && d < dim; d++) moved[d] /= length;
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;
     if (!w->transverse && fabs(along) < 1 - 1e-6)
-        return fault(r, n,
-                     "is neither along direction nor across it; particles of a plane wave move along or across it");
+        return fault(
+            r, n,
+            "is neither parallel nor perpendicular to direction, as the motion in a plane wave must be; change it");
     for (int d = 0; d < dim; d++)
         moved[d] = w->transverse ? moved[d] - along * w->direction[d] : along * w->direction[d];
     length = sqrt(dot(moved, moved, dim));
@@ -193,7 +196,7 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
     if (!n) return OK;
     TRY(read_keys_of_group(r, n, n, "initial.pulse", initial));
     length = sqrt(dot(direction, direction, r->dim));
-    if (!(length > 0)) return fault(r, yaml_node_find(n, "direction"), "has no length; give a direction such as 1");
+    if (!(length > 0)) return fault(r, yaml_node_find(n, "direction"), "has the length 0; give a direction such as 1");
     for (int d = 0; d < r->dim; d++) direction[d] /= length;
     initial->sets_pulse = true;
     return read_polarisation(r, yaml_node_find(n, "polarisation"), &initial->pulse);
@@ -248,7 +251,8 @@ static status read_initial(struct reader *r, const struct yaml_node *n, struct s
                      "with solver: relaxation the equilibrium of material points depends on their initial strain; set "
                      "solver: static, or remove the initial strain");
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
-    return fault(r, n, "sets nothing; give velocity, velocity_gradient, rotation, displacement_gradient or pulse");
+    return fault(r, n,
+                 "has no initial state; give velocity, velocity_gradient, rotation, displacement_gradient or pulse");
 }
 
 status read_initial_states(struct reader *r, const struct yaml_node *root)
@@ -275,25 +279,26 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
     TRY(read_keys_of_group(r, n, n, "growth", g));
     length = sqrt(dot(g->direction, g->direction, r->dim));
     if (!(length > 0))
-        return fault(r, yaml_node_find(n, "direction"), "has no length; give a direction such as [1, 0]");
+        return fault(r, yaml_node_find(n, "direction"), "has the length 0; give a direction such as [1, 0]");
     for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
     if (!g->probe[0] && yaml_node_find(n, "toughness"))
         return fault(r, yaml_node_find(n, "toughness"),
-                     "has no effect without probe, the name of a sif probe; give both");
+                     "has no effect without the key probe; add probe, the name of a sif probe");
     if (!g->probe[0] && !isnan(g->smoothing))
         return fault(r, yaml_node_find(n, "smoothing"),
-                     "has no effect without probe, the name of a sif probe; give both");
+                     "has no effect without the key probe; add probe, the name of a sif probe");
     if (growth_speed_is_controlled(g) && !(g->toughness > 0))
-        return fault(r, yaml_node_find(n, "speed"),
-                     "follow needs probe and toughness, the value at which K_eq is kept; give both");
+        return fault(
+            r, yaml_node_find(n, "speed"),
+            "speed: follow needs a sif probe (key probe) and toughness, the value at which K_eq is kept; give both");
     if (!growth_speed_is_controlled(g) && !isnan(g->fastest))
         return fault(r, yaml_node_find(n, "fastest"),
                      "has no effect with a given speed; set speed: follow, or remove it");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
-    return g->probe[0] ? fault(r, yaml_node_find(n, "probe"),
-                               "names the sif probe %s, which the scene does not have; add it to probes", g->probe)
-                       : OK;
+    return g->probe[0]
+               ? fault(r, yaml_node_find(n, "probe"), "the scene has no sif probe %s; add it to probes", g->probe)
+               : OK;
 }
 
 /* Returns REFUSED, with a message, if a probe of the scene names a growth rule that the scene lacks. root: tree of the
@@ -305,12 +310,15 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
     for (int k = 0; k < s->probes; k++, n = n->next) {
         bool found = false;
         if (s->probe[k].kind != PROBE_GROWTH) continue;
-        if (s->growths == 0) return fault(r, n, "no crack has a prescribed growth to measure; add the key growth");
+        if (s->growths == 0)
+            return fault(
+                r, n,
+                "the scene has no crack with prescribed growth to measure; add the key growth, or remove this probe");
         for (int g = 0; g < s->growths; g++)
             found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
         if (!found)
             return fault(r, yaml_node_find(n->first, "of"),
-                         "the scene has no crack growth named %s; the first one is named %s", s->probe[k].of,
+                         "the scene has no growth named %s; give an existing name (the first one: %s)", s->probe[k].of,
                          s->growth[0].name);
     }
     return OK;
@@ -324,8 +332,10 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *list = yaml_node_find(root, "growth");
     if (!list) return check_growth_probes(r, root);
     TRY(expect_list_of_valid_length(r, key_find("", "growth"), list));
-    if (s->dim != 2) return fault(r, list, "crack growth is possible in plane spaces only");
-    if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; set method: pd or adaptive");
+    if (s->dim != 2)
+        return fault(r, list,
+                     "prescribed crack growth is possible in plane spaces only; set a plane space, or remove growth");
+    if (s->method == METHOD_MPM) return fault(r, list, "method: mpm has no bonds to cut; set method: pd or adaptive");
     s->growths = list->n;
     s->growth = NEW("growth", list->n, struct growth_rule);
     const struct yaml_node *n = list->first;
@@ -345,7 +355,7 @@ static status read_frame_region(struct reader *r, const struct yaml_node *n, int
     TRY(read_keys_of_group(r, n, n, "output.regions", one));
     if (strcmp(one->name, "frames") == 0)
         return fault(r, yaml_node_find(n, "name"),
-                     "frames is the name of the files of the whole body; choose another one");
+                     "frames is the name of the frames of all bodies; choose another name");
     for (int k = 0; k < number; k++)
         if (strcmp(s->series[k].name, one->name) == 0)
             return fault(r, yaml_node_find(n, "name"), "%s is already the name of another region; choose another one",

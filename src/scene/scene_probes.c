@@ -48,10 +48,8 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
         if (edit_distance(s->boundary[k].name, p->boundary) < edit_distance(s->boundary[nearest].name, p->boundary))
             nearest = k;
     }
-    return fault(
-        r, n,
-        "there is no boundary named %s; of the %d in the scene, %s has the most similar name: give the name of one",
-        p->boundary, s->boundaries, s->boundary[nearest].name);
+    return fault(r, n, "there is no boundary named %s; give the name of one of the %d in the scene (most similar: %s)",
+                 p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
 /* Checks a probe p that compares with a closed-form solution; returns OK for other probes. n: node of the probe; map:
@@ -63,7 +61,8 @@ static status check_exact(struct reader *r, const struct yaml_node *n, const str
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
     if (p->kind != PROBE_EXACT) return OK;
     if (r->scene->space != SPACE_LINE)
-        return fault(r, map ? map : n, "compares with the solution of a bar, which has one dimension; set space: line");
+        return fault(r, map ? map : n,
+                     "compares with the solution of a bar in one dimension; set space: line, or remove this probe");
     for (size_t k = 0; k < COUNT_OF(numbers); k++) {
         const struct yaml_node *given = yaml_node_find(map, numbers[k]);
         if (given && p->form != EXACT_MANUFACTURED)
@@ -78,7 +77,7 @@ static status check_rigid(struct reader *r, const struct yaml_node *n, const str
                           const struct probe_request *p)
 {
     if (p->kind != PROBE_RIGID || r->dim == 2) return OK;
-    return fault(r, map ? map : n, "rigid is a probe for plane spaces only; remove this probe");
+    return fault(r, map ? map : n, "the probe rigid is for plane spaces only; remove it");
 }
 
 /* Checks a probe p of stress-intensity factors; returns OK for other probes. Sets its outer radius to its last contour
@@ -89,10 +88,10 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
 {
     enum { CONTOURS_MAX = 16 };
     if (p->kind != PROBE_SIF) return OK;
-    if (r->dim != 2) return fault(r, map ? map : n, "sif is a probe for plane spaces only; remove this probe");
+    if (r->dim != 2) return fault(r, map ? map : n, "the probe sif is for plane spaces only; remove it");
     const struct number_list *c = &p->contours;
     const struct yaml_node *contours = yaml_node_find(map, "contours");
-    if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; 1 to %d are expected", c->n, CONTOURS_MAX);
+    if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; give 1 to %d", c->n, CONTOURS_MAX);
     if (isnan(p->outer) && c->n > 0) p->outer = c->value[c->n - 1];
     const real outer = isnan(p->outer) ? 20 * r->scene->spacing : p->outer;
     if (p->inner >= outer)
@@ -102,7 +101,8 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
             node_text(r, yaml_node_find(map, "inner")), outer);
     const real shares[2] = {p->direction[0], p->direction[1]};
     if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
-    return fault(r, yaml_node_find(map, "direction"), "has no length; give the direction ahead of the tip");
+    return fault(r, yaml_node_find(map, "direction"),
+                 "has the length 0; give the direction ahead of the crack tip, such as [1, 0]");
 }
 
 /* Reads the probe of node n, in any of its forms, into *p. A number that is not given and has no default becomes NAN.
@@ -126,7 +126,7 @@ static status read_probe(struct reader *r, const struct yaml_node *n, struct pro
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_keys_of_group(r, map ? map : n, map, group, p));
     if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)
-        return fault(r, map, "has no length; give two different ends, from and to");
+        return fault(r, map, "has the length 0; give two different ends, from and to");
     TRY(check_exact(r, n, map, p));
     TRY(check_sif(r, n, map, p));
     TRY(check_rigid(r, n, map, p));

@@ -43,8 +43,8 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     if (method && wish) return pilot_requirements_read(r, root, text, length, wish);
     if (method)
         return fault(r, method,
-                     "auto is for `cleave run` only, which chooses by pilot runs; give a method and particles.spacing, "
-                     "or use the scene.yaml that such a run writes");
+                     "method: auto works in `cleave run` only, which makes pilot runs; give a method and "
+                     "particles.spacing, or use the scene.yaml that such a run writes");
     scene_store_key_locations(r, root);
     TRY(scene_read_keys_of_tree(r, root));
     s->text = scene_to_yaml(s);
@@ -64,7 +64,7 @@ static status read_scene(struct reader *r, const char *text, size_t length, stru
     struct scene *s = r->scene;
     *s = (struct scene){0};
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!c) return status_set(FAILED, "%s: out of memory while reading it", r->name);
+    if (!c) return status_set(FAILED, "%s: out of memory while the scene is read; free memory and try again", r->name);
     locale_t old = uselocale(c); /* the decimal sign is then a point in every locale */
     s->path = NEW("scene path", strlen(r->name) + 1, char);
     strcpy(s->path, r->name);

@@ -162,8 +162,8 @@ status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node 
             "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use %s for any ratio",
             node_text(r, poisson_node), bonds, space_names[r->scene->space], change);
     return fault(r, poisson_node,
-                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use that ratio: no "
-                 "method allows another one together with %s",
+                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use the ratio of bonds, "
+                 "because no method allows another one together with %s",
                  node_text(r, poisson_node), bonds, space_names[r->scene->space],
                  names_of(r, has & ~(unsigned)HAS_RATIO));
 }
@@ -172,8 +172,8 @@ status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *y
 {
     const unsigned has = scene_has(r);
     const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);
-    if (change) return fault(r, yield_node, "model %s cannot yield; use %s", model, change);
-    return fault(r, yield_node, "model %s cannot yield, and no method has all of %s; remove one of them", model,
+    if (change) return fault(r, yield_node, "model: %s cannot yield; set %s", model, change);
+    return fault(r, yield_node, "model: %s cannot yield, and no method has all of %s; remove one of these", model,
                  names_of(r, has));
 }
 
@@ -185,7 +185,7 @@ status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law
     const int bonds = row_of_method(s, s->method, linear & ~(unsigned)HAS_RATIO);
     const bool ratio = has & HAS_RATIO;
     if (bonds < 0)
-        return fault(r, law_node, "is for material points; use %s",
+        return fault(r, law_node, "is a key for material points; use %s",
                      points ? points : "`method: mpm` without rigid bodies and tensile_strength");
     return fault(
         r, law_node,
@@ -198,7 +198,7 @@ status refuse_unsupported_softening(struct reader *r, const struct yaml_node *st
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
-    if (change) return fault(r, strength_node, "needs bonds that can soften; use %s", change);
+    if (change) return fault(r, strength_node, "needs bonds that can soften; set %s", change);
     return fault(r, strength_node,
                  "needs bonds that can soften, which cannot be combined with %s; remove this key and softening (bonds "
                  "are then brittle)",
@@ -229,11 +229,11 @@ status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yam
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
     if (change)
-        return fault(r, interfaces_node, "bodies are joined by bonds (method pd) or by their grid (method mpm); use %s",
-                     change);
+        return fault(r, interfaces_node,
+                     "bodies are joined by bonds (method: pd) or by their grid (method: mpm) only; set %s", change);
     return fault(r, interfaces_node,
-                 "bodies are joined by bonds (method pd) or by their grid (method mpm), and no method has all of %s; "
-                 "remove one of them",
+                 "bodies are joined by bonds (method: pd) or by their grid (method: mpm) only, and no method has all "
+                 "of %s; remove one of these",
                  names_of(r, has));
 }
 

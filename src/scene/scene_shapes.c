@@ -55,7 +55,8 @@ static status pattern_add(struct reader *r, const struct yaml_node *n, struct sh
         return fault(r, n, "no file matches this name; give the image slices, such as slice_*.png");
     }
     if (found.gl_pathc > SLICES_MOST)
-        s = fault(r, n, "more than %d files match; use a narrower pattern, or files of several pages", SLICES_MOST);
+        s = fault(r, n, "more than %d files match; use a narrower pattern, or TIFF files of several pages",
+                  SLICES_MOST);
     array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, compare_paths);
     for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
         struct yaml_node one = *n;
@@ -71,7 +72,7 @@ static status paths_read(struct reader *r, const struct yaml_node *n, struct sha
 {
     if (n->kind == NODE_SCALAR && f->kind == SHAPE_IMAGE && strchr(n->text, '*')) return pattern_add(r, n, f);
     if (n->kind != NODE_LIST || f->kind != SHAPE_IMAGE) return shape_path_add(r, n, f);
-    if (n->n == 0 || n->n > SLICES_MOST) return fault(r, n, "%d files; 1 to %d are expected", n->n, SLICES_MOST);
+    if (n->n == 0 || n->n > SLICES_MOST) return fault(r, n, "gives %d files; give 1 to %d", n->n, SLICES_MOST);
     for (const struct yaml_node *item = n->first; item; item = item->next) TRY(shape_path_add(r, item, f));
     return OK;
 }
@@ -158,8 +159,8 @@ static status check_contents(struct reader *r, const struct yaml_node *n, const 
     snprintf(found, sizeof found, "%016" PRIx64, contents);
     if (!words->contents[0] || strcmp(words->contents, found) == 0) return OK;
     return fault(r, yaml_node_find(n, "contents"),
-                 "is %s, but the hash of the file is %s: the file has changed; restore the earlier file, or remove the "
-                 "key contents",
+                 "is %s, but the hash of the file is %s, so the file has changed; restore the earlier file, or remove "
+                 "the key contents",
                  words->contents, found);
 }
 
@@ -174,7 +175,8 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
     if (!unit) return OK;
     snprintf(text, sizeof text, "1 %.40s", unit->text);
     if (unit->kind == NODE_SCALAR && number_read(scale_value, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
-    return fault(r, unit, "%s is not a unit of length; give mm, m, um, .. or scale: 25.4 mm", node_text(r, unit));
+    return fault(r, unit, "%s is not a unit of length; give one such as mm, m or um, or scale: 25.4 mm",
+                 node_text(r, unit));
 }
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
@@ -213,7 +215,7 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
                      "{particles: {file: .., unit: ..}}, and a region names one of their sets by the key set");
     s->hull = set ? &set->hull : &g->whole;
     if (within && !s->hull->open)
-        return fault(r, within, "is only for sets of nodes or faces, but this solid fills a volume; remove it");
+        return fault(r, within, "is for sets of nodes or faces only, but this solid fills a volume; remove it");
     if (!s->hull->open) return OK;
     TRY(read_spacing(r, n, &s->radius));
     if (g->whole.dim == 0) s->radius *= AT_NODE;
@@ -267,7 +269,7 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
     if (!file) return fault_report_missing_key(r, n, key_find("solid.image", "file"));
     if (r->dim == 1) return fault(r, n, "cannot be used in space line; use box");
     if (slice && r->dim == 2)
-        return fault(r, slice, "cannot be used in the plane, where there is one image; remove it");
+        return fault(r, slice, "has no effect in plane spaces, where a solid has a single image; remove it");
     struct shape_file *f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = SHAPE_IMAGE, .dim = r->dim, .scale = NAN};
     for (int d = 0; d < r->dim; d++)
@@ -310,6 +312,6 @@ status read_image_solid(struct reader *r, const struct yaml_node *solid_node, st
     solid->kind = SOLID_VOXELS;
     solid->voxels = grey_part_of(f, &wanted);
     if (solid->voxels->voxels > 0) return OK;
-    return fault(r, values ? values : solid_node, "no voxel of the image has such a grey value; %s",
-                 "give values that occur in it");
+    return fault(r, values ? values : solid_node, "no voxel of the image has one of these grey values; %s",
+                 "give values that occur in the image");
 }

@@ -62,13 +62,12 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
         return fault(r, n,
-                     "bonds break at a stretch of %.4g, which is a stress of %.4g Pa, below this strength; give a "
-                     "lower strength, or a "
-                     "larger critical_stretch",
+                     "bonds break at a stretch of %.4g, a stress of %.4g Pa, before this strength is reached; give a "
+                     "lower tensile_strength, or a larger critical_stretch",
                      m->critical_stretch, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space));
     return fault(r, n,
-                 "bonds of this horizon, %.4g m, break at %.4g Pa by the energy release rate, before this strength is "
-                 "reached; use a horizon below %.4g m, that is particles.spacing below %.4g m%s",
+                 "with a horizon of %.4g m bonds break at %.4g Pa by the energy release rate, before this strength is "
+                 "reached; use a horizon below %.4g m, which needs particles.spacing below %.4g m%s",
                  s->horizon * s->spacing, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space), most,
                  most / s->horizon, strength_unit_hint(s, most));
 }
@@ -82,7 +81,7 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
     const struct key factors = {
         .path = "material.rate.table", .type = KEY_REAL, .unit = UNIT_NONE, .range = {1, 100, false, true}};
     TRY(expect_node_kind(r, n, NODE_LIST, "a list of points [strain rate, factor]"));
-    if (n->n < 1 || n->n > RATE_POINTS) return fault(r, n, "has %d points; 1 to %d are expected", n->n, RATE_POINTS);
+    if (n->n < 1 || n->n > RATE_POINTS) return fault(r, n, "has %d points; give 1 to %d", n->n, RATE_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next) {
         const int k = rate->points++;
         if (point->kind != NODE_LIST || point->n != 2)
@@ -91,7 +90,7 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
         TRY(read_number(r, &factors, point->first->next, &rate->factor[k]));
         if (k > 0 && !(rate->rate[k] > rate->rate[k - 1]))
             return fault(r, point,
-                         "the rate %g 1/s is not above the previous one, %g 1/s; give rates in ascending order",
+                         "the strain rate %g 1/s is not above the previous one, %g 1/s; give rates in ascending order",
                          rate->rate[k], rate->rate[k - 1]);
         if (k > 0 && rate->factor[k] < rate->factor[k - 1])
             return fault(r, point, "the factor falls from %g to %g; give factors that do not fall", rate->factor[k - 1],
@@ -115,7 +114,8 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
                      "load steps have no strain rate, so a strength that depends on it cannot be used; remove rate, or "
                      "set solver: explicit");
     if (material_has_strength_surface(m))
-        return fault(r, rate, "a strength surface cannot depend on the rate; remove one of the two");
+        return fault(r, rate,
+                     "a strength surface cannot depend on the strain rate; remove rate, or the second strength");
     TRY(read_rate_table(r, table, &m->rate));
     const real strongest = m->tensile_strength * m->rate.factor[m->rate.points - 1];
     TRY(check_strength_below_tenth_of_modulus(r, table, m, strongest));
@@ -124,8 +124,8 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
     const real most = s->horizon * s->spacing * least / RATE_LEAST_RATIO;
     if (least >= RATE_LEAST_RATIO || limit_spacing_of_spacing_search(r, most / s->horizon)) return OK;
     return fault(r, table,
-                 "bonds of this horizon, %.4g m, break by the energy release rate before %.4g Pa, the strength at the "
-                 "last rate; use a horizon below %.4g m, that is particles.spacing below %.4g m",
+                 "with a horizon of %.4g m bonds break by the energy release rate before they reach %.4g Pa, the "
+                 "strength at the last rate; use a horizon below %.4g m, which needs particles.spacing below %.4g m",
                  s->horizon * s->spacing, strongest, most, most / s->horizon);
 }
 
@@ -137,11 +137,14 @@ static status check_no_surface(struct reader *r, const struct yaml_node *n)
                                         "strength_radius"};
     const struct yaml_node *rate = yaml_node_find(n, "rate");
     if (rate)
-        return fault(r, rate,
-                     "has no effect without tensile_strength, which it raises with the strain rate; give both");
+        return fault(
+            r, rate,
+            "has no effect without tensile_strength, which it raises with the strain rate; give tensile_strength too");
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         const struct yaml_node *key = yaml_node_find(n, names[k]);
-        if (key) return fault(r, key, "belongs to a strength surface, which needs tensile_strength too; give both");
+        if (key)
+            return fault(r, key,
+                         "belongs to a strength surface, which needs tensile_strength too; add tensile_strength");
     }
     return OK;
 }
@@ -154,7 +157,9 @@ status read_softening_onset(struct reader *r, const struct yaml_node *material_n
                            *scatter = yaml_node_find(material_node, "scatter");
     material->onset_stretch = material->critical_stretch;
     if (law && !strength)
-        return fault(r, law, "has no effect without tensile_strength, whose decrease it describes; give both");
+        return fault(r, law,
+                     "has no effect without tensile_strength, because it describes how bonds soften from this strength "
+                     "on; add tensile_strength, or remove it");
     if (!strength) return check_no_surface(r, material_node);
     if (!material_yields(material) && s->method == METHOD_MPM) return refuse_unsupported_softening(r, strength);
     if (material_yields(material))
@@ -163,16 +168,17 @@ status read_softening_onset(struct reader *r, const struct yaml_node *material_n
     const char *why =
         scene_is_single_equilibrium(s)
             ? s->method == METHOD_PD
-                  ? "has no effect in a single equilibrium, in which no bond breaks; set solver: explicit or static"
-                  : "has no effect in a single equilibrium, in which no bond breaks; set solver: explicit"
+                  ? "has no effect with this solver, whose single equilibrium breaks no bonds; set solver: explicit or "
+                    "static"
+                  : "has no effect with this solver, whose single equilibrium breaks no bonds; set solver: explicit"
         : !isfinite(material->critical_stretch)
             ? "needs the energy that a bond dissipates; add energy_release_rate, toughness or critical_stretch"
             : NULL;
     if (why) return fault(r, strength, "%s", why);
     if (scatter && material->scatter.of != SCATTER_STRENGTH && material->scatter.of != SCATTER_STRETCH)
         return fault(r, yaml_node_find(scatter, "of"),
-                     "cannot be combined with tensile_strength; set strength (the energy does not scatter) or "
-                     "critical_stretch (it does)");
+                     "this choice cannot be combined with tensile_strength; set scatter.of: strength (the energy does "
+                     "not vary) or critical_stretch (it does)");
     TRY(check_strength_below_tenth_of_modulus(r, strength, material, material->tensile_strength));
     set_stretches(s, material);
     TRY(read_strength_surface(r, material_node, material));
@@ -186,8 +192,8 @@ status check_single_softening_law(struct reader *r, const struct yaml_node *mate
     for (int j = 0; j < material_index; j++)
         if (material_has_softening_bonds(&m[j]) && material_has_softening_bonds(&m[material_index]) &&
             m[j].softening != m[material_index].softening)
-            return fault(r, material_node, "softens by another law than material %s; give all materials the same law",
-                         m[j].name);
+            return fault(r, material_node,
+                         "has another value of softening than material %s; give all materials the same one", m[j].name);
     return OK;
 }
 
@@ -206,13 +212,14 @@ status check_softening_is_supported(struct reader *r, const struct yaml_node *ro
                           *yields = scene_first_material(s, material_yields);
     if (soft && yields)
         return fault(r, yaml_node_find(root, "materials"),
-                     "bonds of material %s soften and those of %s yield, which one scene cannot combine; give "
+                     "bonds of material %s soften and those of %s yield, and a scene cannot combine both; give "
                      "materials a tensile_strength or a yield_stress, not both",
                      soft->name, yields->name);
     if (!soft || s->model == MODEL_BOND) return OK;
     if (growth)
         return fault(r, growth,
-                     "cannot cut bonds that soften with this model; set model: bond, or remove tensile_strength");
+                     "prescribed crack growth cannot cut bonds that soften with this model; set model: bond, or remove "
+                     "tensile_strength");
     for (int m = 0; m < s->materials; m++)
         if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, model,

@@ -35,7 +35,8 @@ static status check_box(struct reader *r, const struct yaml_node *n, const struc
 {
     for (int d = 0; d < r->dim; d++)
         if (!(s->from[d] < s->to[d]))
-            return fault(r, n, "from is not below to along %c; give from the smaller and to the larger coordinates",
+            return fault(r, n,
+                         "from is not below to along %c; give the smaller coordinates by from, the larger ones by to",
                          'x' + d);
     return OK;
 }
@@ -46,9 +47,10 @@ static status check_round(struct reader *r, const struct yaml_node *n, const str
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
     if (has_ends && memcmp(s->from, s->to, sizeof s->from) == 0)
-        return fault(r, n, "has an axis without length; give two different ends, from and to");
+        return fault(r, n, "has an axis of length 0; give two different ends, from and to");
     if ((s->kind == SOLID_TUBE || s->kind == SOLID_RING) && !(s->inner < s->radius))
-        return fault(r, yaml_node_find(n, "inner"), "is not below radius; give the radius of the hole");
+        return fault(r, yaml_node_find(n, "inner"),
+                     "is not below radius; give the radius of the hole, smaller than radius");
     if (s->kind == SOLID_CONE && !(s->inner + s->radius > 0))
         return fault(r, n,
                      "has two radii of 0; give one above 0 (the other may be 0, for a cone that ends in a point)");
@@ -62,9 +64,9 @@ static status check_solid(struct reader *r, const struct yaml_node *n, const str
 {
     if (s->kind == SOLID_BOX) return check_box(r, n, s);
     if (s->kind == SOLID_HALF_SPACE && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "has a normal without length; give one that points out of the half-space");
+        return fault(r, n, "has a normal of length 0; give one that points out of the half-space, such as [0, 1]");
     if (s->kind == SOLID_TORUS && !(dot(s->normal, s->normal, r->dim) > 0))
-        return fault(r, n, "has an axis without length; give the direction through the hole");
+        return fault(r, n, "has an axis of length 0; give the direction through the hole, such as [0, 0, 1]");
     return check_round(r, n, s);
 }
 
@@ -89,14 +91,14 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     case POLYGON_SHORT:
         return fault(r, list, "corner %d and the next one are at the same position; remove one of them", at);
     case POLYGON_FLAT:
-        return fault(r, list, "have no area; give the corners of a polygon");
+        return fault(r, list, "enclose no area; give three or more corners that are not on one line");
     case POLYGON_CROSSED:
         return fault(
             r, list,
             "the edge that begins at corner %d touches or crosses another edge; give a polygon without crossings", at);
     case POLYGON_TIGHT:
         return fault(r, yaml_node_find(n, "round"),
-                     "is too large for the edge from corner %d to the next; use a smaller radius", at);
+                     "is too large for the edge from corner %d to the next one; use a smaller radius", at);
     default:
         return OK;
     }
@@ -110,7 +112,8 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
     const struct yaml_node *shape = yaml_node_find(n, "shape");
     TRY(read_keys_of_group(r, n, n, "solid.extrude", s));
     if (!shape) return fault_report_missing_key(r, n, key_find("solid.extrude", "shape"));
-    if (!(s->begin < s->end)) return fault(r, n, "from is not below to; give from the lower end");
+    if (!(s->begin < s->end))
+        return fault(r, n, "from is not below to; give the lower end by from, the upper one by to");
     r->dim = 2;
     const status read = read_region(r, shape, &s->region);
     r->dim = r->scene->dim;
@@ -152,7 +155,8 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
 {
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
     const char *word = r->dim == r->scene->dim ? "region" : "section";
-    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is not a name; give one of the %ss", node_text(r, n), word);
+    if (n->kind != NODE_SCALAR)
+        return fault(r, n, "%s is not a name; give the name of one of the key %ss", node_text(r, n), word);
     if (!map)
         return fault(
             r, n, "%s is not a kind of solid, and the scene has no %s of this name; define it by %ss: {%s: {box: ..}}",
@@ -217,7 +221,7 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
     *map = yaml_node_find(root, key);
     if (!*map) return OK;
     TRY(expect_node_kind(r, *map, NODE_MAP, "a mapping of names to solids, such as {grip: {box: ..}}"));
-    return (*map)->n > 0 ? OK : fault(r, *map, "has no region; give a name and its solids");
+    return (*map)->n > 0 ? OK : fault(r, *map, "has no region; give a name and its solids, such as {grip: {box: ..}}");
 }
 
 /* Reads all named sections in r->sections and discards them: faults in unused sections are found in this way, and
@@ -226,7 +230,7 @@ static status read_sections(struct reader *r)
 {
     const struct yaml_node *map = r->sections;
     int count = 0;
-    if (r->dim != 3) return fault(r, map, "cannot be used in %s; use regions there", space_name_for_message(r));
+    if (r->dim != 3) return fault(r, map, "cannot be used in %s; use the key regions there", space_name_for_message(r));
     struct named_region *named = NEW("regions", map->n, struct named_region);
     r->dim = 2;
     const status read = read_names(r, map, named, &count);
@@ -287,10 +291,11 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
         if (!node_is_motion_key_of_solid(c)) child = c, solids++;
     if (solids != 1)
         return fault(r, n,
-                     "has %d solids where exactly one is expected: box, disc, ball, cylinder, polygon or another "
-                     "(list: `cleave help solid`)",
+                     "has %d solids, but needs exactly one: box, disc, ball, cylinder, polygon or another (list: "
+                     "`cleave help solid`)",
                      solids);
-    if (r->solids++ > SOLIDS_MOST) return fault(r, n, "has more than %d solids; use fewer", SOLIDS_MOST);
+    if (r->solids++ > SOLIDS_MOST)
+        return fault(r, n, "has more than %d solids; remove some, or use a mesh", SOLIDS_MOST);
     for (size_t k = 0; k < COUNT_OF(solid_words) && !word; k++)
         if (strcmp(solid_words[k].name, child->key) == 0) word = &solid_words[k];
     if (word)
@@ -303,7 +308,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
         TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));
     if (solid_query_cost_relative_to_ball(s) <= EFFORT_MOST) return OK;
-    return fault(r, n, "makes more than %g solids with its copies; use fewer", EFFORT_MOST);
+    return fault(r, n, "makes more than %g solids with its copies; use fewer copies", EFFORT_MOST);
 }
 
 /* Reads the list of solids of node n into `region`. intersect: true if solids without an operation of their own are
@@ -311,7 +316,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
  * one is subtracted. */
 static status read_solids(struct reader *r, const struct yaml_node *n, struct region *region, bool intersect)
 {
-    if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "is an empty list; give at least one solid");
+    if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "is an empty list; give at least one solid, such as box");
     const struct yaml_node *item = n->kind == NODE_LIST ? n->first : n;
     int count = n->kind == NODE_LIST ? n->n : 1;
     region->solid = NEW("solids", count, struct solid);
@@ -321,7 +326,8 @@ static status read_solids(struct reader *r, const struct yaml_node *n, struct re
         TRY(read_solid(r, item, &region->solid[k], false));
     }
     if (region->solid[0].subtract)
-        return fault(r, n, "has nothing to subtract from; first add a solid (in a region perhaps all: true)");
+        return fault(r, n,
+                     "has no solid before it from which to subtract; add one first (in a region perhaps all: true)");
     region_build_search_trees(region, r->dim);
     return OK;
 }
@@ -360,7 +366,7 @@ static status check_polygon(struct reader *r, const struct yaml_node *n, const s
         for (int d = 0; d < DIM_MAX; d++) normal[d] += part[d];
     }
     real twice_area = sqrt(dot(normal, normal, DIM_MAX)), size = sqrt(twice_area);
-    if (!(twice_area > 0)) return fault(r, n, "has no area; give the corners of a plane convex polygon");
+    if (!(twice_area > 0)) return fault(r, n, "has no area; give three or more corners that are not on one line");
     for (int k = 0; k < c->n; k++) {
         for (int j = 0; j < c->n; j++) {
             real away[DIM_MAX];
@@ -397,7 +403,7 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
     TRY(check_keys_known(r, n, "cracks"));
     for (const struct yaml_node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
-            return fault(r, k, "cannot be used in space %s; give a crack by %s", space_names[r->scene->space],
+            return fault(r, k, "cannot be used in space %s; give the crack by %s", space_names[r->scene->space],
                          form[r->dim - 1]);
     const struct yaml_node *a = yaml_node_find(n, word), *b = yaml_node_find(n, "to");
     if (!a) return fault_report_missing_key(r, n, key_find("cracks", word));
@@ -408,7 +414,7 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
     if (r->dim == 1) return OK;
     TRY(read_point(r, key_find("cracks", "to"), b, c->corner[1]));
     if (c->corner[0][0] != c->corner[1][0] || c->corner[0][1] != c->corner[1][1]) return OK;
-    return fault(r, n, "has no length; give two different ends, from and to");
+    return fault(r, n, "has the length 0; give two different ends, from and to");
 }
 
 static status read_crack(struct reader *r, const struct yaml_node *n, struct crack *c)

@@ -20,17 +20,21 @@ static status check_steps_motion(struct reader *r, const struct yaml_node *root)
                            s->body[s->bodies + k].name));
     if (s->growths > 0)
         return fault(r, cracks ? cracks : solver,
-                     "cracks with a prescribed speed need time steps; set solver: explicit");
+                     "cracks with a prescribed speed need time steps; set solver: explicit, or remove growth");
     if (s->contact_friction > 0)
-        return fault(r, tree_find(root, "contact.friction"), "load steps have no friction; set 0, or solver: explicit");
+        return fault(r, tree_find(root, "contact.friction"),
+                     "load steps have no friction; set contact.friction: 0, or solver: explicit");
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
             return fault(r, yaml_node_find(root, "initial"),
-                         "load steps have no velocities; remove them, or set solver: explicit");
+                         "load steps have no initial velocities; remove velocity and pulse from initial, or set "
+                         "solver: explicit");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE)
-            return fault(r, solver, "solver: static computes no waves, which probe %s measures; set solver: explicit",
-                         s->probe[k].name);
+            return fault(
+                r, solver,
+                "solver: static computes no waves, which probe %s measures; remove the probe, or set solver: explicit",
+                s->probe[k].name);
     return OK;
 }
 
@@ -43,7 +47,7 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
     for (int b = 0; b < s->boundaries && n; b++, n = n->next) {
         if (s->boundary[b].follow)
             return fault(r, yaml_node_find(n, "follow"),
-                         "load steps apply loads to the undeformed body only; set false, or solver: explicit");
+                         "load steps apply loads to the undeformed body only; set follow: false, or solver: explicit");
         TRY(status_prepend_location(s->boundary[b].place, boundary_check_displacement_known(&s->boundary[b])));
     }
     return OK;
@@ -62,13 +66,15 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
     const struct yaml_node *solver = yaml_node_find(root, "solver");
     if (!scene_has_load_steps_with_softening_bonds(s)) return OK;
     if (s->method != METHOD_PD)
-        return fault(r, solver, "load steps with bonds that soften need method: pd; set method: pd");
+        return fault(r, solver,
+                     "load steps with bonds that soften need method: pd; set it, or remove tensile_strength");
     if (s->rigids > 0)
-        return fault(r, solver, "load steps with bonds that soften cannot have rigid bodies; use boundaries instead");
+        return fault(r, solver,
+                     "load steps with bonds that soften cannot have rigid bodies; use boundaries in their place");
     if (s->steps.control == CONTROL_OPENING || s->steps.then == THEN_EXPLICIT || s->steps.path == PATH_HOOP)
         return fault(r, yaml_node_find(root, "steps"),
-                     "bonds that soften determine the crack path themselves; set control: energy or load, then: "
-                     "equilibrium, and path: bonds or auto");
+                     "bonds that soften determine the crack path themselves; set steps.control: energy or load, "
+                     "steps.then: equilibrium, and steps.path: bonds or auto");
     for (int m = 0; m < s->materials; m++)
         if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, solver,
@@ -106,16 +112,17 @@ status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
     r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
         return fault(r, tree_find(root, "steps.then"),
-                     "explicit is possible only with steps.control: load; with control %s load steps follow an "
-                     "unstable crack, so no explicit run is needed: set equilibrium",
+                     "steps.then: explicit is possible only with steps.control: load, because control: %s follows an "
+                     "unstable crack by load steps; set steps.then: equilibrium",
                      opening ? "opening" : "energy");
     if (s->steps.path == PATH_HOOP && s->dim == 1)
-        return fault(r, tree_find(root, "steps.path"),
-                     "hoop needs crack tips, which a line does not have; set bonds or auto");
+        return fault(
+            r, tree_find(root, "steps.path"),
+            "steps.path: hoop needs crack tips, which space line does not have; set steps.path: bonds or auto");
     if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return check_steps_loaded(r, root);
     return fault(r, steps,
-                 "control: opening needs steps.from and steps.to, two positions, and steps.opening, the increase of "
-                 "their distance");
+                 "steps.control: opening needs two positions, steps.from and steps.to, and the increase of their "
+                 "distance, steps.opening; give all three");
 }
 
 /* Returns REFUSED, with a message, if the scene has settings of load steps but another solver. Default values are
@@ -129,5 +136,5 @@ status check_load_step_keys_unused(struct reader *r, const struct yaml_node *roo
     const bool usual = s->number == atoi(number->fallback) && s->control == CONTROL_LOAD && s->energy == 0 &&
                        s->opening == 0 && s->path == PATH_AUTO && s->breaks == atoi(breaks->fallback);
     if (!steps || scene_has_load_steps(r->scene) || usual) return OK;
-    return fault(r, steps, "load steps need solver: static; set it, or remove these keys");
+    return fault(r, steps, "the keys of steps need solver: static; set it, or remove them");
 }

@@ -30,10 +30,12 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
 {
     if (value > low * m->tensile_strength && value <= high * m->tensile_strength) return OK;
     if (isinf(high))
-        return fault(r, n, "must be more than %.4g Pa, %s of tensile_strength", low * m->tensile_strength,
+        return fault(r, n, "is too small; give more than %.4g Pa, %s of tensile_strength", low * m->tensile_strength,
                      low < 0.4 ? "a third" : "a half");
-    return fault(r, n, "must be more than %.4g Pa (half of tensile_strength) and at most %.4g Pa (all of it)",
-                 low * m->tensile_strength, high * m->tensile_strength);
+    return fault(
+        r, n,
+        "is out of range; give more than %.4g Pa (half of tensile_strength) and at most %.4g Pa (tensile_strength)",
+        low * m->tensile_strength, high * m->tensile_strength);
 }
 
 /* Sets m->surface, the strength surface of material m, from the strength that the key `key` gives. n: node of the key.
@@ -92,8 +94,8 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
         return OK;
     if (most >= s->horizon * s->spacing) return OK;
     return fault(r, n,
-                 "bonds of this horizon, %.4g m, soften at %.4g Pa already, before the strength surface is reached; "
-                 "use a horizon below %.4g m, that is particles.spacing below %.4g m%s",
+                 "with a horizon of %.4g m bonds soften at %.4g Pa, before the strength surface is reached; use a "
+                 "horizon below %.4g m, which needs particles.spacing below %.4g m%s",
                  s->horizon * s->spacing, own, most, most / s->horizon, strength_unit_hint(s, most));
 }
 
@@ -115,9 +117,12 @@ status read_strength_surface(struct reader *r, const struct yaml_node *material_
     if (!given) return OK;
     if (s->model != MODEL_BOND)
         return fault(r, given,
-                     "a strength surface (a strength that depends on the stress state) needs model: bond; set it");
+                     "a strength surface (a strength that depends on the stress state) needs model: bond; set it, or "
+                     "remove this key");
     if (s->space == SPACE_LINE)
-        return fault(r, given, "belongs to a strength surface, which a line does not have; give tensile_strength only");
+        return fault(
+            r, given,
+            "belongs to a strength surface, which space line does not have; remove it, and keep tensile_strength");
     TRY(surface_from(r, given, key, material));
     const real share = s->space == SPACE_PLANE_STRESS ? RADIUS_PLANE_STRESS : RADIUS_ELSE;
     const real reach = radius ? material->strength_radius : share * characteristic_length(s, material);

@@ -23,7 +23,7 @@ static status read_table(struct reader *r, const struct yaml_node *n, struct tim
     f->value = NEW("time table", n->n, real);
     for (const struct yaml_node *row = n->first; row; row = row->next) {
         if (row->kind != NODE_LIST || row->n != 2)
-            return fault(r, row, "%s is not a pair; give [time, factor], such as [5 us, 1]", node_text(r, row));
+            return fault(r, row, "%s is not a pair of time and factor; give one such as [5 us, 1]", node_text(r, row));
         TRY(read_number(r, &time, row->first, &f->t[f->n]));
         TRY(read_number(r, &factor, row->last, &f->value[f->n]));
         if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
@@ -72,7 +72,8 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     char *unit = csv_cut_unit_off_column_name(name), number[UNIT_LONGEST_NAME + 2];
     const bool time = strcasecmp(name, "time") == 0 || strcasecmp(name, "t") == 0;
     if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
-    if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_report_fault(&c->in, name, "its unit is too long; shorten it");
+    if (strlen(unit) >= UNIT_LONGEST_NAME)
+        return csv_report_fault(&c->in, name, "the unit in the header is too long; write a shorter one");
     if (time && c->time >= 0)
         return csv_report_fault(&c->in, name, "column %.40s is given twice; rename or remove one", name);
     if (!time && c->value >= 0) {
@@ -108,7 +109,8 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
         return csv_report_fault(&c->in, c->second,
                                 "column %.40s is a second column of values; add column: NAME to choose one", c->second);
     if (c->value >= 0) return OK;
-    if (*wanted) return csv_report_fault(&c->in, c->in.text, "no column is named %.40s; check its spelling", wanted);
+    if (*wanted)
+        return csv_report_fault(&c->in, c->in.text, "the file has no column named %.40s; check the spelling", wanted);
     return csv_report_fault(&c->in, c->in.text,
                             "there is only one column; give time and value, separated by a comma, semicolon or tab");
 }
@@ -117,7 +119,8 @@ static status time_number(const struct time_columns *c, const char *field, const
                           real *value)
 {
     char text[100], what[160];
-    if (strlen(field) > 50) return csv_report_fault(&c->in, field, "'%.20s..' is not a number", field);
+    if (strlen(field) > 50)
+        return csv_report_fault(&c->in, field, "'%.20s..' is not a number; correct this line", field);
     snprintf(text, sizeof text, *unit_text ? "%s %s" : "%s", field, unit_text);
     if (number_read(value, text, unit, false, what, sizeof what)) return OK;
     return csv_report_fault(&c->in, field, "'%s' %s", field, what);
@@ -146,8 +149,8 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
     }
     if (found < 2)
         return csv_report_fault(&c->in, line,
-                                "this line has %d values, but the value of column %d is needed; add the missing values",
-                                k, 1 + (c->time > c->value ? c->time : c->value));
+                                "this line has %d values, but column %d is needed; add the missing values", k,
+                                1 + (c->time > c->value ? c->time : c->value));
     if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
         return csv_report_fault(&c->in, time,
                                 "time %s is not later than the previous one; give times in ascending order", time);
@@ -161,7 +164,7 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
         TRY(csv_read_data_line(&c->in, &more));
         if (!more) break;
         if (f->n == TIMES_MAX)
-            return csv_report_fault(&c->in, c->in.text, "more than %d times; remove some", TIMES_MAX);
+            return csv_report_fault(&c->in, c->in.text, "the file has more than %d times; remove some", TIMES_MAX);
         GROW("time table", f->t, f->n + 1);
         GROW("time table", f->value, f->n + 1);
         TRY(time_entry(c, c->in.text, f));
@@ -178,14 +181,15 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
     struct time_columns c = {.unit = unit_of_boundary(b)};
     const struct yaml_node *n = yaml_node_find(map, "file");
     const struct yaml_node *column = yaml_node_find(map, "column");
-    if (!n) return fault(r, column, "has no effect without file; add file, the name of a CSV file");
+    if (!n) return fault(r, column, "has no effect without the key file; add file: NAME.csv");
     if (column && (column->kind != NODE_SCALAR || !*column->text || strlen(column->text) >= sizeof b->time_column))
-        return fault(r, column, "%s is not the name of a column", node_text(r, column));
+        return fault(r, column, "%s is not the name of a column; give a name from the header of the file",
+                     node_text(r, column));
     if (column) snprintf(b->time_column, sizeof b->time_column, "%s", column->text);
     b->time.kind = TIME_TABLE;
     TRY(read_input_file_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
     if (!r->files) return OK;
-    TRY(csv_open(&c.in, b->time_file, "a function of time has one time and its value per line"));
+    TRY(csv_open(&c.in, b->time_file, "write one time and its value on each line"));
     status s = time_entries(&c, &b->time, b->time_column);
     csv_close(&c.in);
     b->time_unit = *c.value_unit != '\0';
@@ -204,8 +208,7 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
     if (!function_node || (function_node->kind == NODE_SCALAR && strcmp(function_node->text, "constant") == 0))
         return OK;
     if (function_node->kind != NODE_MAP)
-        return fault(r, function_node, "%s is not a function of time; %s is expected", node_text(r, function_node),
-                     forms);
+        return fault(r, function_node, "%s is not a function of time; give %s", node_text(r, function_node), forms);
     TRY(check_keys_known(r, function_node, "boundary.time"));
     if (yaml_node_find(function_node, "file") || yaml_node_find(function_node, "column")) {
         for (const struct yaml_node *other = function_node->first; other; other = other->next)
@@ -219,5 +222,6 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
     TRY(read_keys_of_group(r, form, form, groups[kind], f));
-    return f->from < f->until ? OK : fault(r, form, "from is not before until; give from the earlier time");
+    return f->from < f->until ? OK
+                              : fault(r, form, "from is not earlier than until; exchange or correct the two times");
 }

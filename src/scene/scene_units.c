@@ -275,7 +275,7 @@ struct complaint {
 /* Writes the message `wrong`, the name of the expected unit and an example to c.what[c.room]. Returns false. */
 static bool complain(struct complaint c, const char *wrong, enum unit unit)
 {
-    snprintf(c.what, c.room, "%s; %s is expected, such as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
+    snprintf(c.what, c.room, "%s; give %s, such as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
     return false;
 }
 

@@ -40,16 +40,17 @@ static void describe_unknown_key(const struct yaml_node *n, const char *group, c
     if (foreign_word_advice(n->key, group, instead, sizeof instead))
         snprintf(text, capacity, "unknown key; %s", instead);
     else if (nearest && words_are_similar(leaf, n->key))
-        snprintf(text, capacity, "unknown key; the nearest is %s", leaf);
+        snprintf(text, capacity, "unknown key; did you mean %s?", leaf);
     else if (owner && others > 1)
-        snprintf(text, capacity, "does not belong here, but into %s: %s: {%s: ..}", owner->key, owner->key, n->key);
+        snprintf(text, capacity, "this key does not belong here, but into %s: %s: {%s: ..}", owner->key, owner->key,
+                 n->key);
     else if (other && !strchr(other->path, '.'))
-        snprintf(text, capacity, "does not belong here; put the key %s at the left margin", n->key);
+        snprintf(text, capacity, "this key does not belong here; put %s at the left margin", n->key);
     else if (others == 1)
-        snprintf(text, capacity, "does not belong here; use the key %s", other->path);
+        snprintf(text, capacity, "this key does not belong here; use the key %s", other->path);
     else if (others > 1)
-        snprintf(text, capacity, "does not belong here; `cleave help %s` lists the %d keys of that name", n->key,
-                 others);
+        snprintf(text, capacity, "this key does not belong here; `cleave help %s` lists the %d keys of that name",
+                 n->key, others);
     else
         snprintf(text, capacity, "unknown key; `cleave help%s%s` lists the known ones", *group ? " " : "", group);
 }

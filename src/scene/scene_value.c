@@ -26,7 +26,7 @@ static status check_range(struct reader *r, const struct key *k, const struct ya
     const char *name = k->type == KEY_INT ? "a whole number" : unit->name;
     bool bounded = isfinite(range->most);
     const char *advice = foreign_value_advice(k->path, n->text);
-    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s%s%s", node_text(r, n), name,
+    return fault(r, n, "%s is out of range; give %s %s %s%s%s%s%s%s%s", node_text(r, n), name,
                  range->open ? "above" : "from", number_write_shortest(least, range->least),
                  bounded       ? (range->open ? " up to " : " to ")
                  : range->open ? ""
@@ -39,7 +39,7 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
 {
     char what[256];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a number; %s is expected, such as %s", node_text(r, n), unit_rows[k->unit].name,
+        return fault(r, n, "%s is not a number; give %s, such as %s", node_text(r, n), unit_rows[k->unit].name,
                      unit_rows[k->unit].example);
     if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
         *value = k->word_value;
@@ -63,7 +63,7 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
         return fault(r, n, "%s %s", node_text(r, n), what);
     *value = round(number);
     if (fabs(number - *value) <= 1e-9 * (1 + fabs(number))) return OK;
-    return fault(r, n, "%s is %g; a whole number is expected", node_text(r, n), number);
+    return fault(r, n, "%s is %g; give a whole number", node_text(r, n), number);
 }
 
 /* Reads a whole number from node n into *value. Returns REFUSED, with a message, for other texts and outside the range
@@ -100,7 +100,7 @@ static status read_seed(struct reader *r, const struct yaml_node *n, uint64_t *v
     else
         errno = EINVAL;
     if (errno == 0) return OK;
-    return fault(r, n, "%s is not a seed; a whole number from 0 to 18446744073709551615 is expected", node_text(r, n));
+    return fault(r, n, "%s is not a seed; give a whole number from 0 to 18446744073709551615", node_text(r, n));
 }
 
 static status read_flag(struct reader *r, const struct yaml_node *n, bool *value)
@@ -117,7 +117,7 @@ static status read_choice(struct reader *r, const struct key *k, const struct ya
     int word = n->kind == NODE_SCALAR ? word_index_in_list(k->words, n->text) : -1;
     const char *advice = foreign_value_advice(k->path, n->text);
     if (word < 0)
-        return fault(r, n, "%s is unknown; %s is expected%s%s", node_text(r, n), words, advice ? "; " : "",
+        return fault(r, n, "%s is unknown; give %s%s%s", node_text(r, n), words, advice ? "; " : "",
                      advice ? advice : "");
     if (k->size == sizeof(int)) memcpy(place, &word, sizeof word);
     if (k->size == 1) *(bool *)place = word == 1;
@@ -148,12 +148,12 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
         *bits = *bits << 1 | 1;
     if (*bits) return OK;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is unknown; none, all or a list of %s is expected", node_text(r, n), words);
+        return fault(r, n, "%s is unknown; give none, all or a list of %s", node_text(r, n), words);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         int word = c->kind == NODE_SCALAR ? word_index_in_list(k->words, c->text) : -1;
         if (word < 0) {
             const char *near = word_near(r, k->words, c->text);
-            return fault(r, c, "%s is unknown%s%s; %s is expected", node_text(r, c), near ? "; the nearest is " : "",
+            return fault(r, c, "%s is unknown%s%s; give %s", node_text(r, c), near ? "; the nearest is " : "",
                          near ? near : "", words);
         }
         *bits |= 1u << word;
@@ -165,9 +165,10 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
 static status read_any_text(struct reader *r, const struct yaml_node *n, char *text, size_t capacity)
 {
     const size_t length = strlen(n->text);
-    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is not a text", node_text(r, n));
+    if (n->kind != NODE_SCALAR || length == 0)
+        return fault(r, n, "%s is not a text; give one line of text", node_text(r, n));
     if (length >= capacity)
-        return fault(r, n, "%s is too long; at most %d characters are possible", node_text(r, n), (int)capacity - 1);
+        return fault(r, n, "%s is too long; give at most %d characters", node_text(r, n), (int)capacity - 1);
     memset(text, 0, capacity);
     memcpy(text, n->text, length);
     return OK;
@@ -181,7 +182,7 @@ static status read_name(struct reader *r, const struct yaml_node *n, char *name)
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
     if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-')
         return read_any_text(r, n, name, NAME_MAX_LENGTH);
-    return fault(r, n, "%s is not a name; use letters, digits, _ and -, but no - first", node_text(r, n));
+    return fault(r, n, "%s is not a name; use letters, digits, _ and -, and do not begin with -", node_text(r, n));
 }
 
 /* ---- lists of numbers -------------------------------------------------------------------------------------------- */
@@ -203,10 +204,10 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     if (n->kind != NODE_LIST) {
         char example[200];
         key_write_example(k, r->dim, NULL, example, sizeof example);
-        return fault(r, n, "%s is not a list; %d components are expected in %s, such as %s", node_text(r, n), r->dim,
-                     space, example);
+        return fault(r, n, "%s is not a list; give %d components in %s, such as %s", node_text(r, n), r->dim, space,
+                     example);
     }
-    if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
+    if (n->n != r->dim) return fault(r, n, "has %d components; give %d in %s", n->n, r->dim, space);
     for (const struct yaml_node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
 }
@@ -219,7 +220,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
     if (dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, matrix);
     bool rows = n->kind == NODE_LIST && n->n == dim && n->first->kind == NODE_LIST;
     if (!rows && (n->kind != NODE_LIST || n->n != dim * dim))
-        return fault(r, n, "%s is not a matrix; %d rows of %d numbers are expected", node_text(r, n), dim, dim);
+        return fault(r, n, "%s is not a matrix; give %d rows of %d numbers", node_text(r, n), dim, dim);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(rows ? read_point(r, k, c, &matrix[entry]) : read_number(r, k, c, &matrix[entry]));
         entry += rows ? dim : 1;
@@ -234,7 +235,7 @@ enum { SERIES_MOST = 100000 }; /* largest number of values of a series */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
     TRY(expect_list(r, k, n));
-    if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
+    if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; give 1 to %d", n->n, SERIES_MOST);
     series->value = NEW("scene series", n->n, real);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(read_number(r, k, c, &series->value[series->n]));

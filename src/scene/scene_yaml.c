@@ -41,11 +41,13 @@ static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
 static status yaml_fault(struct parse *p)
 {
     const yaml_parser_t *yaml = &p->yaml;
-    if (yaml->error == YAML_MEMORY_ERROR) return status_set(FAILED, "%s: out of memory while reading it", p->r->name);
+    if (yaml->error == YAML_MEMORY_ERROR)
+        return status_set(FAILED, "%s: out of memory while the scene is read; free memory and try again", p->r->name);
     yaml_mark_t mark = yaml->error == YAML_READER_ERROR ? mark_of_offset(p, yaml->problem_offset) : yaml->problem_mark;
-    return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1,
-                             "not YAML: %s; indent by spaces (not tabs), end a key in `: `, close brackets",
-                             yaml->problem ? yaml->problem : "it cannot be read");
+    return fault_at_location(
+        p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1,
+        "not YAML: %s; indent by spaces (not tabs), write `: ` after each key, and close all brackets",
+        yaml->problem ? yaml->problem : "it cannot be read");
 }
 
 static status next_event(struct parse *p, yaml_event_t *event)
@@ -54,7 +56,7 @@ static status next_event(struct parse *p, yaml_event_t *event)
     if (++p->events <= EVENTS_MOST) return OK;
     yaml_mark_t mark = event->start_mark;
     yaml_event_delete(event);
-    return fault_at(p, mark, "more than 1000000 YAML events; put long data into a particle list");
+    return fault_at(p, mark, "the scene has more than 1000000 YAML items; put long data into a particle list");
 }
 
 /* Returns a message if the event e of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character, or
@@ -70,8 +72,8 @@ static const char *event_refusal(const yaml_event_t *e, int depth)
     if (e->type == YAML_SEQUENCE_START_EVENT) anchor = e->data.sequence_start.anchor, tag = e->data.sequence_start.tag;
     if (e->type == YAML_MAPPING_START_EVENT) anchor = e->data.mapping_start.anchor, tag = e->data.mapping_start.tag;
     if (anchor) return "an anchor (&) is not allowed in a scene; write the value out where it is used";
-    if (tag) return "a tag (!) is not allowed in a scene; the key says what its value is";
-    if (depth > DEPTH_MOST) return "is nested deeper than 16 levels, more than any key of a scene; remove levels";
+    if (tag) return "a tag (!) is not allowed in a scene, whose keys determine the types of values; remove it";
+    if (depth > DEPTH_MOST) return "is nested deeper than 16 levels, more than any key of a scene; remove some levels";
     return NULL;
 }
 
@@ -206,8 +208,9 @@ status tree_parse_yaml(struct reader *r, const char *text, size_t length, int or
     const char *nul = memchr(text, 0, length);
     if (nul)
         return fault_at(&p, mark_of_offset(&p, (size_t)(nul - text)),
-                        "contains a NUL byte; a scene is UTF-8 text: remove it");
-    if (!yaml_parser_initialize(&p.yaml)) return status_set(FAILED, "%s: out of memory while reading it", r->name);
+                        "contains a NUL byte, but a scene is UTF-8 text; remove it");
+    if (!yaml_parser_initialize(&p.yaml))
+        return status_set(FAILED, "%s: out of memory while the scene is read; free memory and try again", r->name);
     yaml_parser_set_input_string(&p.yaml, (const unsigned char *)text, length);
     status s = read_document(&p, root);
     yaml_parser_delete(&p.yaml);

@@ -457,5 +457,7 @@ status newton_solver_find_equilibrium(struct newton_solver *q, const struct fiel
         combine(q, &q->x, 0, &q->x, 0, &q->x);
         prescribed = false;
     }
-    return status_set(FAILED, "no equilibrium within %d corrections", CORRECTIONS_MOST);
+    return status_set(
+        FAILED, "no equilibrium within %d corrections; use more load steps (steps.number) or a larger solver_tolerance",
+        CORRECTIONS_MOST);
 }

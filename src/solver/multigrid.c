@@ -64,7 +64,9 @@ static status finest_make(struct multigrid_level *l, const struct block_matrix *
     for (int64_t i = 0; i < l->n; i++) diagonal_exact(l, i);
     for (int64_t i = 0; i < l->n; i++) {
         if (!(l->scale[i] >= 0) || isinf(l->scale[i]))
-            return status_set(FAILED, "multigrid: the stiffness of node %lld is %g N/m; 0 or more is expected",
+            return status_set(FAILED,
+                              "multigrid: the stiffness of node %lld is %g N/m, but must not be negative; check the "
+                              "materials, and please report the scene",
                               (long long)i, l->scale[i]);
         most = real_max(most, l->scale[i]);
     }

@@ -174,8 +174,8 @@ status cg_step(struct static_solver *s, const struct static_body *body, int64_t 
     reproducible_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED,
-                          "conjugate gradients at step %lld: a part of the body can move without resistance: check "
-                          "that every part is held, or bonded to a part that is held",
+                          "conjugate gradients at step %lld: a part of the body can move without resistance; hold "
+                          "every part by a boundary `fixed`, or join it by bonds to a part that is held",
                           (long long)step);
     s->strain_ratio = sqrt(curvature / unit_energy(body)) / field_largest_component(&s->d, s->dim, s->n);
     const real left = sqrt(solver_cg_advance(s, s->rz / curvature));

@@ -154,7 +154,7 @@ static status force_balanced(const struct loads *loads, int d)
     if (fabs(sum) <= 1e-9 * size || component_constrained(loads, d)) return OK;
     return status_set(REFUSED,
                       "solver: nothing holds the body along %c against an applied force of %.4g N; balance the loads, "
-                      "or hold that component somewhere",
+                      "or hold that component somewhere by a boundary `fixed`",
                       "xyz"[d], sum);
 }
 
@@ -170,7 +170,7 @@ static status loads_balanced(const struct static_body *body)
     if (turning <= TURNING_MOST) return OK;
     return status_set(REFUSED,
                       "solver: no support keeps the body from turning, but the moment of the loads is %.3g of the "
-                      "largest possible one; balance the loads, or hold the body",
+                      "largest possible one; balance the loads, or hold the body by boundaries `fixed`",
                       turning);
 }
 

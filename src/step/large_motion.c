@@ -88,8 +88,8 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
     if (count == 0) return;
     snprintf(text, sizeof text,
              "parts of body %.60s pass through each other: at t = %.3g s %lld particles are nearer than half a spacing "
-             "to another one without a bond between them, the first at (%s) m: contact is %s; use contact.between: "
-             "all; if this is intended, add accept: [contact]",
+             "to one that no bond joins to them, the first at (%s) m, because contact is %s; set contact.between: all; "
+             "if this is intended, add accept: [contact]",
              s->body[p->body[first]].name, t, (long long)count, particle_position_text(p, first, 4).text,
              s->contact_between == CONTACT_NONE ? "none" : "between bodies only");
     warnings_add_and_print(warning_list, text);
@@ -132,7 +132,7 @@ void large_motion_warn_of_turned_pressure(struct large_motion *m, const struct p
         if (!(degrees > TURNED_MOST)) continue;
         snprintf(text, sizeof text,
                  "boundary %.60s: its surface has turned by %.0f degrees at t = %.3g s, but the pressure acts along "
-                 "the normals of the undeformed body, so it does work on the rotation; use follow: true",
+                 "the normals of the undeformed body, so its direction is wrong by this angle; set follow: true",
                  b->name, degrees, t);
         warnings_add_and_print(warning_list, text);
         m->turned = true;

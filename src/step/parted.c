@@ -194,24 +194,26 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
     const struct weak_shape *w = c->parted > 0 ? NULL : shape_properties_if_weak_in_tension(s->shape);
-    char text[640], what[250], state[100] = "has separated without fracture";
-    if (w) snprintf(state, sizeof state, "pulled with mpm.shape: %s is too weak", w->word);
+    const struct position_text at = position_text(c->farthest.middle, s->dim, 4);
+    char text[640], what[400];
     if (w)
         snprintf(what, sizeof what,
-                 "%lld of %lld pairs of neighbouring points are at least %.3g times as far apart as at the start, "
-                 "where this shape carries %s %% too little",
-                 (long long)c->pulled, (long long)n, w->pulled, w->too_little);
+                 "metal is pulled too far for mpm.shape: %s, which carries %s %% too little stress where neighbouring "
+                 "points are %.3g times as far apart as at the start: at t = %.3g s %lld of %lld pairs are, the "
+                 "farthest ones %.2g times, near (%s) m",
+                 w->word, w->too_little, w->pulled, t, (long long)c->pulled, (long long)n, c->farthest.stretch,
+                 at.text);
     else
         snprintf(what, sizeof what,
-                 "between %lld of %lld pairs of neighbouring points the cells of the grid are empty, so that little or "
-                 "nothing holds them together",
-                 (long long)c->parted, (long long)n);
-    snprintf(text, sizeof text,
-             "metal %s at t = %.3g s: %s, %.2g times as far as at the start near (%s) m; use %smpm.frame: reference "
-             "up to plastic strains of 0.05%s; if this is intended, add accept: [strain]",
-             state, t, what, c->farthest.stretch, position_text(c->farthest.middle, s->dim, 4).text,
-             s->shape == SHAPE_CPGIMP ? "" : "mpm.shape: cpgimp, or ",
-             c->parted > 0 ? ", and pull it by wider parts that do not yield" : "");
+                 "metal has separated without fracture at t = %.3g s: between %lld of %lld pairs of neighbouring "
+                 "points the cells of the grid are empty, so little or nothing holds them together; near (%s) m they "
+                 "are %.2g times as far apart as at the start",
+                 t, (long long)c->parted, (long long)n, at.text, c->farthest.stretch);
+    snprintf(
+        text, sizeof text,
+        "%s; use %smpm.frame: reference up to plastic strains of 0.05%s; if this is intended, add accept: [strain]",
+        what, s->shape == SHAPE_CPGIMP ? "" : "mpm.shape: cpgimp, or ",
+        c->parted > 0 ? ", and pull it by wider parts that do not yield" : "");
     warnings_add_and_print(to, text);
 }
 

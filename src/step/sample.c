@@ -489,7 +489,7 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
     const char *name = "";
-    char text[400];
+    char text[512];
     int others = -1;
     for (int b = loads->n; b-- > 0;) {
         const struct load *l = &loads->load[b];
@@ -498,11 +498,11 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
             tears |= (p->flag[l->particle[k]] & both) == both;
         if (tears) name = l->boundary->name, others++;
     }
-    snprintf(
-        text, sizeof text,
-        "boundary %s%s: bonds of the particles that it drives break, the first %s, so the grip may tear off and no "
-        "longer load the body; these bonds are counted in crack.driven_bonds, not in crack.start_time and probes",
-        name, others > 0 ? " and others" : "", when);
+    snprintf(text, sizeof text,
+             "boundary %s%s: bonds of the particles that it drives break, the first %s, so the grip may tear off and "
+             "no longer load the body; drive a deeper layer (depth), or look at the damage there. These bonds count in "
+             "crack.driven_bonds, not in crack.start_time and probes",
+             name, others > 0 ? " and others" : "", when);
     warnings_add_and_print(to, text);
 }
 

@@ -71,9 +71,9 @@ static bool say_flight(const struct particles *p, const struct diagnostics *w, s
     if (p->n_free == 0 || fabs(error) > ENERGY_DOUBTFUL || fabs(error) < FLIGHT_LEAST) return false;
     if (!(amount > ENERGY_DOUBTFUL * w->internal_scale)) return false;
     snprintf(text, sizeof text,
-             "%.2g J, %.2g %% of the energy apart from that of flight, %s (energy.balance_error %.2g): the stress of "
-             "material points that fly through cells of the grid is wrong; let bodies start close to each other, halve "
-             "the time step (time.safety), or use mpm.frame: reference",
+             "%.2g J, %.2g %% of the energy without that of free flight, %s (energy.balance_error %.2g), because "
+             "stresses of material points that fly through cells of the grid are wrong; let bodies start close to each "
+             "other, halve the time step (time.safety), or use mpm.frame: reference",
              amount, 100 * amount / w->internal_scale, error < 0 ? "is lost" : "has been gained without work of loads",
              error);
     warnings_add_and_print(to, text);
@@ -95,9 +95,10 @@ static void say_spin(const struct diagnostics *w, bool apic, real spacing, struc
     if (w->spin_scale < SPIN_OF_ROUND_OFF * w->momentum_scale * spacing) return;
     snprintf(text, sizeof text,
              "the angular momentum of the bodies has changed by %.*f %%, although loads have no moment "
-             "(angular_momentum_error)%s",
+             "(angular_momentum_error); %s",
              error < 0.095, 100 * error,
-             apic ? ": mpm.transfer: apic conserves it to a few percent, flip to 0.1 to 1 %" : "");
+             apic ? "use mpm.transfer: flip, which conserves it to 0.1 to 1 % (apic: to a few percent)"
+                  : "do not trust results that depend on rotation");
     warnings_add_and_print(to, text);
 }
 
@@ -133,8 +134,8 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
         return false;
     snprintf(text, capacity,
              "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
-             "the wave breaks or yields a body. Behind it stress oscillates by 10 to 30 %%, so bonds may break too "
-             "early: %s; if this is intended, add accept: [shock]",
+             "the wave breaks or yields a body. Behind the front stress oscillates by 10 to 30 %%, so bonds may break "
+             "too early: %s; if this is intended, add accept: [shock]",
              w->break_time, shock.speed, shock.share, shock.remedy);
     return true;
 }

@@ -84,9 +84,10 @@ static real closing_speed(const struct scene *s, int a, int b)
  * change so that viscosity is possible. */
 static const char *remedy_of(const struct scene *s)
 {
-    if (s->space == SPACE_PLANE_STRESS) return "compare with a run in space: plane strain with material.viscosity: {}";
+    if (s->space == SPACE_PLANE_STRESS)
+        return "compare with a run that has space: plane strain and material.viscosity: {}";
     if (s->model != MODEL_BOND && s->method != METHOD_MPM)
-        return "compare with a run with model: bond and material.viscosity: {}";
+        return "compare with a run that has model: bond and material.viscosity: {}";
     if (s->levels > 0 && s->levels != LEVELS_AUTO) return "use material.viscosity: {} and mpm.levels: 0";
     return "use material.viscosity: {}, which spreads the front";
 }

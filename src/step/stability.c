@@ -142,7 +142,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
     snprintf(text, capacity,
              "a smaller time step does not help: boundary %s, a %s of %.3g %s, %s %.3g m/s%s, %.3g times the wave "
-             "speed, and loads have done %.3g J of work: check its value and unit",
+             "speed, and loads have done %.3g J of work; check the value of this boundary and its unit",
              b->name, b->displaces ? "displacement" : word[b->kind], value,
              b->displaces ? "m"
              : b->by_mass ? "N/kg"
@@ -238,8 +238,8 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
     const enum growth_rate rate = growth_samples_classify(earlier, e->clock.step, growing_value, &steps);
     if (scene_has_load_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, capacity,
-                 "this occurred in an equilibrium: use more load steps (steps.number) or a smaller solver_tolerance to "
-                 "find its origin, and please report the scene");
+                 "this occurred in a static equilibrium; use more load steps (steps.number) or a smaller "
+                 "solver_tolerance, and please report the scene");
         return;
     }
     if (load_explanation(e, steps, text, capacity)) return;
@@ -375,7 +375,7 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
 {
     const int64_t i = fastest_particle(p);
     return status_set(
-        FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest one of a body %s; %s",
+        FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest particle of a body %s; %s",
         (long long)clock->step, clock->t, (int)p->id[i], particle_position_text(p, i, 6).text, what, remedy);
 }
 
@@ -390,7 +390,8 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, const 
     char text[560], remedy[200] = "use mpm.frame: reference";
     const char *why = scene_why_reference_frame_is_no_remedy(s);
     if (why)
-        snprintf(remedy, sizeof remedy, "use method: pd or lower loads and speeds (mpm.frame: reference: %s)", why);
+        snprintf(remedy, sizeof remedy,
+                 "use method: pd, or smaller loads and speeds (mpm.frame: reference is no remedy: %s)", why);
     snprintf(text, sizeof text,
              "points in mpm.frame: current are stretched by %.0f %% at t = %.3g s, near (%s) m: beyond about 10 %% "
              "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; %s; if this is intended, "
@@ -456,9 +457,9 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
         if (!(p->plastic_strain[i] > TURNED_MOST) || p->flag[i] & FLAG_MESHED) continue;
         if (!(s->material[p->material[i]].law.kinematic.modulus > 0)) continue;
         snprintf(text, sizeof text,
-                 "points with kinematic hardening have a plastic strain of %.2g at t = %.3g s, near (%s) m: in "
-                 "shear their back stress turns with Jaumann's rate and oscillates, so they carry too little beyond a "
-                 "shear of about 1; use isotropic hardening, which does not oscillate",
+                 "points with kinematic hardening have a plastic strain of %.2g at t = %.3g s, near (%s) m: beyond a "
+                 "shear of about 1 their back stress oscillates (Jaumann's rate), and they carry too little; use "
+                 "isotropic hardening, which does not oscillate",
                  p->plastic_strain[i], t, particle_position_text(p, i, 4).text);
         warnings_add_and_print(to, text);
         return true;

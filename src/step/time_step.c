@@ -235,7 +235,7 @@ status time_step_choose_and_count_steps(struct run *e)
     if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
         return status_set(REFUSED,
                           "time.step: %.4g s is too large for coarse cells (mpm.levels above 0), which are stable up "
-                          "to %.4g s (%.2f of the critical step); use a smaller step",
+                          "to %.4g s (%.2f of the critical step); use a smaller time.step, or set mpm.levels: 0",
                           dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
     e->clock.dt_bears = dt;
     if (scene_has_load_steps(s))

@@ -105,7 +105,7 @@ checked "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'boun
 amounts 'load           b: traction on x+, 20 particles, 20 m^2; force (40, 0) N, moment about the origin -400 N m when it is largest, at 0.00025 s'
 amounts 'support        d: x driven on x-, 10 particles; by (-0.002, 0) m when it is largest, at 0.0003 s, by (0.001, 0) m at the end, at most 6.67 m/s'
 holds "formula" grep -q '^support  *f: .*; by (-0.002, 0) m when it is largest, at 0.000665 s, by (-0.001414, 0) m at the end' "$work/said"
-says "formula without value" 'boundary b: its formula has no finite value at ([^)]*) m, 0.00051 s: the run will stop at that time' "$work/disc.yaml" \
+says "formula without value" 'boundary b: its formula has no finite value at ([^)]*) m and t = 0.00051 s; .*; the run will stop at that time' "$work/disc.yaml" \
     -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'boundary=[{traction: ["2 Pa*sqrt(1-t/(0.5 ms))", 0], face: x+, name: b}]'
 holds "formula without value at the end: the largest force" grep -q '; force (40, 0) N, .* when it is largest, at 0 s$' "$work/said"
 holds "no figure that is none" sh -c "! grep -qE '(nan|inf)[,) ]' '$work/said'"
@@ -156,21 +156,21 @@ END
 pulls() { echo "boundary=[{name: pull, traction: [0, 12 MPa], face: y+, time: {$1}}]"; }
 far=$work/far.yaml ramp=$(pulls 'ramp: {until: 0.6 us}') quick=$(pulls 'ramp: {until: 0.1 us}') pulse=$(pulls 'pulse: {until: 2 us}')
 needs='^levels  *coarse cells of up to' largest='the largest that resolve the waves'
-says "levels by the size" "$needs 4 spacings, $largest (boundary pull is sudden) or the body, which is 200 spacings thick: at least 50 such" "$far"
+says "levels by the size" "$needs 4 spacings, $largest (boundary pull is sudden) or fit into the body, which is 200 spacings thick, at least 50 times" "$far"
 says "levels by a ramp" "$needs 8 spacings, $largest (boundary pull rises within 6e-07 s, in which a wave travels 23 spacings)" "$far" -s "$ramp"
-says "levels and a quick ramp" "$needs 4 spacings, $largest (boundary pull rises .* travels 3.84 spacings) or the body" "$far" -s "$quick"
+says "levels and a quick ramp" "$needs 4 spacings, $largest (boundary pull rises .* travels 3.84 spacings) or fit into the body" "$far" -s "$quick"
 late=$(pulls 'ramp: {from: 5 us, until: 5.1 us}')
 says "a quick ramp, whenever it begins" 'boundary pull changes within the time in which a wave travels 3.84 spacings; waves' "$far" -s "$late"
 says "levels by a pulse" "$needs 4 spacings, $largest (boundary pull makes a wave 76.8 spacings long)" "$far" -s "$pulse"
 says "levels by nothing" "$needs 32 spacings, $largest (nothing loads the body)" "$far" -s boundary=[]
 says "levels: cells" '^levels  *[0-9]* cells with edges of 2 spacings, [0-9]* cells with edges of 4 spacings, [0-9]* cells with edges of 8' "$far" -s "$ramp"
 costs "levels: what they save" '^levels  *[0-9]* of 133400 particles are in coarse cells, of which there are [0-9]*; memory [0-9]* MB; about' "$far"
-says "levels: none, too small" '^levels  *no coarse cells: the body has only [0-9]* particles, and they save time only from 100000' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
+says "levels: none, too small" '^levels  *no coarse cells: the body has only [0-9]* particles, and coarse cells save time only with 100000 or more' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
 says "levels: none, a long step" '^levels  *no coarse cells: time.step is 0.7[0-9] of the critical time step, but coarse cells are stable only up to 0.70' "$far" -s time.step=0.03us
 narrow="body={box: {from: [0, 0], to: [200 mm, 15 mm]}}"
 says "levels: none, too sudden" 'no coarse cells: boundary pull is sudden, but cells of 4 spacings require a rise over at least 10 spacings, or a body at least 200 .*(this one: 100)$' "$far" -s "$narrow"
 says "levels given" '^levels  *coarse cells of up to 16 spacings, set by mpm.levels; auto would choose: coarse cells of up to 4' "$far" -s mpm.levels=3
-says "levels: none, too thin" 'no coarse cells: no part of the body is 24 spacings thick, which 6 cells of 4 spacings need$' "$far" -s boundary=[] \
+says "levels: none, too thin" 'no coarse cells: they need parts at least 24 spacings thick (6 cells of 4 spacings), and the body has none$' "$far" -s boundary=[] \
     -s "body={box: {from: [0, 0], to: [1200 mm, 3 mm]}}"
 says "levels given to a thin body" 'accuracy  *mpm.levels: 1 makes coarse cells of 4 spacings in thin parts, such as at .* (100 % of all coarse cells)' "$far" -s mpm.levels=1 \
     -s "body={box: {from: [0, 0], to: [200 mm, 2 mm]}}"
@@ -189,25 +189,25 @@ too_coarse()
     is "$load: warned once" "$(grep -c "^warning: mpm.levels: $words" "$work/err")" 1
 }
 initial_pulse() { echo "initial=[{pulse: {at: [50 mm, 0], direction: [1, 0], width: $1, velocity: 1}}]"; }
-too_coarse "a pulse of 77 spacings" '4 makes .* a wave 76.8 spacings long: cells of this size require waves at least 320 spacings long; use mpm.levels: 1 or auto' -s "$pulse" -s mpm.levels=4
+too_coarse "a pulse of 77 spacings" '4 makes .* a wave 76.8 spacings long: cells of this size require waves at least 320 spacings long; set mpm.levels: 1 or auto' -s "$pulse" -s mpm.levels=4
 too_coarse "a pulse of 60 spacings" '4 makes coarse cells of 32 spacings, but initial pulse 1 makes a wave 60 ' -s boundary=[] -s "$(initial_pulse "9 mm")" -s mpm.levels=4
-too_coarse "a sudden load" '2 makes .* is sudden: cells of this size require a rise over at least 20 spacings, or a body at least 200 .*(this one: 100); use mpm.levels: 1 or auto' -s "$narrow" -s mpm.levels=2
-too_coarse "a ramp of 23 spacings" '3 makes .* require a rise over at least 40 spacings, or a body at least 400 .*(this one: 200); use mpm.levels: 2 or auto' -s "$ramp" -s mpm.levels=3
+too_coarse "a sudden load" '2 makes .* is sudden: cells of this size require a rise over at least 20 spacings, or a body at least 200 .*(this one: 100); set mpm.levels: 1 or auto' -s "$narrow" -s mpm.levels=2
+too_coarse "a ramp of 23 spacings" '3 makes .* require a rise over at least 40 spacings, or a body at least 400 .*(this one: 200); set mpm.levels: 2 or auto' -s "$ramp" -s mpm.levels=3
 silent "a ramp of 23 spacings and cells of 8" 'accuracy  *mpm.levels' "$far" -s "$ramp" -s mpm.levels=2
 silent "a pulse of 220 spacings and cells of 16" 'accuracy  *mpm.levels' "$far" -s boundary=[] -s "$(initial_pulse "33 mm")" -s mpm.levels=3
 silent "a rotation at rate 0" ' is sudden' "$far" -s boundary=[] -s "initial=[{rotation: {centre: [0, 0], rate: 0}}]" -s mpm.levels=2
 silent "a sudden load and cells of 4" 'accuracy  *mpm.levels' "$far" -s "$narrow" -s mpm.levels=1
 # Keys without effect.
 cells="-s mpm.levels=2 -s mpm.fill=needed -s conversion.notch=slit"
-says "levels without cells" 'warning: mpm.levels: 2 has no effect: method pd has no cells' plate_crack -s method=pd $cells
-says "fill without cells" 'warning: mpm.fill: needed has no effect (all particles are made): method pd' plate_crack -s method=pd $cells
-says "slit of bonds" 'warning: conversion.notch: slit has no effect with method pd' plate_crack -s method=pd $cells
-says "slit of points" 'warning: conversion.notch: slit has no effect with method mpm' plate_crack -s method=mpm $cells
-says "levels of the current frame" 'warning: mpm.levels: 2 has no effect: no material points are in the reference' plate_crack \
+says "levels without cells" 'warning: mpm.levels: 2 has no effect, because method pd has no cells' plate_crack -s method=pd $cells
+says "fill without cells" 'warning: mpm.fill: needed has no effect (all particles are made), because method pd' plate_crack -s method=pd $cells
+says "slit of bonds" 'warning: conversion.notch: slit has no effect with method: pd' plate_crack -s method=pd $cells
+says "slit of points" 'warning: conversion.notch: slit has no effect with method: mpm' plate_crack -s method=mpm $cells
+says "levels of the current frame" 'warning: mpm.levels: 2 has no effect, because no material points are in the reference' plate_crack \
     -s mpm.frame=current -s mpm.levels=2
-says "levels at rest" 'warning: mpm.levels: 2 has no effect: a static solver' plate_crack -s method=mpm -s solver=relaxation \
+says "levels at rest" 'warning: mpm.levels: 2 has no effect, because a static solver' plate_crack -s method=mpm -s solver=relaxation \
     -s mpm.transfer=apic -s mpm.levels=2
-says "fill without levels" 'warning: mpm.fill: needed has no effect .*: there are no coarse cells' plate_crack -s mpm.fill=needed
+says "fill without levels" 'warning: mpm.fill: needed has no effect .*, because there are no coarse cells' plate_crack -s mpm.fill=needed
 silent "keys that have none and say so" 'has no effect' plate_crack -s method=pd -s mpm.levels=0 -s conversion.notch=bonds
 silent "keys that have" 'has no effect' "$far" -s mpm.levels=1 -s mpm.fill=needed
 
@@ -351,21 +351,21 @@ particles: {spacing: 1 mm}
 output: {frames: 0, samples: 1}
 END
 two=$work/two.yaml apart="-s bodies.right.shape.box.from=[10mm,0]"
-through="left and right are in the reference frame (mpm.frame): material points there have no contact and pass through"
+through="left and right are in the reference frame (mpm.frame), in which material points have no contact and pass through"
 says "bodies meet on the grid" '^contact .*left, right with each other, on a grid for each' "$two" $apart
 says "on one grid they stick" '^contact .*stick' "$two" $apart -s contact.between=none
 silent "the grid lets bodies meet" '^warning' "$two" $apart
 warned "reference frame" "$through" "$two" $apart -s mpm.frame=reference
 silent "reference frame: none meets" '^contact' "$two" $apart -s mpm.frame=reference
-says "one of two in the reference frame" 'left is in the reference frame (mpm.frame): material points there have no contact' "$two" $apart -s bodies.left.frame=reference
-warned "bonds" 'contact.between: none: peridynamic bodies have no contact' "$two" $apart -s method=pd -s contact.between=none
+says "one of two in the reference frame" 'left is in the reference frame (mpm.frame), in which material points have no contact' "$two" $apart -s bodies.left.frame=reference
+warned "bonds" 'contact.between is none, so peridynamic bodies pass through each other' "$two" $apart -s method=pd -s contact.between=none
 says "bodies of bonds meet" '^contact .*left, right with each other and with itself' "$two" $apart -s method=pd
 silent "bonds that meet" 'pass through' "$two" $apart -s method=pd -s contact.between=bodies
-warned "adaptive" 'pass through the material points of other bodies; .* but contact.convert is false' "$two" $apart -s method=adaptive -s contact.convert=false
+warned "adaptive" 'pass through the material points of other bodies, because contact.convert is false' "$two" $apart -s method=adaptive -s contact.convert=false
 silent "adaptive, which converts what comes near" 'pass through' "$two" $apart -s method=adaptive
-warned "side by side" 'touch at the start (left with right), but are not joined' "$two" -s method=pd
-says "side by side on the grid" '(left with right), but are not joined' "$two"
-says "side by side on one grid" '(left with right), but are not joined: .* they stick together until' "$two" -s contact.between=none
+warned "side by side" 'touch at the start (left with right), but no bond joins them; to join them, use the key interfaces' "$two" -s method=pd
+says "side by side on the grid" '(left with right), but no bond joins them' "$two"
+says "side by side on one grid" '(left with right), but no bond joins them, .* they stick together until' "$two" -s contact.between=none
 silent "side by side, about to hit" 'touch at the start' "$two" -s bodies.left.velocity=[1,0]
 silent "two spacings apart" 'touch at the start' "$two" -s bodies.right.shape.box.from=[7mm,0]
 warned "a published coupling" 'coupling pgg, .* no potential energy' inputs/plate_crack.yaml -s coupling=pgg -s duration=1us
@@ -393,7 +393,7 @@ refused "two lattices at an interface" 'bodies ring and core are joined, but not
 refused "two lattices: how far off" ') m are (1.5, 2.5) spacings apart; give sizes and positions of both in whole spacings, or set pd.surface: volume' "$rows"
 says "one lattice at an interface" 'is sound\|can be run' "$rows" -s bodies.ring.shape.ring.inner=8mm -s bodies.core.shape.disc.radius=8mm
 says "two lattices, which surface volume takes" 'is sound\|can be run' "$rows" -s pd.surface=volume
-refused "rows beside a mirror" 'body body: the mirror of boundary half at y = 0 m does not continue its lattice: its first row of particles is 0.25 spacings from the plane, not 0.5; make its size along y' \
+refused "rows beside a mirror" 'body body: the mirror of boundary half at y = 0 m does not continue the lattice of particles, whose first row is 0.25 spacings from the plane, not 0.5; make the size of the body along y' \
     "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3.5 mm]}}'
 says "rows that fit a mirror" 'is sound\|can be run' \
     "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3 mm]}}'
@@ -448,7 +448,7 @@ is "with viscosity: bonds that break" "$(cat "$work/err")" ""
 says "with viscosity of one of them" '^accuracy  *bodies collide' "$work/strike.yaml" -s "materials.alumina.viscosity={}"
 silent "apart" '^accuracy  *bodies collide' "$work/strike.yaml" -s "bodies.flyer.velocity=[-10 m/s, 0]"
 silent "along each other" '^accuracy  *bodies collide' "$work/strike.yaml" -s "bodies.flyer.velocity=[0, 10 m/s]"
-says "where there is none" '^accuracy  *bodies collide at .*: compare with a run in space: plane strain' "$work/strike.yaml" -s "space=plane stress"
+says "where there is none" '^accuracy  *bodies collide at .*: compare with a run that has space: plane strain' "$work/strike.yaml" -s "space=plane stress"
 
 # ---- loads of a free body, bonds that yield --------------------------------------------------------------------------
 

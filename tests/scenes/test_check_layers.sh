@@ -138,7 +138,7 @@ boundary:
 probes: [reaction: {boundary: up}]
 output: {frames: 1}
 END
-off() { sed -n "s/.*boundary up: .* the $1 spacings of the body were $2: its stiffness is off by \\([-+0-9.]*\\) % in tension.*/\\1/p" "$work/said"; }
+off() { sed -n "s/.*boundary up: .* the $1 spacings of the body were $2. The stiffness is off by \\([-+0-9.]*\\) % in tension.*/\\1/p" "$work/said"; }
 pulled() { compute "$(figure "$folder" probes.reaction.force_max) / (200e9 * 32e-6 * 1e-5 / $1) * 100 - 100"; }
 run odd "$work/odd.yaml"
 told "$work/odd.yaml"

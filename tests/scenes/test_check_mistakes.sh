@@ -71,10 +71,10 @@ says "a step after the end" "$late 0, below 0.1" "$glass" -s "$(factor 'step: {f
 silent "a step that lasts" "$late" "$glass" -s "$(factor 'step: {until: 1 s}')"
 says "a table in ms" "$late 0.04, below 0.1" "$glass" -s "$(factor 'table: [[0, 0], [1 ms, 1], [2 ms, 0]]')"
 silent "a table whose peak is before the end" "$late" "$glass" -s "$(factor 'table: [[0, 0], [20 us, 1], [1 s, 0]]')"
-says "a ramp in ps" "$early 4e-11 s, long before the first time step of 1.43e-07 s, so it acts at once, as if without time: check" "$glass" \
+says "a ramp in ps" "$early 4e-11 s, long before the first time step of 1.43e-07 s, so the load acts in full at once: check" "$glass" \
     -s "$(factor 'ramp: {until: 0.04 ns}')"
 says "a pulse in ps" "$early 4e-11 s, .*, so it never acts: check" "$glass" -s "$(factor 'pulse: {until: 0.04 ns}')"
-says "a table in ps" "$early 4e-11 s, .*, so it has its last value at once: check" "$glass" -s "$(factor 'table: [[0, 0], [0.04 ns, 1]]')"
+says "a table in ps" "$early 4e-11 s, .*, so the load has its last value at once: check" "$glass" -s "$(factor 'table: [[0, 0], [0.04 ns, 1]]')"
 rigid() { echo "bodies=[{name: plate, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}, {name: jaw, rigid: true, velocity: [-1, 0], ramp: $1,
     shape: {box: {from: [50 mm, -20 mm], to: [60 mm, 20 mm]}}}]"; }
 says "a ramp of a rigid body in ms" '^warning: body jaw: .* is 0.001 (by its ramp), below 0.1' "$glass" -s body= -s "$(rigid '40 ms')"
@@ -103,40 +103,40 @@ silent "the scene of a run, which gives all keys" "$idle" "$work/ran/scene.yaml"
 
 # ---- places and signs --------------------------------------------------------------------------------------------------
 
-between='the particles are between (0.0005, -0.0195) and (0.0495, 0.0195) m: check'
+between='(the particles are between (0.0005, -0.0195) and (0.0495, 0.0195) m); check'
 box() { echo "box: {from: [$1], to: [$2]}"; }
-refuses "a probe outside" "the point (10, 5) m is outside the bodies; $between its coordinates and their unit (m if none is written)" "$glass" -s 'probes=[{point: {name: p, at: [10, 5]}}]'
-refuses "a line outside" "the whole line is outside the bodies; $between its ends" "$glass" -s 'probes=[{line: {name: p, from: [10, 5], to: [20, 5], points: 3}}]'
-refuses "a load outside" "boundary up: no particle is in its region; $between the region and its unit (m if none is written)" "$glass" -s "boundary.up.region={$(box '100, 0' '200, 50')}"
-refuses "a pressure outside" "boundary p: no particle is in its region; $between the region" "$glass" -s "boundary=[{name: p, pressure: 1 MPa, region: {$(box '100, 0' '200, 50')}}]"
-says "a support outside" "^warning: boundary f holds no particle; $between its region and the unit (m if none is written) (" "$glass" \
+refuses "a probe outside" "the point (10, 5) m is outside the bodies $between its coordinates and their unit (m if none is written)" "$glass" -s 'probes=[{point: {name: p, at: [10, 5]}}]'
+refuses "a line outside" "the whole line is outside the bodies $between its ends" "$glass" -s 'probes=[{line: {name: p, from: [10, 5], to: [20, 5], points: 3}}]'
+refuses "a load outside" "boundary up: no particle is in its region $between the region and its unit (m if none is written)" "$glass" -s "boundary.up.region={$(box '100, 0' '200, 50')}"
+refuses "a pressure outside" "boundary p: no particle is in its region $between the region" "$glass" -s "boundary=[{name: p, pressure: 1 MPa, region: {$(box '100, 0' '200, 50')}}]"
+says "a support outside" "^warning: boundary f contains no particle $between its region and the unit (m if none is written) (" "$glass" \
     -s "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: f, fixed: all, region: {$(box '100, 0' '200, 50')}}]"
-says "a velocity outside" "^warning: initial\[0\]: no particle is in its region; $between the region" "$glass" -s "initial=[{velocity: [1, 0], region: {$(box '100, 0' '200, 50')}}]"
-says "peridynamics outside" "^warning: pd.region: no particle is in it; $between the region" "$glass" -s "pd.region={$(box '100, 0' '200, 50')}"
+says "a velocity outside" "^warning: initial\[0\]: no particle is in its region, so it has no effect $between the region" "$glass" -s "initial=[{velocity: [1, 0], region: {$(box '100, 0' '200, 50')}}]"
+says "peridynamics outside" "^warning: pd.region contains no particle, so it has no effect $between the region" "$glass" -s "pd.region={$(box '100, 0' '200, 50')}"
 says "a part outside" '^warning: body body: its part 1, of material material, holds no particle, because it is outside' "$glass" -s "parts=[{region: {$(box '100, 0' '200, 50')}, material: material}]"
 silent "a velocity inside" 'initial' "$glass" -s "initial=[{velocity: [0.1, 0], region: {$(box '0, 0' '1 mm, 1 mm')}}]"
-says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle, but should be half a spacing (0.0005 m) away: it has no effect (${between%: check})" "$glass" \
+says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle, but should be half a spacing (0.0005 m) away, so it has no effect ${between%; check}" "$glass" \
     -s 'boundary.down={name: m, mirror: {axis: y, at: -30 mm}}' -s cracks=[] -s contact.between=none
 # Bonds of 3.015 mm cross gaps of 1 mm at most; cells of 2 mm, the second of which begins 1 mm beside the body.
-beside() { echo "boundary m: its plane of symmetry y = -0.02$1 m is 0.00$2 m from the nearest particle, but should be half a spacing (0.0005 m) away: it $3 ("; }
+beside() { echo "boundary m: its plane of symmetry y = -0.02$1 m is 0.00$2 m from the nearest particle, but should be half a spacing (0.0005 m) away, so it $3 ("; }
 for method in pd mpm; do
-    says "a plane half a spacing off, $method" "$(beside 05 1 'holds the body too softly across the gap')" "$glass" -s cracks=[] -s method=$method \
+    says "a plane half a spacing off, $method" "$(beside 05 1 'holds the body too softly')" "$glass" -s cracks=[] -s method=$method \
         -s 'boundary.down={name: m, mirror: {axis: y, at: -20.5 mm}}'
     says "a plane of symmetry far off, $method" "$(beside 3 35 'has no effect')" "$glass" -s cracks=[] -s contact.between=none -s method=$method -s 'boundary.down={name: m, mirror: {axis: y, at: -23 mm}}'
 done
-says "a plane in contact" "$(beside 3 35 'only acts on the body by contact with its mirror image')" "$glass" -s cracks=[] -s method=pd -s contact.between=all \
+says "a plane in contact" "$(beside 3 35 'acts on the body only by contact with the mirror image')" "$glass" -s cracks=[] -s method=pd -s contact.between=all \
     -s 'boundary.down={name: m, mirror: {axis: y, at: -23 mm}}'
-silent "a plane of symmetry at the body" 'away: it ' "$glass" -s 'boundary.down={name: m, mirror: {axis: y, at: -20 mm}}' -s cracks=[]
+silent "a plane of symmetry at the body" 'away, so it ' "$glass" -s 'boundary.down={name: m, mirror: {axis: y, at: -20 mm}}' -s cracks=[]
 # Rows of the second body are 0.4 spacings beside those of the first, from 10 mm inside it on.
 two() { echo "bodies=[{name: a, shape: {$(box '0, -20 mm' '50 mm, 20 mm')}}, {name: b, shape: {$(box "$1, -19.6 mm" '90 mm, 20 mm')}}]"; }
-says "bodies that overlap" '^warning: bodies b and a overlap: 400 particles of b are inside a, the deepest by 0.0093 m at (0.0407, -0.0103) m: move one body, or subtract' "$glass" \
+says "bodies that overlap" '^warning: bodies b and a overlap: 400 particles of b are inside a, the deepest by 0.0093 m at (0.0407, -0.0103) m; move one body, or subtract' "$glass" \
     -s body= -s "$(two '40.4 mm')"
 silent "bodies that overlap on purpose" 'overlap' "$glass" -s body= -s "$(two '40.4 mm')" -s 'accept=[contact]'
 silent "bodies that touch" 'overlap' "$glass" -s body= -s "$(two '50 mm')"
 grown() { echo "growth=[{at: [$1, 0], direction: [1, 0], speed: $2, start: $3}]"; }
 says "growth outside" '^warning: growth growth0: its tip starts 24.9 m from the nearest particle' "$glass" -s "$(grown 24.9 '500 m/s' 0)"
 says "growth after the end" '^warning: growth growth0: starts at 0.01 s, after the duration of 4e-05 s' "$glass" -s "$(grown '24.9 mm' '500 m/s' '10 ms')"
-says "growth by nothing" '^warning: growth growth0: at 0.5 m/s it grows by 2e-05 m in the run, less than a spacing of 0.001 m' "$glass" -s "$(grown '24.9 mm' '0.5 m/s' 0)"
+says "growth by nothing" '^warning: growth growth0: at 0.5 m/s the crack grows by 2e-05 m in the run, less than a spacing of 0.001 m' "$glass" -s "$(grown '24.9 mm' '0.5 m/s' 0)"
 says "growth in mm/us" '^warning: growth growth0: 5e+05 m/s is 163 times the speed of Rayleigh waves, 3058 m/s' "$glass" -s "$(grown '24.9 mm' '500 mm/us' 0)"
 silent "growth" 'growth' "$glass" -s "$(grown '24.9 mm' '500 m/s' 0)"
 pressed() { echo "boundary=[{name: p, pressure: $1, region: {$(box '-inf, 19 mm' 'inf, inf')}}]"; }
@@ -155,8 +155,8 @@ silent "a slot of four spacings" "$thin" "$glass" -s cracks=[] -s "$(slot "$(box
 # ---- cracks that cannot grow -------------------------------------------------------------------------------------------
 
 # Waves travel at 5763 m/s, 20 mm take 3.5 us; (72 GPa 34 mJ/m^2)^(1/2) is 0.0495 MPa m^0.5.
-pressing='^warning: boundary down: its traction of 1.2e+07 Pa on y- presses crack 1 shut, as all loads do' fixed='^warning: crack 1 cannot grow: supports prescribe'
-ends='^warning: crack 1 ends nowhere inside a body' short='^warning: duration: in 2e-06 s waves travel 0.0115 m'
+pressing='^warning: boundary down: its traction of 1.2e+07 Pa on y- closes crack 1, as all loads do' fixed='^warning: crack 1 cannot grow: supports prescribe'
+ends='^warning: crack 1 has no end inside a body' short='^warning: duration: in 2e-06 s waves travel 0.0115 m'
 turned() { echo "boundary=[{name: up, traction: [0, -12 MPa], face: y+}, {name: down, $1, face: y-}]"; }
 held() { echo "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: down, fixed: $1, face: y-, depth: 24 mm}]"; }
 says "loads that press a crack" "$pressing, .* points outwards, -1.2e+07 Pa; .* accept: \[growth\]" "$glass" -s "$(turned 'traction: [0, 12 MPa]')"
@@ -165,10 +165,10 @@ silent "loads that press beside shear" "$pressing" "$glass" -s "$(turned 'tracti
 silent "loads that press along a crack" "$pressing" "$glass" -s "$(turned 'traction: [0, 12 MPa]')" -s 'cracks=[{from: [20.1 mm, -5 mm], to: [20.1 mm, 5.1 mm]}]'
 says "a support that holds a crack" "$fixed the motion of all 48 particles within a horizon of its ends; use a smaller depth" "$glass" -s "$(held all)"
 silent "a support that holds a crack along it" "$fixed" "$glass" -s "$(held '[y]')"
-says "a crack that ends far away" "$ends, so that it cannot grow and may cut the body in two: its end at (24.9, 0) m is 24.9 m from" "$glass" -s 'cracks=[{from: [0, 0], to: [24.9, 0]}]'
+says "a crack that ends far away" "$ends, so it cannot grow and may cut the body in two; its end at (24.9, 0) m is 24.9 m from" "$glass" -s 'cracks=[{from: [0, 0], to: [24.9, 0]}]'
 silent "a crack that begins far away" "$ends" "$glass" -s 'cracks=[{from: [-10, 0], to: [24.9 mm, 0]}]'
 silent "a cut from side to side" "$ends" "$glass" -s 'cracks=[{from: [-1 mm, 0], to: [51 mm, 0]}]'
-says "a run that is too short for its crack" "$short, but from the loads .* it is 0.019[0-9]* m, .*: use a duration of more than 3.4e-06 s" "$glass" -s duration=2us
+says "a run that is too short for its crack" "$short, but the nearest end of a crack is 0.019[0-9]* m from the loads, .*; use a duration of more than 3.4e-06 s" "$glass" -s duration=2us
 silent "a run long enough" '^warning: duration' "$glass" -s duration=5us
 silent "a short run in which all of the body moves" "$short" "$glass" -s duration=2us -s 'initial=[{velocity: [0, 0.1 m/s], region: {box: {from: [0, 0], to: [50 mm, 20 mm]}}}]'
 tough='^warning: material material: its toughness of'

@@ -43,7 +43,7 @@ for poisson in 0.3 0.45; do
 done
 calm "$work/flight1" "$work/flight.yaml" -t 3
 same "flight on 3 threads" "$work/flight0.45" "$work/flight1"
-warned "flight, linear shapes" "$work/linear" "of the energy apart from that of flight, has been gained" "$work/flight.yaml" \
+warned "flight, linear shapes" "$work/linear" "of the energy without that of free flight, has been gained" "$work/flight.yaml" \
     -s mpm.shape=linear -s material.poisson=0.3 -s duration=20us
 
 # The same block at rest in the reference frame, stretched beyond yield: what flows in the first step is at the stress of the start, and the
@@ -87,16 +87,16 @@ sed '/add:/d; s/to: \[20 mm, 6 mm\]/to: [32 mm, 6 mm]/; s/shape: cpgimp/shape: g
 "$cleave" run $metal -q -o "$work/whole" 2>"$work/whole.err" || fail "metal: $(cat "$work/whole.err")"
 is "metal: nothing is said" "$(cat "$work/whole.err")" ""
 "$cleave" run $metal -q -o "$work/weak" -s mpm.shape=linear 2>"$work/weak.err"
-holds "metal: linear shapes are said to be weak" grep -q 'metal pulled with mpm.shape: linear is too weak at t = .* pairs' "$work/weak.err"
+holds "metal: linear shapes are said to be weak" grep -q 'metal is pulled too far for mpm.shape: linear, .* at t = .* pairs' "$work/weak.err"
 "$cleave" run $metal -q -o "$work/short" -s mpm.shape=gimp 2>"$work/short.err"
-holds "metal: gimp is said to be weak" grep -q 'metal pulled with mpm.shape: gimp is too weak at t = .* pairs .*1.4 times .*6 to 10 %.*cpgimp' "$work/short.err"
+holds "metal: gimp is said to be weak" grep -q 'metal is pulled too far for mpm.shape: gimp, which carries 6 to 10 % too little .*1.4 times .* at t = .* pairs .*cpgimp' "$work/short.err"
 "$cleave" run $metal -q -o "$work/little" -s mpm.shape=gimp -s duration=0.5ms 2>"$work/little.err" # a stretch of 1.25
 is "metal: of little stretch nothing is said" "$(cat "$work/little.err")" ""
 calm "$work/foot" tests/scenes/claims/short_bar.yaml -s time.safety=0.5 -s output.samples=400 # the foot of a bar spreads, and is not pulled
 sed '/intersect:/d; /name: left/d; /name: front/d' inputs/taylor_bar.yaml >"$work/whole_taylor.yaml" # hoops of its foot are stretched by 2.4
 calm "$work/hoops" "$work/whole_taylor.yaml" -s output.frames=0 -s duration=40us
 "$cleave" run "$work/bar.yaml" -q -o "$work/apart" 2>"$work/apart.err"
-holds "metal: that it has come apart is said" grep -q 'metal has separated without fracture at t = .* pairs .* near (0.03.*, 0.0.*) m; use mpm.shape: cpgimp' "$work/apart.err"
+holds "metal: that it has come apart is said" grep -q 'metal has separated without fracture at t = .* pairs .* near (0.03.*, 0.0.*) m they are .*; use mpm.shape: cpgimp' "$work/apart.err"
 is "metal: said once" "$(grep -c 'has separated without fracture' "$work/apart.err")" 1
 "$cleave" run "$work/bar.yaml" -q -o "$work/meant" -s accept=[strain] 2>"$work/meant.err"
 is "metal: accepted" "$(cat "$work/meant.err")" ""

@@ -36,7 +36,7 @@ says "a load of nothing beside it" '^warning: loads: the largest stress .* is 1.
     "$glass" -s variables.limit=1e-7
 says "a density in g/cm^3" '^warning: material material: the speed of its waves is 1.82e+05 m/s, above 2e+04: ' "$glass" -s 'variables.rho=2.44 kg/m^3'
 soft="$glass -s method=mpm -s cracks=[] -s material.critical_stretch=inf"
-says "a Poisson's ratio near 1/2" "^warning: material material: its Poisson's ratio of 0.4999 makes waves as fast as 2.22e+05 m/s, 27.9 times as fast as at 0.4: check it; " \
+says "a Poisson's ratio near 1/2" "^warning: material material: its Poisson's ratio of 0.4999 makes waves as fast as 2.22e+05 m/s, 27.9 times as fast as at 0.4; check this value; " \
     $soft -s 'space=plane strain' -s material.poisson=0.4999
 silent "a Poisson's ratio of 0.45" "$units\|Poisson.s ratio of" $soft -s 'space=plane strain' -s material.poisson=0.45
 says "a few steps" '^warning: time: the number of time steps is 18 of .* s, below 20: check the units of duration' "$glass" -s duration=2.5us
@@ -116,7 +116,7 @@ silent "a crack inside" 'outside all bodies' "$glass"
 says "a crack that only touches the body" '^accuracy  *crack 1 is in the body over .* m, less than half a spacing' "$glass" -s 'cracks=[{from: [-20 mm, 0], to: [0.2 mm, 0]}]'
 says "a crack outside in space" 'crack 1 is outside all bodies, 0.016 m from' "$glass" -s space=solid -s thickness= -s boundary=[] -s particles.spacing=2mm \
     -s 'body={box: {from: [0, 0, 0], to: [20 mm, 20 mm, 20 mm]}}' -s 'cracks=[{polygon: [[0, 0, 35 mm], [20 mm, 0, 35 mm], [20 mm, 20 mm, 35 mm], [0, 20 mm, 35 mm]]}]'
-says "a horizon of one spacing" 'warning: particles.horizon: 1: each particle has bonds along the axes of the lattice only (4)' "$glass" -s particles.horizon=1
+says "a horizon of one spacing" 'warning: particles.horizon: 1 gives each particle bonds along the axes of the lattice only (4)' "$glass" -s particles.horizon=1
 silent "a horizon of eight neighbours" 'particles.horizon:' "$glass" -s particles.horizon=1.5
 says "a step above the critical one" 'warning: .* time.step is 1e-06 s, 3.[0-9]* times the critical .* use at most' "$glass" -s time.step=1us
 says "a tip that nothing moves" 'warning: probe tip will have no result, because no bond can break: no material has an energy_release_rate.* (-s probes=.tip.)$' "$glass" -s 'probes=[tip]' -s material.critical_stretch=
@@ -265,16 +265,16 @@ particles: {spacing: 0.5 mm}
 initial: [{body: a, velocity: [200, 0]}]
 END
 plates=$work/plates.yaml hits='^accuracy  *bodies collide at 200 m/s, .* bonds may break too early: '
-says "a collision in plane stress" "${hits}compare with a run in space: plane strain with material.viscosity" "$plates"
+says "a collision in plane stress" "${hits}compare with a run that has space: plane strain and material.viscosity" "$plates"
 says "a collision in plane strain" "${hits}use material.viscosity: {}, which spreads the front" "$plates" -s 'space=plane strain'
-says "a collision of ospd" "${hits}compare with a run with model: bond and material.viscosity" "$plates" -s 'space=plane strain' -s model=ospd
+says "a collision of ospd" "${hits}compare with a run that has model: bond and material.viscosity" "$plates" -s 'space=plane strain' -s model=ospd
 silent "a collision with viscosity" 'bodies collide' "$plates" -s 'space=plane strain' -s 'material.viscosity={}'
 silent "bodies that part" 'bodies collide' "$plates" -s 'initial.0.velocity=[-200, 0]'
 silent "a speed elsewhere" 'bodies collide' "$plates" -s 'initial=[{velocity: [200, 0], region: {box: {from: [50 mm, 0], to: [60 mm, 10 mm]}}}]'
-says "without contact" '^warning: contact.between: none: peridynamic bodies have no contact and pass through each other; use contact.between: bodies or all for contact' \
+says "without contact" '^warning: contact.between is none, so peridynamic bodies pass through each other; set contact.between: bodies or all;' \
     "$plates" -s contact.between=none
 silent "without contact: no collision" 'bodies collide' "$plates" -s contact.between=none
-says "without contact, adaptive" 'warning: particles that become peridynamic pass .*, but contact.between is none' "$plates" -s contact.between=none -s method=adaptive
+says "without contact, adaptive" 'warning: particles that become peridynamic pass .*, because contact.between is none' "$plates" -s contact.between=none -s method=adaptive
 
 # ---- supports, shapes, encounters, frames ------------------------------------------------------------------------------
 
@@ -304,7 +304,7 @@ silent "two supports of different components" '^warning: boundar' "$plate" -s 'b
 # A traction on a face of 400 mm^2 does nothing where a support holds it; on the face x+ 3 of its 20 rows are held.
 idle='% of its force along'
 loaded() { echo "boundary=[{name: a, fixed: $1, face: y-}, {name: load, traction: [0, 1 MPa], face: $2}]"; }
-says "a traction on a face that is held" "^warning: boundary load: 100 $idle y acts on particles whose motion along y a support prescribes, and does nothing" \
+says "a traction on a face that is held" "^warning: boundary load: 100 $idle y acts on particles whose motion along y a support prescribes, and has no effect there" \
     "$plate" -s "$(loaded all y-)"
 silent "a traction on a face that is held across" "$idle" "$plate" -s "$(loaded '[x]' y-)"
 silent "a traction beside a face that is held" "$idle" "$plate" -s "$(loaded all x+)"
@@ -350,9 +350,9 @@ holds "place of the longest crack: $(cat "$work/said")" \
 holds "bonds that break in a bar are no crack: $(cat "$work/said")" \
     grep -q 'longest zone of broken bonds grew 5 mm, from (0.2075) m$' "$work/said"
 free='boundary=[{traction: [0, 1 MPa], face: y+, time: {step: {from: 1 ms, until: 1 s}}}]'
-says "a load after the end" '^warning: loads: nothing loads the body: no load, speed or displacement differs from 0 up to 1e-05 s;' "$plate" -s "$free"
+says "a load after the end" '^warning: nothing loads the body: no load, speed or displacement differs from 0 up to 1e-05 s;' "$plate" -s "$free"
 silent "a load after the end that is meant" 'nothing loads' "$plate" -s "$free" -s 'accept=[stress]'
-says "no load" '^warning: loads: nothing loads the body' "$plate" -s boundary=[]
+says "no load" '^warning: nothing loads the body' "$plate" -s boundary=[]
 says "a spacing larger than the body" 'body body: holds no particle: its shape is at most 0.02 x 0.02 m, the spacing 0.05 m' "$plate" -s particles.spacing=50mm
 
 finish

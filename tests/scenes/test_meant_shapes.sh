@@ -22,10 +22,10 @@ bodies: [{name: p, particles: lone.csv}]
 particles: {spacing: 1 mm}
 output: {frames: 0, samples: 1}
 END
-lone="body p: 1 of its particles has no neighbour, the first at (0.0305, 0.0005) m: nothing holds it"
-says "alone" "warning: $lone (" "$work/lone.yaml"
-says "alone, of material points" "warning: $lone (" "$work/lone.yaml" -s method=mpm
-says "alone, and an equilibrium" "warning: $lone, so there is no equilibrium" "$work/lone.yaml" -s solver=cg \
+lone="body p: 1 of its particles has no neighbour, the first at (0.0305, 0.0005) m, so nothing holds it"
+says "alone" "warning: $lone; check the shape or list there (" "$work/lone.yaml"
+says "alone, of material points" "warning: $lone; check the shape or list there (" "$work/lone.yaml" -s method=mpm
+says "alone, and an equilibrium" "warning: $lone; remove such particles, because no equilibrium exists" "$work/lone.yaml" -s solver=cg \
     -s 'boundary=[{fixed: all, face: x-, depth: 1 mm}]'
 "$cleave" run "$work/lone.yaml" -q -o "$work/lone" >/dev/null 2>"$work/said"
 holds "alone: the run says it: $(cat "$work/said")" grep -qF "$lone" "$work/said"
@@ -179,7 +179,7 @@ done
 
 # 20 x 10 particles of a list without volumes, which get the volume of the spacing.
 awk 'BEGIN { print "x [mm], y [mm]"; for (i = 0; i < 20; i++) for (j = 0; j < 10; j++) print 2 * i ", " 2 * j }' >"$work/lone.csv"
-apart='lone.csv has no volumes: each particle gets that of the spacing of 0.001 m, but nearest neighbours are 0.002 m apart.*particles.spacing 0.002 m,'
+apart='lone.csv has no volumes, so each particle gets that of the spacing of 0.001 m, but nearest neighbours are 0.002 m apart.*particles.spacing: 0.002 m,'
 says "a list wider than its spacing" "warning: .*$apart" "$work/lone.yaml"
 says "a list denser than its spacing" 'the spacing of 0.004 m, but nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=4mm
 says "a lattice a little wider" 'the spacing of 0.0018 m, but nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=1.8mm
@@ -187,11 +187,11 @@ says "a lattice a little denser" 'the spacing of 0.0021 m, but nearest neighbour
 # Equilateral triangles of the same area have sides of 1.0746 spacings.
 awk 'BEGIN { print "x [mm], y [mm]"; a = 2 * 1.0745699
     for (i = 0; i < 20; i++) for (j = 0; j < 10; j++) printf "%.7f, %.7f\n", a * (i + 0.5 * (j % 2)), a * j * sqrt(0.75) }' >"$work/hexagons.csv"
-silent "triangles of the same area" 'apart, so masses' "$work/lone.yaml" -s bodies.p.particles=hexagons.csv -s particles.spacing=2mm
-silent "a list at its spacing" 'apart, so masses' "$work/lone.yaml" -s particles.spacing=2mm
+silent "triangles of the same area" 'apart: masses' "$work/lone.yaml" -s bodies.p.particles=hexagons.csv -s particles.spacing=2mm
+silent "a list at its spacing" 'apart: masses' "$work/lone.yaml" -s particles.spacing=2mm
 "$cleave" run "$work/lone.yaml" -q -o "$work/wide" >/dev/null 2>"$work/said"
 holds "the run says it: $(cat "$work/said")" grep -q "$apart" "$work/said"
 awk -F, 'NR == 1 { print $0 ", volume [mm^3]"; next } { print $0 ", 4" }' "$work/lone.csv" >"$work/wide.csv"
-silent "a wide list with volumes" 'apart, so masses' "$work/lone.yaml" -s bodies.p.particles=wide.csv
+silent "a wide list with volumes" 'apart: masses' "$work/lone.yaml" -s bodies.p.particles=wide.csv
 
 finish

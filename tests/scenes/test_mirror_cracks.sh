@@ -95,7 +95,7 @@ round_off=1e-11
 both unweighted "$half" "$whole" "$in" "$in" -s method=pd -s pd.surface=none
 both unweighted_along "$half" "$whole" "$along" "$along, {from: [25.1 mm, -0.7 mm], to: [10.1 mm, -0.7 mm]}" -s method=pd -s pd.surface=none
 round_off=1e-9
-is "a slit in the mirror" "$(f half_within_adaptive conversion.notches.0)" "slit of the mesh; bonds within 8 spacings of its ends"
+is "a slit in the mirror" "$(f half_within_adaptive conversion.notches.0)" "slit of the mesh, with bonds within 8 spacings of its ends"
 
 # Other settings that conserve momentum, although the whole has other damped pairs, or other coarse cells.
 for other in mpm.frame=current mpm.levels=1; do

@@ -51,7 +51,7 @@ output: {frames: 0}
 END
 "$cleave" check --no-trial "$work/ball.yaml" >"$work/ball.txt" 2>&1
 is "a ball at a plane: voids" "$(grep -c 'has a void' "$work/ball.txt")" 0
-is "a ball at a plane: gap" "$(grep -c 'between it and a plane of symmetry is too narrow for its grid.*use method: pd, method: adaptive or' "$work/ball.txt")" 1
+is "a ball at a plane: gap" "$(grep -c 'between this body and a plane of symmetry is too narrow for the grid.*use method: pd, method: adaptive or' "$work/ball.txt")" 1
 
 # Material points between mirrors one, two and four spacings apart carry the same wave, to the last bit; bonds would need more (test_stability).
 cat >"$work/strip.yaml" <<'END'
@@ -75,7 +75,7 @@ END
 for w in 1 2 4; do calm "$work/strip$w" "$work/strip.yaml" -s variables.w=${w}mm; done
 for w in 1 2; do
     is "mirrors $w spacings apart" "$(column "$work/strip$w" inside.stress_xx 1)" "$(column "$work/strip4" inside.stress_xx 1)"
-    refused "mirrors $w spacings apart, with bonds" "$work/no" "; bonds of" "$work/strip.yaml" -s variables.w=${w}mm -s method=pd
+    refused "mirrors $w spacings apart, with bonds" "$work/no" ", but bonds of" "$work/strip.yaml" -s variables.w=${w}mm -s method=pd
 done
 
 # Light nodes on a plane of symmetry (APIC) follow their neighbours as those of the whole body do: half of a block under a traction along the

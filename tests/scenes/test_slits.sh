@@ -15,7 +15,7 @@ plate=inputs/kalthoff_winkler.yaml
 start slit $plate -s output.frames=0
 start bonds $plate -s output.frames=0 -s conversion.notch=bonds
 wait
-is "slit: what the summary says" "$(f slit conversion.notches.0)" "slit of the mesh; bonds within 8 spacings of its ends"
+is "slit: what the summary says" "$(f slit conversion.notches.0)" "slit of the mesh, with bonds within 8 spacings of its ends"
 is "bonds: what the summary says" "$(f bonds conversion.notches.1)" "cut bonds: the scene sets this"
 close() { between "$1" "$(awk -v a="$2" -v b="$3" 'BEGIN { print a - b }')" "-$4" "$4"; }
 close "first break" "$(f slit crack.start_time)" "$(f bonds crack.start_time)" 2.4e-7

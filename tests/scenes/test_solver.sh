@@ -156,7 +156,7 @@ boundary: [{fixed: all, face: y-}, {traction: [0, 1 MPa], face: y+}]
 END
 "$cleave" run -q -o "$work/far" "$work/far.yaml" 2>"$work/err"
 is "far from the origin: exit status" $? 1
-holds "far from the origin: $(cat "$work/err")" grep -q 'the body is 100 m from the origin, 5.3e+03 times its size, .*: move it to the origin$' "$work/err"
+holds "far from the origin: $(cat "$work/err")" grep -q 'the body is 100 m from the origin, 5.3e+03 times its size, .*: move the body to the origin$' "$work/err"
 refused()
 {
     what=$1 text=$2; shift 2

@@ -23,9 +23,9 @@ static void load_is_described(void **state)
     assert_false(said(0.4, 2, 2, ""));
     assert_false(said(6, 16, 8, ""));
     assert_false(said(5, 0, 8, ""));
-    assert_true(said(3, 2, 2, "use 3.0 of this machine's 2 cores: on 2 threads the wall time will be about 2.5 times"));
-    assert_true(said(1, 1, 1, "use 1.0 of this machine's 1 core: on 1 thread the wall time will be about 2 times"));
-    assert_true(said(12, 16, 8, "on 8 threads the wall time will be about 1.2 times"));
+    assert_true(said(3, 2, 2, "use 3.0 of this machine's 2 cores, so on 2 threads the run takes about 2.5 times"));
+    assert_true(said(1, 1, 1, "use 1.0 of this machine's 1 core, so on 1 thread the run takes about 2 times"));
+    assert_true(said(12, 16, 8, "on 8 threads the run takes about 1.2 times"));
 }
 
 static void load_is_finite(void **state)

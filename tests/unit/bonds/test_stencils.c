@@ -227,21 +227,21 @@ static void test_fault(void **state)
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_describe_first_inconsistency(b));
     b->inverse_length[q] *= -1;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond that is broken or unused has a weight");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "a broken or unused bond has a weight other than 0");
     b->inverse_length[q] *= -1;
     b->common[column].intact ^= 1;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "intact is not what the weights say");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "the marks of intact bonds differ from their weights");
     b->common[column].intact ^= 1;
     b->nbr[q]++;
     assert_string_equal(bonds_describe_first_inconsistency(b), "neighbours are not consecutive");
     b->nbr[q]--;
     b->common[column].first++;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "first is not what a column shares");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "the first neighbour of a column differs from its common value");
     b->common[column].first--;
     b->reach = 0;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond leads farther than reach");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond reaches more row blocks than allowed");
     b->row_of[b->particle[9]] = 3;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "row_of does not lead back to the row of a particle");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "row_of is not the inverse of `particle`");
     particle_cloud_free(&c);
 }
 

@@ -144,7 +144,7 @@ static void test_formula_of_time(void **state)
     displaced_free(&m);
     b.displaces = false;
     assert_true(boundary_check_displacement_known(&b) == REFUSED);
-    assert_non_null(strstr(status_message(), "boundary grip: a velocity given as a formula of t"));
+    assert_non_null(strstr(status_message(), "boundary grip: a velocity that is a formula of t"));
     b.frozen = true, b.frozen_at = 2, b.time = (struct time_function){.kind = TIME_STEP, .until = 1};
     assert_ok(boundary_check_displacement_known(&b));
     displaced_make(&m, &b);

@@ -459,7 +459,7 @@ static void bars_that_have_no_closed_form(void **state)
     refused(&b, EXACT_PULSE, "the scene starts none; add a pulse");
     const struct wave_pulse pulse = {{0.5}, {1}, 0.1, 1, {1}, false};
     b.o.pulse = &pulse, b.o.pulses = 1, refused(&b, EXACT_PULSE, "a traction acts");
-    b.loads.n = 1, refused(&b, EXACT_PULSE, "not that of its pulses"), b.loads.n = 2;
+    b.loads.n = 1, refused(&b, EXACT_PULSE, "must be pulses alone"), b.loads.n = 2;
     b.p.material[3] = 1, refused(&b, EXACT_MANUFACTURED, "several materials"), b.p.material[3] = 0;
     b.p.X[0][199] = 1.2, refused(&b, EXACT_STEP_BAR, "do not touch");
     particles_free(&b.p);

@@ -263,7 +263,7 @@ static const struct {
     {"probes:\n", "initial: [{velocity: [x/s, 1 m/s*t/s]}]\nprobes:\n",
      "33:28: velocity[1]: 1 m/s*t/s contains t, which this key does not have; remove it"},
     {"  - tip\n", "  - exact: step bar\n",
-     "34:5: exact: compares with the solution of a bar, which has one dimension; set space: line"},
+     "34:5: exact: compares with the solution of a bar in one dimension; set space: line, or remove this probe"},
     {"  - tip\n", "  - exact\n",
      "34:5: form: missing in probes.exact; step bar, plastic bar, pulse or manufactured is expected"},
     {"  - tip\n", "  - exact: rod\n",

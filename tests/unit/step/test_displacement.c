@@ -332,14 +332,14 @@ static void jumps_are_refused(void **state)
     } bad[] = {
         {"method=pd", GRIP("displacement: [1 um, free], face: x+"),
          "boundary grip: its displacement is 1e-06 m at t = 0 already, a jump within the first step; let it grow from "
-         "0, such as with time: {ramp: {until: 100 us}}"},
+         "0, for example by time: {ramp: {until: 100 us}}"},
         {"method=pd", GRIP("displacement: [\"1 um*cos(t/(1 us))\", free], face: x+"), "is 1e-06 m at t = 0 already"},
         {"method=pd", GRIP("displacement: [1 um, free], face: x+, time: {step: {from: 1 us, until: 1}}"),
-         "boundary grip: its displacement jumps (time: step), which no body can follow; use time: ramp, pulse or "
+         "boundary grip: its displacement jumps (time: step), which no body can follow; set time: ramp, pulse or "
          "table"},
         {"method=pd", GRIP("displacement: [1 mm, free], face: x+, time: {ramp: {until: 0.1 us}}"),
-         "its displacement grows by 1e+04 m/s, faster than the waves"},
-        {"method=pd", GRIP("displacement: [1 mm*ramp(t/(0.1 us)), free], face: x+"), "faster than the waves"},
+         "its displacement grows by 1e+04 m/s, faster than waves in the body"},
+        {"method=pd", GRIP("displacement: [1 mm*ramp(t/(0.1 us)), free], face: x+"), "faster than waves in the body"},
         {"method=pd", GRIP("displacement: [1 um, free], depth: 1 mm"), "depth: has no effect without face"},
         {"method=pd", GRIP("displacement: [1 um, free], face: x+, depth: 0"), "depth"},
         {"method=pd", GRIP("displacement: [1 um, free], face: z+"),
