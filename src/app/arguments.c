@@ -33,7 +33,7 @@ status option_read_count(int *count, const char *option, const char *text, int s
 {
     return count_read(count, text, smallest, largest)
                ? OK
-               : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, smallest, largest);
+               : status_set(REFUSED, "%s %s: give a number from %d to %d", option, text, smallest, largest);
 }
 
 /* Reads the width or height of a picture at the beginning of *text into *pixels [pixel] and advances *text behind it.
@@ -74,8 +74,7 @@ status option_read_dpi(struct picture_size *size, const char *option, const char
     char *end;
     const double value = strtod(text, &end);
     if (end == text || *end || !(value > 0 && value <= 1200))
-        return status_set(REFUSED, "%s %s: a number above 0, up to 1200, is expected", option,
-                          printable_name(text).text);
+        return status_set(REFUSED, "%s %s: give a number above 0, up to 1200", option, printable_name(text).text);
     size->dpi = value;
     return OK;
 }
@@ -97,20 +96,21 @@ status option_read_size_dpi_or_format(struct picture_size *size, const char *opt
     if (strcmp(option, "--size") == 0) return option_read_picture_size(size, option, option_value);
     if (strcmp(option, "--dpi") == 0) return option_read_dpi(size, option, option_value);
     if (picture_format_named(&size->format, option_value) && !picture_is_film(size->format)) return OK;
-    return status_set(REFUSED, "%s %s: png, svg or pdf is expected", option, printable_name(option_value).text);
+    return status_set(REFUSED, "%s %s: give png, svg or pdf", option, printable_name(option_value).text);
 }
 
 status arguments_refuse_second_scene(const char *scene, const char *word)
 {
-    if (strchr(word, '=')) return status_set(REFUSED, "%s: the option -s is missing before it: -s %s", word, word);
-    return status_set(REFUSED, "give one scene, not two: %s and %s", scene, word);
+    if (strchr(word, '='))
+        return status_set(REFUSED, "%s: write the option -s before a key and its value: -s %s", word, word);
+    return status_set(REFUSED, "two scenes are given, %s and %s; give one", scene, word);
 }
 
 static status read_threads(struct run_arguments *a, const char *text)
 {
     return count_read(&a->threads, text, 1, THREADS_MOST)
                ? OK
-               : status_set(REFUSED, "-t %s: a number of threads from 1 to %d is expected", text, THREADS_MOST);
+               : status_set(REFUSED, "-t %s: give a number of threads from 1 to %d", text, THREADS_MOST);
 }
 
 bool arguments_remove_option(int *argc, char **argv, const char *option)
@@ -150,7 +150,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
     }
     if (a->resume && a->overwrite)
         return status_set(REFUSED, "--resume continues a run, but --overwrite replaces it: remove one of the two");
-    return a->scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
+    return a->scene ? OK : status_set(REFUSED, "no scene is given; usage: cleave %s", usage);
 }
 
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage)

@@ -102,8 +102,8 @@ static void say_contact(const struct run *e)
         on_grid += e->scene->method != METHOD_PD && !e->frame->choice[b].reference;
     if (on_grid < 2) return;
     if (e->grid->fields < 2)
-        printf("contact        bodies that touch on the grid share its velocity: they stick together until a gap of "
-               "two cells opens\n");
+        printf("contact        bodies that touch on the grid move with its velocity, so they stick together until a "
+               "gap of two cells opens\n");
     else {
         printf("contact        of the material points of ");
         say_names(e->scene, 0, e->scene->bodies);
@@ -150,7 +150,7 @@ static void say_basis(const struct scene *scene, const struct cost *c)
                "%.3g times the spacing",
                c->growth, c->coarser);
     if (c->basis == COST_FIRST)
-        printf("; the estimate assumes that all steps take as long as the first ones%s",
+        printf("; this estimate assumes that all steps take as long as the first ones%s",
                scene->method == METHOD_ADAPTIVE ? ", and steps take longer as particles convert" : "");
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
@@ -321,10 +321,15 @@ static status say_accuracy(const struct run *e, int *remarks)
     char *text = NULL;
     size_t length;
     FILE *out = memory_stream_open(&text, &length);
-    if (!out) return status_set(FAILED, "out of memory: the remarks on accuracy are not printed");
+    if (!out)
+        return status_set(FAILED,
+                          "out of memory: the remarks on accuracy are not printed; use a larger particles.spacing");
     print_accuracy_advice(e, out);
     const status written =
-        fclose(out) == 0 ? OK : status_set(FAILED, "out of memory: the remarks on accuracy are not printed");
+        fclose(out) == 0
+            ? OK
+            : status_set(FAILED,
+                         "out of memory: the remarks on accuracy are not printed; use a larger particles.spacing");
     *remarks = 0;
     for (const char *line = text; written == OK && *line; line = strchr(line, '\n') + 1) ++*remarks;
     if (written == OK) fputs(text, stdout);

@@ -140,7 +140,7 @@ static void advise_features(const struct run *e, FILE *out)
         if (!isfinite(layers)) continue;
         fprintf(out,
                 "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons "
-                "most particles lack neighbours beyond a face: use a spacing of %s",
+                "most particles lack neighbours beyond a face; use a spacing of %s",
                 s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
                 length_text_with_unit(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
@@ -198,8 +198,8 @@ static void advise_faces(const struct scene *s, FILE *out)
             if (at_stepped_face(s, shape, s->probe[k].at))
                 fprintf(out,
                         "accuracy       probe %s: it is at a curved or slanted face of body %s, which the lattice "
-                        "turns into steps: stress there is about 10 %% too low, displacements are not; put it a few "
-                        "spacings inside\n",
+                        "turns into steps, so its stress is about 10 %% too low (displacements are right); put it a "
+                        "few spacings inside\n",
                         s->probe[k].name, s->body[b].name);
         }
 }
@@ -244,12 +244,11 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
     for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
-            fprintf(
-                out,
-                "accuracy       an initial pulse is %.3g spacings wide; below %d spacings it disperses: use a spacing "
-                "of %s\n",
-                s->initial[k].pulse.width / s->spacing, WAVE,
-                length_text_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
+            fprintf(out,
+                    "accuracy       an initial pulse is %.3g spacings wide; below %d spacings it disperses; use a "
+                    "spacing of %s\n",
+                    s->initial[k].pulse.width / s->spacing, WAVE,
+                    length_text_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
 /* Writes a remark to `out` if bodies of scene s collide so fast that oscillations behind the wave front can break or
@@ -260,7 +259,7 @@ static void advise_shocks(const struct scene *s, FILE *out)
     if (shock.share > 0)
         fprintf(out,
                 "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the front of the wave breaks "
-                "or yields one. Behind it stress oscillates by 10 to 30 %%, so %s too early: %s\n",
+                "or yields one. Behind the front stress oscillates by 10 to 30 %%, so %s too early: %s\n",
                 shock.speed, shock.share, s->method == METHOD_MPM ? "points may yield" : "bonds may break",
                 shock.remedy);
 }
@@ -328,12 +327,12 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
     if (weak && stretch > weak->stretch)
         fprintf(out,
                 "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it carries %s %% too "
-                "little: use mpm.shape: cpgimp\n",
+                "little; set mpm.shape: cpgimp\n",
                 stretch, weak->word, weak->too_little);
     if (stretch > PARTS_AT_GRIP)
         fprintf(out,
                 "accuracy       metal is pulled to %.3g times its length: beyond about %.2g times its points separate "
-                "beside driven ones, unless it is pulled by wider parts that do not yield%s\n",
+                "beside driven ones; pull it by wider parts that do not yield%s\n",
                 stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 
@@ -353,7 +352,7 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
     else if (stretch > 1 && stretch > 0.9 * s->cell)
         fprintf(out,
                 "accuracy       the body is stretched to %.3g times its length; beyond %.3g (cell over spacing) its "
-                "points no longer share nodes and it breaks numerically: use mpm.cell: %.2g, mpm.shape: cpgimp or "
+                "points no longer share nodes and it breaks numerically; set mpm.cell: %.2g, mpm.shape: cpgimp or "
                 "method: adaptive\n",
                 stretch, s->cell, ceil(1.2 * stretch));
 }
@@ -368,10 +367,11 @@ static void hint_model(const struct scene *s, struct warnings *to)
     if (s->model == MODEL_BOND || s->dim == 1) return;
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
-    warnings_add_if_new(
-        to, "model: bond also has the Poisson's ratio of this scene, %.4g, and takes only %.0f %% of the time of %s",
-        wanted, 100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2],
-        s->model == MODEL_OSPD ? "ospd" : "mospd");
+    warnings_add_if_new(to,
+                        "model: bond also has the Poisson's ratio of this scene, %.4g, and takes only %.0f %% of the "
+                        "time of %s; set it",
+                        wanted, 100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2],
+                        s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
 /* Returns an upper estimate of the stress in run e [Pa]: REACHED (rho c v + traction) plus the stress of initial
@@ -419,8 +419,8 @@ static void hint_frame(const struct run *e, struct warnings *to)
         if (!reference_frame_is_possible(e->frame, &e->part, e->scene, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add_if_new(to,
-                            "body %s touches no other body%s%s: mpm.frame: %s in place of current would take a tenth "
-                            "to a thirtieth of the time for its material points",
+                            "body %s touches no other body%s%s: set mpm.frame: %s in place of current, for a tenth to "
+                            "a thirtieth of the time for its material points",
                             e->scene->body[b].name, e->scene->rigids > 0 ? " except rigid ones" : "", text,
                             e->scene->current_frame_key ? "reference" : "auto");
     }
@@ -449,12 +449,13 @@ static void hint_method(const struct run *e, struct warnings *to)
     if (isinf(weakest))
         warnings_add_if_new(to,
                             "no bond can break: there is no crack and no energy_release_rate, toughness or "
-                            "critical_stretch; method: mpm is enough in place of %s",
+                            "critical_stretch; method: mpm is enough and faster; set it in place of %s",
                             method);
     else if (reached < weakest)
-        warnings_add_if_new(
-            to, "stress in waves is at most %.3g Pa, but bonds break at %.3g Pa: method: mpm is enough in place of %s",
-            reached, weakest, method);
+        warnings_add_if_new(to,
+                            "stress in waves is at most %.3g Pa, but bonds break at %.3g Pa: method: mpm is enough and "
+                            "faster; set it in place of %s",
+                            reached, weakest, method);
 }
 
 /* Adds a hint to *to that names the planes about which the scene of run e is symmetric, so that a part of the body can

@@ -40,7 +40,8 @@ void print_volume_filled_by_particles(const struct run *e)
         const real exact = region_volume_within_box(shape, s->dim, from, to), section = scene_section_or_thickness(s);
         const real filled = (real)particles_of(e->scene, &e->part, b) * pow(s->spacing, s->dim);
         if (fabs(filled / exact - 1) < OFF_LEAST) continue;
-        printf("filled         body %s: its particles have %.4g m^3, %.2f %% %s than its shape\n", s->body[b].name,
-               filled * section, 100 * fabs(filled / exact - 1), filled > exact ? "more" : "less");
+        printf("filled         body %s: its particles fill %.4g m^3, %.2f %% %s than its shape; a smaller "
+               "particles.spacing reduces the difference\n",
+               s->body[b].name, filled * section, 100 * fabs(filled / exact - 1), filled > exact ? "more" : "less");
     }
 }

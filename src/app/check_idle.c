@@ -116,7 +116,7 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
         if (isfinite(s->material[m].critical_stretch))
             warnings_add_if_new(to,
                                 "material %s: energy_release_rate, toughness or critical_stretch has no effect: method "
-                                "mpm has no bonds that break; use method: adaptive or pd",
+                                "mpm has no bonds that break; set method: adaptive or pd",
                                 s->material[m].name);
 }
 
@@ -124,7 +124,7 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
 static void hint_unused_materials(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->unused_materials; m++)
-        warnings_add_if_new(to, "material %s: no body consists of it; remove it, or name it in a body",
+        warnings_add_if_new(to, "material %s: no body consists of this material; remove it, or name it in a body",
                             s->material[s->materials + m].name);
 }
 
@@ -137,5 +137,5 @@ void hint_keys_without_effect(const struct scene *s, struct warnings *warning_li
     if (scene_gives_all(s)) return;
     for (size_t row = 0; row < COUNT_OF(idle_keys); row++)
         if (idle_keys[row].idle(s)) used = idle_row_append(s, row, text, sizeof text, used);
-    if (used > 0) warnings_add_if_new(warning_list, "keys without effect in this scene: %s", text);
+    if (used > 0) warnings_add_if_new(warning_list, "keys without effect in this scene (remove them): %s", text);
 }

@@ -177,8 +177,8 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
         fprintf(out,
-                "accuracy       body %s: at a Poisson's ratio of %.4g %s, so %s%.0f layers bend up to %.0f %% too %s: "
-                "use more layers\n",
+                "accuracy       body %s: at a Poisson's ratio of %.4g %s, so %s%.0f layers bend up to %.0f %% too %s; "
+                "use more layers (a smaller particles.spacing)\n",
                 s->body[b].name, poisson,
                 families ? "particles near faces are too stiff" : "the points of a cell have the same change of volume",
                 layers < RUNS_MOST - 1 ? "" : "more than ", layers, off, families ? "little" : "much");
@@ -219,12 +219,11 @@ void print_advice_on_held_layers(const struct run *e, FILE *out)
         const real length = high - low + s->spacing;
         const real shorter = (floor(s->horizon) + layer_shortening[s->dim]) * s->spacing, left = 1 - shorter / length;
         if (!(left > 0) || 1 - left < SHORTENED || s->horizon < 2) continue;
-        fprintf(
-            out,
-            "accuracy       boundary %s: the layer behind its face, a horizon deep, moves as one, which shortens the "
-            "body of %.4g m by %.3g m along %c: its stiffness is off by %+.2g %% in tension, %+.2g %% in bending; "
-            "use depth: %s or a smaller spacing, or make the body longer by that\n",
-            l->boundary->name, length, shorter, "xyz"[axis], 100 * (1 / left - 1), 100 * (pow(left, -3) - 1),
-            length_text_with_unit(s->spacing, 3, s->spacing).text);
+        fprintf(out,
+                "accuracy       boundary %s: the layer behind its face, a horizon deep, moves as one, which shortens "
+                "the body of %.4g m by %.3g m along %c. The stiffness is off by %+.2g %% in tension, %+.2g %% in "
+                "bending; set depth: %s, use a smaller spacing, or make the body longer by that length\n",
+                l->boundary->name, length, shorter, "xyz"[axis], 100 * (1 / left - 1), 100 * (pow(left, -3) - 1),
+                length_text_with_unit(s->spacing, 3, s->spacing).text);
     }
 }

@@ -70,7 +70,7 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *c)
     for (int level = 1; level <= l->n; level++) cells += (double)levels_count_cells_of_level(l, level);
     if (l->n == 0 || cells == 0) return;
     if (e->part.n < e->part.n_body)
-        printf("levels         %s particles would fill the body, and coarse cells replace them by %s at the start",
+        printf("levels         %s particles would fill the body; coarse cells reduce them to %s at the start",
                many((double)e->part.n_body, millions, all), many((double)e->part.n, millions, made));
     else
         printf("levels         %s of %s particles are in coarse cells, of which there are %s",

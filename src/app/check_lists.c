@@ -75,9 +75,8 @@ static void print_weight_advice(const struct scene *s, FILE *out)
     for (int b = 0; b < s->bodies && s->shells == SHELLS_ISOTROPIC; b++) {
         if (!s->body[b].file || s->body[b].list.lattice || s->body[b].joined != b) continue;
         fprintf(out,
-                "accuracy       body %s: its list is not a lattice along the axes, for which pd.weights: isotropic is "
-                "made: a lattice turned by 45 degrees in the plane is 4.7 %% too soft, but with pd.weights: uniform "
-                "2.3 %%\n",
+                "accuracy       body %s: its list is not a lattice along the axes, as pd.weights: isotropic assumes (a "
+                "lattice turned by 45 degrees is 4.7 %% too soft, with uniform 2.3 %%); set pd.weights: uniform\n",
                 s->body[b].name);
     }
 }
@@ -93,7 +92,7 @@ void print_particle_list_advice(const struct run *e, FILE *out)
         const int layers = thinnest(e, b);
         if (layers >= LAYERS_MOST) continue;
         fprintf(out,
-                "accuracy       body %s: parts of it (from a particle list) are only %d layers of particles thick: "
+                "accuracy       body %s: parts of it (from a particle list) are only %d layers of particles thick, so "
                 "with pd.surface: %s their stiffness is off by up to ",
                 s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none");
         print_stiffness_error(s, s->surface, layers, out);

@@ -88,7 +88,7 @@ static struct instant instant_of(const struct load *l, const struct particles *p
     }
     const real t = largest_factor_at(&b->time, duration, &most);
     if (b->time.kind == TIME_CONSTANT) return (struct instant){0, "at all times"};
-    return (struct instant){t, most > 0 ? "when it is largest" : "as it does not begin before the end"};
+    return (struct instant){t, most > 0 ? "when it is largest" : "because it begins after the end of the run"};
 }
 
 /* ---- how much ---------------------------------------------------------------------------------------------------- */

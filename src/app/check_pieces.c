@@ -36,8 +36,8 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
            "%lld particles together, and the second heaviest is at (%s) m%s%s\n",
            s->body[body].name, (long long)pieces, (long long)particles,
            position_text(f->fragment[first].x, s->dim, 4).text,
-           free_ones > 0 ? "; some parts have no support, so there is no equilibrium: add supports" : "",
-           pass ? "; parts that touch pass through each other: set contact.between: all to prevent this" : "");
+           free_ones > 0 ? "; some parts have no support, so no equilibrium exists; add supports" : "",
+           pass ? "; parts that touch pass through each other; set contact.between: all to prevent this" : "");
 }
 
 void print_bodies_of_separate_pieces(const struct run *e)

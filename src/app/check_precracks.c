@@ -37,19 +37,19 @@ void advise_on_close_crack_tips(const struct scene *s, const struct fracture_sta
         const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
         if (tip[0] != tip[1] && length < 0.5 * s->spacing) {
             fprintf(out,
-                    "accuracy       crack %d is in the body over %.3g m, less than half a spacing: check its "
-                    "coordinates and their unit (m if none is written)\n",
+                    "accuracy       crack %d is in the body over a length of %.3g m, less than half a spacing; check "
+                    "its coordinates and their unit (m if none is written)\n",
                     k + 1, length);
             continue;
         }
         if (tip[0] && tip[1] && length < FEATURE * (s->horizon * s->spacing))
             fprintf(out,
-                    "accuracy       crack %d is %.4g m long, %.2g horizons: its two tips affect each other; use a "
+                    "accuracy       crack %d is %.4g m long, %.2g horizons, so its two tips affect each other; use a "
                     "smaller particles.spacing\n",
                     k + 1, length, length / (s->horizon * s->spacing));
         else if (tip[0] != tip[1] && 2 * length < FEATURE * (s->horizon * s->spacing))
             fprintf(out,
-                    "accuracy       crack %d is %.3g m deep, %.2g horizons: the face affects its tip; use a smaller "
+                    "accuracy       crack %d is %.3g m deep, %.2g horizons, so the face affects its tip; use a smaller "
                     "particles.spacing\n",
                     k + 1, length, length / (s->horizon * s->spacing));
     }
@@ -102,8 +102,8 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
         const bool both = tied[0] > 0 && tied[1] > 0;
         if (tied[0] > 0 || tied[1] > 0)
             warnings_add_if_new(warning_list,
-                                "crack %d: %s exactly on %lld bonds%s; they are cut. Move %s by 0.1 spacings to choose "
-                                "which bonds are cut",
+                                "crack %d: %s exactly on %lld bonds%s, and these are cut; move %s by 0.1 spacings to "
+                                "choose which bonds are cut",
                                 k + 1, both ? "its ends lie" : "an end lies",
                                 (long long)(tied[0] > 0 ? tied[0] : tied[1]), both ? " each" : "",
                                 both ? "the ends" : "the end");

@@ -37,11 +37,11 @@ static void say_hull(const struct shape_file *f)
     printf("shape          %s: %lld %s, %lld shell%s", printable_name(f->path[0]).text, (long long)h->faces,
            f->dim == 3 ? "triangles" : "edges", (long long)h->shells, h->shells == 1 ? "" : "s");
     if (h->open_edges > 0)
-        printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, but inside and outside can be distinguished",
+        printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, but its inside is still well defined",
                (long long)h->open_edges, h->open_at[0], h->open_at[1], h->open_at[2]);
     else
         printf(", closed");
-    if (h->reversed) printf(", with normals inward, which are reversed");
+    if (h->reversed) printf(", with inward normals, which are reversed on reading");
     if (h->dropped > 0 && f->kind == SHAPE_STL) printf(", %lld without area or given twice", (long long)h->dropped);
     const int slits = hull_slits(h);
     if (slits > 0)

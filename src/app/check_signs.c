@@ -32,7 +32,7 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
             if (!(a->value[a->face] * b->value[a->face] > 0) || a->body != b->body) continue;
             warnings_add_if_new(to,
                                 "boundaries %s and %s: tractions of %.3g and %.3g Pa along %c on opposite faces push "
-                                "the body in one direction; to stretch it, give them opposite signs",
+                                "the body in one direction; to stretch the body, give the tractions opposite signs",
                                 b->name, a->name, b->value[a->face], a->value[a->face], "xyz"[a->face]);
         }
     }
@@ -47,15 +47,15 @@ static void hint_sizes(const struct run *e, struct warnings *to)
     const real longest = particles_bounding_box_longest_edge(&e->part) + s->spacing;
     if (s->contact_friction > FRICTION_MOST)
         warnings_add_if_new(
-            to, "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5; check its unit (0.3 is 30 %%)",
+            to, "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5; check its value (0.3 is 30 %%)",
             s->contact_friction, FRICTION_MOST);
     if (gravity > GRAVITY_MOST)
         warnings_add_if_new(to, "gravity: %.3g m/s^2 is %.3g times that of the Earth; check its unit (m/s^2)",
                             gravity * EARTH, gravity);
     if (s->damping * e->clock.dt > DAMPING_MOST && scene_is_dynamic(s))
         warnings_add_if_new(to,
-                            "damping: at %.3g 1/s motion dies out within %.3g time steps, so nothing moves; use about "
-                            "1/T for vibrations of period T",
+                            "damping: at %.3g 1/s motion dies out within %.3g time steps, so nothing moves; give a "
+                            "smaller value, about 1/T for vibrations of period T",
                             s->damping, 1 / (s->damping * e->clock.dt));
     for (int k = 0; k < s->cracks_given; k++)
         if (s->crack[k].width > longest)

@@ -117,8 +117,8 @@ static void print_missed_peak(const struct scene *s, real t, FILE *out)
         if (fabs(step - round(step)) < 1e-6 * number) break;
     }
     fprintf(out,
-            "accuracy       the loads peak at t = %.4g s, between two of the %d load steps, so the peak is missed; "
-            "with steps.number: %d a step ends there\n",
+            "accuracy       the loads peak at t = %.4g s, between two of the %d load steps, so the peak is missed; set "
+            "steps.number: %d, with which a step ends there\n",
             t, s->steps.number, number);
 }
 
@@ -137,14 +137,15 @@ static void advise_growth(const struct run *e, FILE *out)
     const real first = statics_norm_of_prescribed_loads(e, 0);
     if (most > 0 && first > AT_ONCE * most)
         fprintf(out,
-                "accuracy       %.3g %% of the largest loads act before the first load step: let loads grow from 0, by "
+                "accuracy       %.3g %% of the largest loads act before the first load step; let loads grow from 0, by "
                 "time: {ramp: {until: %.4g s}} or a formula of t%s\n",
                 100 * first / most, s->duration,
-                dot(s->gravity, s->gravity, s->dim) > 0 ? " (gravity, which has no time: as a body_force)" : "");
+                dot(s->gravity, s->gravity, s->dim) > 0 ? " (in place of gravity, which is constant, a body_force)"
+                                                        : "");
     if (!isnan(falls) && s->steps.control != CONTROL_LOAD)
         fprintf(out,
-                "accuracy       loads fall before t = %.4g s, but steps.control: %s searches for the pseudo-time of "
-                "each crack increment and needs loads that always grow\n",
+                "accuracy       loads fall before t = %.4g s, but steps.control: %s needs loads that always grow, to "
+                "find the pseudo-time of each crack increment; use time: ramp, or steps.control: load\n",
                 falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
     for (int k = 1; k < PEAK_LOOKS && s->steps.control == CONTROL_LOAD; k++) {
         const real t = s->duration * k / PEAK_LOOKS, step = s->duration / s->steps.number,
@@ -170,8 +171,9 @@ static void advise_lengths(const struct run *e, FILE *out)
         const bool short_crack = behind<FEW, short_way = ahead> 0 && ahead < FEW;
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
         fprintf(out,
-                "accuracy       crack tip at (%.4g, %.4g) m: there are only %.0f spacings of %s; the error of the load "
-                "at which the crack grows is about 0.5 %% with 40 spacings, 2 %% with 20 and larger below\n",
+                "accuracy       crack tip at (%.4g, %.4g) m: there are only %.0f spacings of %s, but the load at which "
+                "the crack grows is 0.5 %% off with 40 spacings, 2 %% with 20, and more below; use a smaller "
+                "particles.spacing\n",
                 tip->origin[0], tip->origin[1], short_crack ? behind : ahead,
                 short_crack ? "crack behind it" : "body ahead of it");
     }
@@ -205,7 +207,7 @@ static void advise_supports(const struct run *e, FILE *out)
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
                     "accuracy       boundary %s holds particles over %d spacings along %c, so the body cannot turn on "
-                    "it: make a pin or roller one or two particles wide, a grip more than %d\n",
+                    "it; make a pin or roller one or two particles wide, a grip wider than %d\n",
                     by->name, columns, "xyz"[across], GRIP_LEAST);
         }
     }
@@ -274,7 +276,7 @@ void print_load_steps_cost(const struct run *e, const struct cost *c, int thread
            threads, threads > 1 ? "s" : "", c->equilibria, c->step);
     const bool known = c->overload > 0 && e->scene->rigids == 0; /* the forces of rigid bodies are not predicted */
     if (known && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
-        printf("\naccuracy       the most stretched bond reaches %.2g of its limit, at a pseudo-time of %.4g s; "
-               "nothing breaks below %.1f: use larger loads",
+        printf("\naccuracy       the most stretched bond reaches only %.2g of its limit, at a pseudo-time of %.4g s, "
+               "and nothing breaks below %.1f; use larger loads",
                c->overload, c->overload_at, NOTHING_BREAKS);
 }

@@ -35,8 +35,8 @@ void print_wall_advice(const struct run *e, FILE *out)
             if (e->frame->choice[body].reference || !(gap > TOUCHING * s->spacing) || isinf(gap)) continue;
             fprintf(out,
                     "accuracy       boundary %s: body %s starts %.3g m from this plane of symmetry, which stops its "
-                    "material points about %.2g m (%.2g spacings) before they touch it: move the plane back by that, "
-                    "or use a smaller particles.spacing\n",
+                    "material points about %.2g m (%.2g spacings) too early; move the plane back by this distance, or "
+                    "use a smaller particles.spacing\n",
                     s->boundary[b].name, s->body[body].name, gap, early, early / s->spacing);
         }
 }

@@ -11,7 +11,7 @@
 static status no_benches(int argc, char **argv)
 {
     (void)argc, (void)argv;
-    return status_set(REFUSED, "this build, of `make run`, has no benches; run `make` to build them");
+    return status_set(REFUSED, "this program was built by `make run` and has no benches; run `make` to build them");
 }
 #define command_bench no_benches
 #endif
@@ -44,6 +44,6 @@ status command_find_by_name(const char *name, const struct command **found)
         if (edit_distance(name, commands[k].name) < edit_distance(name, nearest->name)) nearest = &commands[k];
     }
     if (words_are_similar(name, nearest->name))
-        return status_set(REFUSED, "unknown command %.40s; the nearest is %s", name, nearest->name);
-    return status_set(REFUSED, "unknown command %.40s; see cleave --help", name);
+        return status_set(REFUSED, "unknown command %.40s; did you mean %s?", name, nearest->name);
+    return status_set(REFUSED, "unknown command %.40s; `cleave --help` lists the commands", name);
 }

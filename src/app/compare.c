@@ -165,8 +165,8 @@ static void print_fields(const struct output_frame *a, const struct output_frame
 static const char *particles_differ(const struct output_frame *a, const struct output_frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
-    if (a->n != b->n) return "the runs have different numbers of particles";
-    if (!arrays_equal(a->id, b->id, a->n, sizeof *a->id)) return "the runs number their particles differently";
+    if (a->n != b->n) return "the two runs have different numbers of particles";
+    if (!arrays_equal(a->id, b->id, a->n, sizeof *a->id)) return "the two runs number their particles differently";
     return NULL;
 }
 
@@ -389,13 +389,13 @@ static status read_words(struct pair *p, int argc, char **argv)
         if (argv[k][0] == '-')
             return status_set(REFUSED, "compare: unknown option %s; usage: cleave compare DIR DIR", argv[k]);
     if (argc != 3)
-        return status_set(REFUSED, "compare: got %d folders, but needs two; usage: cleave compare DIR DIR", argc - 1);
+        return status_set(REFUSED, "compare: %d folders are given; give two; usage: cleave compare DIR DIR", argc - 1);
     for (int k = 0; k < 2; k++) {
         p->folder[k] = argv[k + 1];
         if (holds_run(p->folder[k])) continue;
         return status_set(REFUSED,
-                          "%s holds no run (neither summary.json, history.csv nor frames): give the folder that cleave "
-                          "run prints at its end",
+                          "%s contains no run (neither summary.json, history.csv nor frames); give the folder that "
+                          "cleave run prints at its end",
                           p->folder[k]);
     }
     return OK;

@@ -29,7 +29,7 @@ static status lammps_time_step(const char *folder, double *dt)
     if (from) fclose(from);
     return *dt > 0 && isfinite(*dt)
                ? OK
-               : status_set(FAILED, "%s has no line `timestep`, which gives the time of its frames; add it",
+               : status_set(FAILED, "%s has no line `timestep`, from which the times of frames follow; add it",
                             printable_name(path.text).text);
 }
 
@@ -74,9 +74,10 @@ static status check_sort(struct check *c, int64_t n, const char *path)
     memory_free(whole ? c->h.value : sorted);
     if (whole) c->h.value = sorted;
     if (whole) return OK;
-    return status_set(FAILED,
-                      "%s does not list each of the scene's %lld particles once: repeat the LAMMPS run in this folder",
-                      printable_name(path).text, (long long)n);
+    return status_set(
+        FAILED,
+        "%s does not list each of the scene's %lld particles exactly once; repeat the LAMMPS run in this folder",
+        printable_name(path).text, (long long)n);
 }
 
 static status check_read(struct check *c, const char *folder, int64_t n)

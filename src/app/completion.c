@@ -92,7 +92,7 @@ status completion_print_shell_script(FILE *out, const char *shell)
 {
     const bool bash = !strcmp(shell, "bash");
     if (!bash && strcmp(shell, "zsh") != 0)
-        return status_set(REFUSED, "%.40s: no such shell; use cleave help --completion bash or zsh", shell);
+        return status_set(REFUSED, "%.40s is not a supported shell; use cleave help --completion bash or zsh", shell);
     if (!bash) fputs("#compdef cleave\n", out);
     fprintf(out, head, shell, shell);
     scene_print_override_keys(out);

@@ -97,7 +97,7 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
         else
             a->wish.scene = word;
     }
-    return a->wish.scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
+    return a->wish.scene ? OK : status_set(REFUSED, "no scene is given; usage: cleave %s", usage);
 }
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */

@@ -48,7 +48,7 @@ static status check_not_study(const char *scene)
 {
     const bool study = folder_holds_study(scene) || run_has_file(scene, "study.yaml");
     if (!study || run_has_file(scene, "scene.yaml")) return OK;
-    return status_set(REFUSED, "%s: holds a study; export one of its runs, which are folders inside it",
+    return status_set(REFUSED, "%s contains a study; export one of its runs, which are folders inside it",
                       printable_name(scene).text);
 }
 
@@ -63,13 +63,14 @@ status command_export_main(int argc, char **argv)
     const bool lammps = target->write == export_lammps;
     TRY(export_words(&request, &argc, argv));
     if (!lammps && (request.bond_style || request.allow_different))
-        return status_set(REFUSED, "export: --style and --allow-different are for lammps; usage: cleave %s", usage);
+        return status_set(
+            REFUSED, "export: --style and --allow-different are for lammps only; remove them; usage: cleave %s", usage);
     TRY(arguments_read(&a, argc, argv, usage));
     team_set_thread_count(a.threads);
     request.scene = a.scene, request.folder = a.folder;
     request.override = a.override, request.overrides = a.overrides;
-    status result =
-        a.folder ? check_not_study(a.scene) : status_set(REFUSED, "export: -o is missing; usage: cleave %s", usage);
+    status result = a.folder ? check_not_study(a.scene)
+                             : status_set(REFUSED, "export: the option -o is missing; usage: cleave %s", usage);
     if (result == OK) result = target->write(&request);
     arguments_free(&a);
     return result;

@@ -92,7 +92,7 @@ static status help_misspelt(const char *word)
     for (int k = 0; k < commands_count; k++)
         if (edit_distance(word, commands[k].name) < edit_distance(word, nearest)) nearest = commands[k].name;
     if (!words_are_similar(word, nearest)) return OK;
-    return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
+    return status_set(REFUSED, "%.40s: this is neither a page nor a key; did you mean %s?", word, nearest);
 }
 
 /* Joins the words argv[1..argc-1] after `help` by underscores, as in names of keys: fracture energy becomes

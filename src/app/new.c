@@ -40,8 +40,8 @@ static status kind_find(const char *name, const struct kind **found)
         if (edit_distance((*found)->name, name) < edit_distance(nearest->name, name)) nearest = *found;
     }
     const bool similar = words_are_similar(name, nearest->name);
-    return status_set(REFUSED, "there is no kind %.40s; %s%s%scleave new lists all", name,
-                      similar ? "the nearest is " : "", similar ? nearest->name : "", similar ? ", and " : "");
+    return status_set(REFUSED, "there is no kind %.40s; %s%s%s`cleave new` lists all kinds", name,
+                      similar ? "did you mean " : "", similar ? nearest->name : "", similar ? "? " : "");
 }
 
 /* Checks the path of a new scene. *name: receives the first letter of the file name in `path`; *length: receives the
@@ -57,7 +57,8 @@ static status check_path(const char *path, int *length, const char **name)
     bool fine = letters > 0 && letters < NAME_MAX_LENGTH && **name != '-' && *length < PATH_LONGEST;
     for (int k = 0; k < letters; k++) fine &= isalnum((unsigned char)(*name)[k]) || strchr("_-", (*name)[k]);
     if (fine) return OK;
-    return status_set(REFUSED, "%s: is not a name of a scene; use letters, digits, _ and -", printable_name(path).text);
+    return status_set(REFUSED, "%s is not a valid name of a scene; use letters, digits, _ and -",
+                      printable_name(path).text);
 }
 
 static void scene_write(FILE *out, const struct kind *k, const char *path, const char *name)
@@ -85,7 +86,8 @@ static status file_open(FILE **out, const char *path)
 {
     *out = fopen(path, "wx");
     if (*out) return OK;
-    if (errno == EEXIST) return status_set(REFUSED, "%s exists and is not replaced; choose another name", path);
+    if (errno == EEXIST)
+        return status_set(REFUSED, "the file %s exists and is not replaced; choose another name", path);
     return status_set(REFUSED, "%s: %s; choose a folder that can be written", path, strerror(errno));
 }
 

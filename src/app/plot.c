@@ -54,7 +54,10 @@ static status read_times(struct plot_words *w, const char *text)
     while (s == OK && (word = strsep(&rest, ",")) != NULL) {
         real time = 0;
         if (r->times == PANELS_MAX)
-            s = status_set(REFUSED, "plot: --times: at most %d times; a film shows all frames", PANELS_MAX);
+            s = status_set(REFUSED,
+                           "plot: --times has too many times; give at most %d, or make a film (--format mp4), which "
+                           "shows all frames",
+                           PANELS_MAX);
         else if (strcmp(word, "last") == 0)
             r->time[r->times++] = INFINITY;
         else if (!time_read(&time, word, what, sizeof what))
@@ -136,7 +139,7 @@ static status read_crop(struct plot_words *w, const char *text)
     w->request.cropped = true;
     for (int a = 0; a < 2 && read; a++)
         if (!(w->request.crop[a][1] > w->request.crop[a][0]))
-            return status_set(REFUSED, "plot: --crop %s: give the lower end of each axis first, then the upper",
+            return status_set(REFUSED, "plot: --crop %s: give the lower end of each axis first, then the upper end",
                               printable_name(text).text);
     return read && !rest ? OK
                          : status_set(REFUSED, "plot: --crop %s: give X:X,Y:Y, such as 10mm:30mm,-5mm:5mm; %s",
@@ -150,8 +153,7 @@ static status read_magnify(struct plot_words *w, const char *text)
     double *value = &w->request.projection.magnify;
     *value = strtod(text, &end);
     if (end != text && !*end && *value > 0 && *value <= 1e12) return OK;
-    return status_set(REFUSED, "plot: --magnify %s: a number above 0, up to 1e12, is expected",
-                      printable_name(text).text);
+    return status_set(REFUSED, "plot: --magnify %s: give a number above 0, up to 1e12", printable_name(text).text);
 }
 
 static status read_dpi(struct plot_words *w, const char *text)
@@ -187,8 +189,8 @@ static status read_title(struct plot_words *w, const char *text)
     w->request.title = text;
     return strlen(text) <= TITLE_MOST
                ? OK
-               : status_set(REFUSED, "plot: --title is %d bytes long; a picture has space for %d", (int)strlen(text),
-                            TITLE_MOST);
+               : status_set(REFUSED, "plot: --title is %d bytes long, but a picture has space for %d; shorten it",
+                            (int)strlen(text), TITLE_MOST);
 }
 static status read_field(struct plot_words *w, const char *text) { return w->request.field = text, OK; }
 static status read_out(struct plot_words *w, const char *text) { return w->request.out = text, OK; }
@@ -257,24 +259,26 @@ static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
     if (w->scene.scene && (r->folder || r->field || w->times || w->frames || r->projection.normal >= 0))
-        return status_set(REFUSED,
-                          "plot: --scene draws a scene before it runs, so it takes no folder, field, time or slice");
+        return status_set(
+            REFUSED, "plot: --scene draws a scene before it runs; remove the folder, --field, --times and --slice");
     if (w->times && w->frames)
         return status_set(REFUSED,
                           "plot: --times %s and --frames (or --times) %s exclude each other: remove one of the two",
                           printable_name(w->times).text, printable_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_is_film(r->format))
         return status_set(REFUSED,
-                          "plot: --frames %d: a picture has at most %d panels; for more make a film (mp4, gif)",
+                          "plot: --frames %d: a picture has at most %d panels; give fewer frames, or make a film "
+                          "(--format mp4 or gif)",
                           r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
-        return status_set(REFUSED, "plot: -s changes a scene; use it with --scene");
+        return status_set(REFUSED, "plot: -s changes a scene; use it with --scene only");
     if (w->scene.scene && (r->range[0] || r->cropped || r->projection.magnify > 0 || r->table))
-        return status_set(REFUSED, "plot: --scene draws a scene before it runs: it has no range, colours, crop or "
-                                   "magnified displacements");
+        return status_set(
+            REFUSED, "plot: --scene draws a scene before it runs; remove --range, --colours, --crop and --magnify");
     if (r->fps && !picture_is_film(r->format))
         return status_set(REFUSED, "plot: --fps is for films; add --format mp4 or gif");
-    if (r->range[0] && !r->field) return status_set(REFUSED, "plot: --range limits the values of --field; give both");
+    if (r->range[0] && !r->field)
+        return status_set(REFUSED, "plot: --range limits the values of a field; give --field too");
     if (r->cropped && r->projection.outside)
         return status_set(REFUSED, "plot: --crop is for plane runs and slices, not for --view; remove one of the two");
     if (r->projection.outside && r->projection.normal >= 0)
@@ -294,7 +298,7 @@ static status plot_words_read(struct plot_words *w, int argc, char **argv)
             TRY(read_option(w, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
             k++;
         } else if (w->request.folder) {
-            return status_set(REFUSED, "plot: %s is a second folder; give only one", argv[k]);
+            return status_set(REFUSED, "plot: %s is a second folder; give only one folder", argv[k]);
         } else
             w->request.folder = argv[k];
     }
@@ -310,13 +314,12 @@ static status check_folder(const char *folder)
                           printable_name(folder).text, printable_name(folder).text);
     if (folder_holds_study(folder))
         return status_set(REFUSED,
-                          "%s holds a study: its pictures are in %s/pictures; `cleave plot` draws one of its "
-                          "runs",
+                          "%s contains a study, whose pictures are in %s/pictures; give the folder of one of its runs",
                           printable_name(folder).text, printable_name(folder).text);
     if (!run_has_file(folder, "frames.hdf.series") && !run_has_file(folder, "history.csv"))
         return status_set(
             REFUSED,
-            "%s holds no run (neither frames nor history.csv): give the folder that cleave run prints at its end",
+            "%s contains no run (neither frames nor history.csv); give the folder that cleave run prints at its end",
             folder);
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM
                ? OK

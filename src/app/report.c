@@ -21,7 +21,8 @@ status command_report_main(int argc, char **argv)
             return status_set(REFUSED, "report: unknown option %s; usage: cleave %s", printable_name(argv[k]).text,
                               usage);
         else if (r.folder)
-            return status_set(REFUSED, "report: %s is a second folder; give only one", printable_name(argv[k]).text);
+            return status_set(REFUSED, "report: %s is a second folder; give only one folder",
+                              printable_name(argv[k]).text);
         else
             r.folder = argv[k];
     }

@@ -137,14 +137,14 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
         warnings_add_if_new(&e->warnings, "%s", coarse);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
-        fprintf(stderr, "warning: %d threads share %d hardware threads: with fewer (-t) the run is faster\n", threads,
+        fprintf(stderr, "warning: %d threads share %d hardware threads, which slows the run; use fewer (-t)\n", threads,
                 omp_get_num_procs());
     if (!a->quiet && machine_describe_overload_if_any(busy, sizeof busy, load, machine_physical_core_count(), threads))
         printf("  %s\n", busy);
     e->report->stop = stop_signals_install_handlers();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_load_checkpoint, e));
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
-        fprintf(stderr, "%s holds the finished run: no step is left, and only its summary is written again\n",
+        fprintf(stderr, "the run in %s is finished: no step is left, and only its summary is written again\n",
                 printable_name(out->folder).text);
     output_remove_vtkhdf_of_all_frames(out);
     e->report->setup_seconds = wall_clock_seconds() - opened + made - start;

@@ -35,7 +35,8 @@ static status key_add(struct sweep_arguments *a, const char *text)
     const char *key = a->key[a->keys++].key;
     for (int k = 0; k + 1 < a->keys; k++)
         if (strcmp(a->key[k].key, key) == 0)
-            return status_set(REFUSED, "-s %s: given twice; give all its values in one list, separated by commas", key);
+            return status_set(
+                REFUSED, "-s %s: the key is given twice; give all its values in one list, separated by commas", key);
     return OK;
 }
 
@@ -44,7 +45,8 @@ static status key_add(struct sweep_arguments *a, const char *text)
 static status drawn_figure_add(struct sweep_arguments *a, const char *name)
 {
     TRY(option_check_has_value("--of", name != NULL, usage));
-    if (a->asked == FIGURES_MOST) return status_set(REFUSED, "sweep: --of: at most %d figures", FIGURES_MOST);
+    if (a->asked == FIGURES_MOST)
+        return status_set(REFUSED, "sweep: --of is given too often; give at most %d figures", FIGURES_MOST);
     a->of[a->asked++] = name;
     return OK;
 }
@@ -82,12 +84,14 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         else
             a->scene = word;
     }
-    if (!a->scene) return status_set(REFUSED, "no scene given; usage: cleave %s", usage);
+    if (!a->scene) return status_set(REFUSED, "no scene is given; usage: cleave %s", usage);
     if (a->list && a->collect)
         return status_set(REFUSED,
-                          "--list runs nothing, and --collect only reads finished runs: remove one of the two");
+                          "--list runs nothing, and --collect only reads finished runs; remove one of the two");
     if (a->keys == 0)
-        return status_set(REFUSED, "no key has several values, so nothing varies; usage: cleave %s", usage);
+        return status_set(
+            REFUSED, "no key has several values, so nothing varies; give some, such as -s KEY=1,2; usage: cleave %s",
+            usage);
     return OK;
 }
 
@@ -167,7 +171,10 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     if (failed == 0 && stopped > 0)
         return status_set(INTERRUPTED, "%d of %d runs have stopped early; the same command continues them", stopped,
                           s->n - cases_in(s, CASE_SAME));
-    return failed > 0 ? status_set(FAILED, "%d of %d runs have failed", failed, s->n - cases_in(s, CASE_SAME)) : OK;
+    return failed > 0
+               ? status_set(FAILED, "%d of %d runs have failed; their messages are in the folder logs of the study",
+                            failed, s->n - cases_in(s, CASE_SAME))
+               : OK;
 }
 
 status command_sweep_main(int argc, char **argv)

@@ -71,9 +71,11 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
         ++*n;
         if (!(distance2(&e->part, i, it.bond.nbr) <= square(x->cutoff)))
             return bond_refuse(x, i,
-                               "is as long as the horizon, where LAMMPS depends on the last digit; set a horizon "
-                               "between two distances of the lattice, such as -s particles.horizon=3.015");
-        if (!weight_alike(x, i, &it.bond)) return bond_refuse(x, i, "has a weight that LAMMPS does not support");
+                               "is as long as the horizon, so in LAMMPS round-off decides whether it exists; set a "
+                               "horizon between two distances of the lattice, such as -s particles.horizon=3.015");
+        if (!weight_alike(x, i, &it.bond))
+            return bond_refuse(
+                x, i, "has a weight that LAMMPS does not support; use particles on a regular lattice and one material");
     }
     return OK;
 }

@@ -30,17 +30,17 @@ static status carries_method(const struct scene *s)
     if (s->method == METHOD_MPM)
         return lammps_refuse(s, "method: mpm cannot be exported: it has no bonds, and LAMMPS lacks its kind of "
                                 "material points; set method: pd or adaptive");
-    if (s->dim == 1) return lammps_refuse(s, "space: line does not exist in LAMMPS; use a plane space or solid");
+    if (s->dim == 1) return lammps_refuse(s, "space: line does not exist in LAMMPS; set a plane space or solid");
     if (!scene_is_dynamic(s))
-        return lammps_refuse(s, "solver: peridynamics in LAMMPS has time steps only; set explicit");
+        return lammps_refuse(s, "solver: peridynamics in LAMMPS has time steps only; set solver: explicit");
     if (s->model == MODEL_MOSPD)
-        return lammps_refuse(s, "model: mospd does not exist in LAMMPS; use bond (peri/pmb) or ospd (peri/lps)");
+        return lammps_refuse(s, "model: mospd does not exist in LAMMPS; set model: bond (peri/pmb) or ospd (peri/lps)");
     return OK;
 }
 
 static status carries_materials(const struct scene *s, bool bond_style)
 {
-    if (any_yields(s)) return lammps_refuse(s, "yield_stress: LAMMPS has no plastic bonds; set inf");
+    if (any_yields(s)) return lammps_refuse(s, "yield_stress: LAMMPS has no plastic bonds; set yield_stress: inf");
     for (int m = 0; m < s->materials; m++)
         if (material_has_softening_bonds(&s->material[m]))
             return lammps_refuse(s, "tensile_strength: LAMMPS has no bonds that soften; remove it (bonds are then "
@@ -50,15 +50,17 @@ static status carries_materials(const struct scene *s, bool bond_style)
             s, "peri/lps joins two materials by other rules than Cleave; use one material, or model: bond");
     if (stretches_differ(s) && !bond_style)
         return lammps_refuse(s, "several critical stretches: peri/pmb breaks bonds by the largest one of a particle "
-                                "(lammps issue 984); use one for all, or --style bpm");
+                                "(lammps issue 984); give all materials the same, or use --style bpm");
     if (s->rigids > 0)
-        return lammps_refuse(s, "rigid bodies cannot be exported; use a body of particles that a boundary drives");
+        return lammps_refuse(
+            s, "rigid bodies cannot be exported to LAMMPS; use a body of particles that a boundary drives");
     if (scene_strength_scatters(s))
         return lammps_refuse(
             s, "a strength that scatters in space cannot be exported to the atom types of LAMMPS; remove scatter");
-    if (s->damping > 0) return lammps_refuse(s, "damping cannot be exported; set 0");
-    if (scene_has_viscosity(s)) return lammps_refuse(s, "viscosity: bulk viscosity cannot be exported; remove it");
-    if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks with prescribed growth; remove it");
+    if (s->damping > 0) return lammps_refuse(s, "damping cannot be exported to LAMMPS; set damping: 0");
+    if (scene_has_viscosity(s))
+        return lammps_refuse(s, "viscosity: bulk viscosity cannot be exported to LAMMPS; remove this key");
+    if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks with prescribed growth; remove this key");
     return OK;
 }
 

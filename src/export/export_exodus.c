@@ -76,8 +76,7 @@ static status frames_open(struct exodus_export *x)
     struct output_frame f;
     TRY(run_list_frames(x->folder, &x->frames, &x->frame));
     if (x->frames == 0)
-        return status_set(REFUSED, "%s: this run has no frames; give one that is finished",
-                          printable_name(x->folder).text);
+        return status_set(REFUSED, "%s: this run has no frames; give a finished run", printable_name(x->folder).text);
     const struct path path = run_frame_path(x->folder, x->frame[0].number);
     TRY(frame_read(&f, path.text));
     for (int k = 0; k < FIELDS; k++) {
@@ -102,8 +101,8 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
         same = p->id[i] >= 0 && p->id[i] < f->n && f->id[p->id[i]] == p->id[i];
     if (same) return OK;
     return status_set(REFUSED,
-                      "%s: at %.6g s the run has %lld particles, but the body has %lld, while an Exodus file has one "
-                      "list for all times; run it with -s mpm.fill=all -s mpm.levels=0",
+                      "%s: at %.6g s the run has %lld particles, but its body has %lld, and an Exodus file has one "
+                      "list for all times; run the scene again with -s mpm.fill=all -s mpm.levels=0",
                       printable_name(x->folder).text, f->t, (long long)f->n, (long long)x->mesh.n);
 }
 
@@ -122,7 +121,8 @@ static status exodus_frame_write(struct exodus_export *x, int k)
         int columns = 0;
         if (x->width[field] > 0) s = frame_field_read(&f, path.text, fields[field].name, &columns, &value[field]);
         if (s == OK && columns != x->width[field])
-            s = status_set(REFUSED, "%s: %s has other components than in the first frame; run the scene again",
+            s = status_set(REFUSED,
+                           "%s: the field %s has other components than in the first frame; run the scene again",
                            path.text, fields[field].name);
     }
     real *numbers = NEW("export.numbers", m->n, real);
@@ -423,7 +423,7 @@ status export_exodus(const struct export_request *request)
     if (path_is_folder(request->scene)) scene.scene = run.text, x->folder = request->scene;
     status s = exodus_check_name(request->folder);
     if (s == OK && x->folder && request->overrides > 0)
-        s = status_set(REFUSED, "%s: is a run, whose scene -s cannot change; give the scene instead",
+        s = status_set(REFUSED, "%s is a run, whose scene -s cannot change; give the scene in its place",
                        printable_name(x->folder).text);
     if (s == OK) s = export_check_file_may_be_written(request->folder, EXODUS_SIGN, request->overwrite);
     if (s == OK) s = exodus_make(x, &scene);

@@ -43,11 +43,11 @@ static status settings_refuse(const struct lammps_settings *settings, const stru
     if (settings->n == 0)
         return status_set(REFUSED,
                           "%s: results will differ from LAMMPS once bonds break: LAMMPS (peri/lps) keeps broken bonds "
-                          "in the weighted volume of a particle; set model: bond, or pass --allow-different",
+                          "in the weighted volume of a particle; set model: bond, or add --allow-different",
                           printable_name(s->path).text);
     return status_set(REFUSED,
-                      "%s: LAMMPS has the same result only with%s; set these keys in the scene, or pass "
-                      "--allow-different, which overrides them",
+                      "%s: LAMMPS has the same result only with%s; set these keys in the scene, or add "
+                      "--allow-different, which sets them for the export",
                       printable_name(s->path).text, list);
 }
 
@@ -209,7 +209,8 @@ static status export_guard(const struct export_request *r)
     bool there;
     TRY(folder_check_writable(&kind, r->folder, NULL, &there));
     if (there && !r->overwrite)
-        return status_set(REFUSED, "%s holds an export; choose another -o, or replace it with --overwrite", r->folder);
+        return status_set(REFUSED, "%s contains an export; choose another -o, or replace it with --overwrite",
+                          r->folder);
     for (size_t k = 0; k < COUNT_OF(files); k++) TRY(file_check_replaceable(path_join(r->folder, files[k].name).text));
     return OK;
 }

@@ -46,9 +46,9 @@ static status load_carries(const struct load *load)
     const struct boundary *b = load->boundary;
     const char *why = NULL;
     if (b->kind == BOUNDARY_MIRROR)
-        why = "LAMMPS has no planes of symmetry; use the whole body";
+        why = "LAMMPS has no planes of symmetry; remove `mirror`, and give the whole body";
     else if (b->kind == BOUNDARY_ABSORBING)
-        why = "absorbing faces cannot be exported; use a larger body";
+        why = "absorbing faces cannot be exported to LAMMPS; remove `absorbing`, and use a larger body";
     else if (!is_force(load) && b->kind != BOUNDARY_VELOCITY)
         why = "this kind of load cannot be exported to LAMMPS; use traction, body_force, velocity or fixed";
     else if (has_formula(b) || b->rotates)
@@ -56,7 +56,7 @@ static status load_carries(const struct load *load)
     else if (!function_carries(&b->time))
         why = "this function of time cannot be exported to LAMMPS; use a table";
     else if (b->time.kind == TIME_TABLE && b->time.n > TABLE_MOST)
-        why = "LAMMPS evaluates the whole table in every step; use at most 500 values";
+        why = "the table is too long, because LAMMPS evaluates all of it in every step; use at most 500 values";
     return why ? status_set(REFUSED, "%s%s", b->place, why) : OK;
 }
 
@@ -67,7 +67,7 @@ status lammps_find_loads_of_particles(struct exported *exported)
     const struct loads *l = &exported->e->loads;
     for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
     if (l->n > LOADS_MOST)
-        return status_set(REFUSED, "%s: %d loads, but LAMMPS has groups for %d only; use fewer loads",
+        return status_set(REFUSED, "%s: the scene has %d loads, but LAMMPS has groups for %d only; use fewer loads",
                           printable_name(exported->s->path).text, l->n, LOADS_MOST);
     exported->loads = NEW("export.loads", exported->e->part.n, uint32_t);
     for (int k = 0; k < l->n; k++)

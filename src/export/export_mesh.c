@@ -106,13 +106,13 @@ status export_check_file_may_be_written(const char *path, const char *format_sig
 {
     char begin[1024] = "";
     size_t n = 0;
-    if (path_is_folder(path)) return status_set(REFUSED, "%s: is a folder; give the name of a file: -o FILE", path);
+    if (path_is_folder(path)) return status_set(REFUSED, "%s is a folder; give the name of a file: -o FILE", path);
     if (!path_exists(path)) return folder_make_for_file(path);
     FILE *file = fopen(path, "rb");
     if (file) n = fread(begin, 1, sizeof begin, file), fclose(file);
     if (!memmem(begin, n, format_signature, strlen(format_signature)))
-        return status_set(REFUSED, "%s: exists and is not an export of Cleave; choose another -o FILE", path);
-    if (!overwrite) return status_set(REFUSED, "%s: exists; choose another -o, or replace it with --overwrite", path);
+        return status_set(REFUSED, "%s exists and is not an export of Cleave; choose another -o FILE", path);
+    if (!overwrite) return status_set(REFUSED, "%s exists; choose another -o, or replace it with --overwrite", path);
     return file_check_replaceable(path);
 }
 

@@ -118,12 +118,12 @@ status lammps_types_assign_to_particles(struct lammps_types *types, struct expor
     const int colours = s == OK && touched.n > 0 ? particle_colours_assign_and_count(colour, &touched) : 0;
     if (s == OK && touched.n > 0 && colours == 0)
         s = status_set(REFUSED,
-                       "%s: the cracks touch %lld particles, which need more than %d types of LAMMPS, too many for its "
-                       "tables; use straight cracks on the lattice",
+                       "%s: the cracks touch %lld particles, which need more than %d atom types, the limit of the "
+                       "tables of LAMMPS; use straight cracks along the lattice",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
     if (s == OK && colours > 0 && !(pair = particle_colours_find_bonded_pairs(colour, colours, &touched)))
-        s = status_set(FAILED, "export: the cracks cut bonds that cannot be told from others by types of LAMMPS "
-                               "particles; use straight cracks");
+        s = status_set(FAILED, "export: the cracks cut bonds that types of LAMMPS particles cannot separate from uncut "
+                               "ones; use straight cracks");
     if (s == OK) s = types_give(types, x, &touched, colour, colours, pair);
     memory_free(pair);
     memory_free(colour);

@@ -25,7 +25,7 @@ static status nodes_read(struct deck *d)
     int set;
     const char *system = parameter(d, "SYSTEM");
     if (system && strcasecmp(system, "R") != 0)
-        return source_report_fault(d->s, "coordinates in the system %.10s are not supported; use Cartesian x, y, z",
+        return source_report_fault(d->s, "coordinates of the system %.10s are not supported; use Cartesian x, y, z",
                                    system);
     TRY(abaqus_find_set_of_keyword(d, "NSET", true, &set));
     for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
@@ -54,7 +54,8 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
             source_skip_to_next_line(d->s);
             if (!abaqus_find_data_line(d->s))
                 return source_report_fault(
-                    d->s, "an element of a type with %d nodes lists only %d; add the missing nodes", size->nodes, k);
+                    d->s, "an element should have the %d nodes of its type, but lists only %d; add the missing nodes",
+                    size->nodes, k);
             continue;
         }
         TRY(abaqus_parse_label(d->s, field, &label));
@@ -65,9 +66,9 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
         k++;
     }
     if (!abaqus_read_field(d->s, field) || field[0] == '\0') return OK;
-    return source_report_fault(d->s,
-                               "an element of a type with %d nodes lists more, such as %.20s; remove the surplus ones",
-                               size->nodes, field);
+    return source_report_fault(
+        d->s, "an element has more nodes than the %d of its type, such as %.20s; remove the surplus nodes", size->nodes,
+        field);
 }
 
 /* Reads the data lines of *ELEMENT in deck d, each a label and nodes. If the keyword has the parameter ELSET, the
@@ -157,7 +158,8 @@ static void scope_begin(struct deck *d, const char *name)
  * invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
-    if (d->scopes >= PARTS_MAX) return source_report_fault(d->s, "more than %d parts; join some", PARTS_MAX);
+    if (d->scopes >= PARTS_MAX)
+        return source_report_fault(d->s, "the file has more than %d parts; join some", PARTS_MAX);
     TRY(scope_end(d));
     scope_begin(d, name ? name : "");
     return OK;
@@ -211,12 +213,13 @@ static status input_read(struct deck *d, status (*read)(struct deck *d), bool ke
     struct source file, *const outer = d->s;
     char path[PATH_LENGTH], keyword[FIELD];
     snprintf(keyword, sizeof keyword, "%s", d->key.name);
-    if (!name || !*name) return source_report_fault(d->s, "*%s has no INPUT=FILE; add it", keyword);
+    if (!name || !*name) return source_report_fault(d->s, "*%s has no file name; add INPUT=FILE", keyword);
     const int before = slash && *name != '/' ? (int)(slash - folder) + 1 : 0;
     if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
         return source_report_fault(d->s, "the name of an included file is too long; shorten it");
     if (d->depth >= DEPTH_MAX)
-        return source_report_fault(d->s, "more than %d files include each other; put them into one file", DEPTH_MAX);
+        return source_report_fault(d->s, "more than %d files are nested by *INCLUDE; put them into one file",
+                                   DEPTH_MAX);
     if (source_read_whole_file(&file, path) != OK)
         return source_report_fault(d->s, "*%s: %.200s", keyword, status_message());
     d->s = &file, d->depth++, d->length += file.length;

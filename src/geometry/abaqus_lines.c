@@ -49,7 +49,7 @@ status abaqus_parse_real(const struct source *s, const char *field, real *value)
     *value = strtod(text, &end);
     if (field[0] == '\0') *value = 0; /* the deck's default for an empty field */
     if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
-    return source_report_fault(s, "%.40s is not a number", field);
+    return source_report_fault(s, "%.40s is not a number; correct this entry", field);
 }
 
 bool abaqus_is_label(const char *field) { return isdigit((unsigned char)field[0]); }
@@ -60,7 +60,7 @@ status abaqus_parse_label(const struct source *s, const char *field, int32_t *la
     *label = 0;
     TRY(abaqus_parse_real(s, field, &value));
     if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
-        return source_report_fault(s, "%.40s is not the number of a node or an element", field);
+        return source_report_fault(s, "%.40s is not the number of a node or an element; correct this entry", field);
     *label = (int32_t)value;
     return OK;
 }

@@ -25,7 +25,7 @@ status abaqus_find_set_of_keyword(struct deck *d, const char *name, bool of_node
     if (!given) return OK;
     const int own = name_join(whole, d->scope[d->now].name, given);
     *set = element_mesh_find_or_create_set(d->m, whole, of_nodes);
-    if (*set < 0) return source_report_fault(d->s, "more than %d sets; remove some", ELEMENT_SETS_MAX);
+    if (*set < 0) return source_report_fault(d->s, "the file has more than %d sets; remove some", ELEMENT_SETS_MAX);
     d->m->set[*set].own = own;
     return OK;
 }
@@ -43,7 +43,8 @@ static status generated_add(struct deck *d, int64_t n)
 {
     d->generated += n;
     if (d->generated <= GENERATED_MOST * d->length) return OK;
-    return source_report_fault(d->s, "sets list more nodes or elements than the file has; it is damaged or incomplete");
+    return source_report_fault(
+        d->s, "sets list more nodes or elements than the file has, so it is damaged; write the deck again");
 }
 
 /* Adds a node or element, by its index, to set number `number` of deck d, before the members that are still labels. */
@@ -76,7 +77,8 @@ static status generate_line(struct deck *d, int set, const struct scope *part)
     char field[FIELD];
     for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_label(d->s, field, &bound[k]));
     if (bound[2] < 1 || bound[1] < bound[0])
-        return source_report_fault(d->s, "a set with GENERATE lacks first, last or step; give all three");
+        return source_report_fault(d->s,
+                                   "a set with GENERATE lacks its first number, last number or step; give all three");
     TRY(generated_add(d, (bound[1] - bound[0]) / bound[2] + 1));
     for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) set_add_label(d, set, part, label);
     return OK;
@@ -111,8 +113,9 @@ static status set_join(struct deck *d, int set, const struct scope *part, const 
         return OK;
     }
     if (other < 0)
-        return source_report_fault(d->s, "set %.40s lists %.40s, which is no set that is given before; give it first",
-                                   d->m->set[set].name, field);
+        return source_report_fault(
+            d->s, "set %.40s lists %.40s, which is not the name of an earlier set; give that set before",
+            d->m->set[set].name, field);
     TRY(generated_add(d, d->m->set[other].n));
     for (int64_t k = 0; other != set && k < d->m->set[other].n; k++) {
         const int64_t member = d->m->set[other].member[k];
@@ -160,7 +163,7 @@ static status set_join_nodes_of(struct deck *d, int set, const struct scope *par
     const int other = set_index(d, part, name, false);
     struct label_map of;
     if (other < 0)
-        return source_report_fault(d->s, "there is no element set %.40s before this line; give it first", name);
+        return source_report_fault(d->s, "there is no element set %.40s before this line; give that set before", name);
     TRY(generated_add(d, (ELEMENT_CORNERS_MAX + ELEMENT_MIDDLES_MAX) * d->m->set[other].n));
     label_map_make(&of, d->m->element_label + first, first, d->m->elements - first);
     for (int64_t k = 0; k < d->m->set[other].n; k++) {
@@ -183,7 +186,8 @@ status abaqus_read_set(struct deck *d, bool of_nodes)
     const struct scope *part = scope >= 0 ? &d->scope[scope] : NULL;
     TRY(abaqus_find_set_of_keyword(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
     if (set < 0) return source_report_fault(d->s, "a set has no name; give it one");
-    if (instance && !part) return source_report_fault(d->s, "there is no instance %.40s; check its spelling", instance);
+    if (instance && !part)
+        return source_report_fault(d->s, "the assembly has no instance %.40s; check the spelling", instance);
     if (of_nodes && elements) TRY(set_join_nodes_of(d, set, part, elements));
     for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;

@@ -312,10 +312,10 @@ static status check_plane(const struct element_mesh *m, const char *path)
     }
     const real extent = real_max(high[0] - low[0], high[1] - low[1]);
     if (high[2] - low[2] <= 1e-6 * extent) return OK;
-    return status_set(
-        REFUSED,
-        "%s: the elements are not in one plane z = const: z varies from %.6g to %.6g; give a plane mesh in this space",
-        path, low[2], high[2]);
+    return status_set(REFUSED,
+                      "%s: the elements are not in one plane z = const: z varies from %.6g to %.6g; give a plane mesh, "
+                      "or set space: solid",
+                      path, low[2], high[2]);
 }
 
 /* Corners of an element in ascending order, unused ones -1, and its index in the mesh. */

@@ -55,8 +55,8 @@ status surface_builder_set_chord_tolerance(struct surface_builder *b, const char
     b->pieces = sagitta > 0 ? pieces_for(sagitta, b->sagitta, most) : 1;
     if (sagitta <= COARSE_MOST * b->sagitta * most * most && sagitta * b->scale < FARTHEST) return OK;
     return status_set(REFUSED,
-                      "%s: second-order elements have edges curved by up to %.3g m, which at this spacing need more "
-                      "than %d straight parts each; use a finer mesh, or a larger particles.spacing",
+                      "%s: second-order elements have edges curved by up to %.3g m, each of which needs more than %d "
+                      "straight parts at this spacing; use a finer mesh, or a larger particles.spacing",
                       path, sagitta * b->scale, most);
 }
 

@@ -137,7 +137,8 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
     }
     *set = element_mesh_find_or_create_set(x->m, name, of_nodes);
     return *set >= 0 ? OK
-                     : exodus_report_fault(&x->file, "has more than %d blocks and sets; join some", ELEMENT_SETS_MAX);
+                     : exodus_report_fault(&x->file, "the mesh has more than %d blocks and sets; join some",
+                                           ELEMENT_SETS_MAX);
 }
 
 /* Appends the elements of block `number` (from 1) of the file x to the mesh, and makes a set of them. Returns REFUSED,
@@ -216,7 +217,8 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     }
     const int sides = solid ? element_sides[e.kind].n : element_edges[e.kind].n + (shell ? 2 : 0);
     if (side < 1 || side > sides)
-        return exodus_report_fault(&x->file, "set %s has side %lld of an element, but the element has %d sides",
+        return exodus_report_fault(&x->file,
+                                   "set %s has side %lld of an element that has only %d sides; correct the set",
                                    x->m->set[set].name, (long long)side, sides);
     if (shell && side <= 2) {
         element_mesh_add_to_set(x->m, set, element);
@@ -233,7 +235,7 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
-        return exodus_report_fault(&x->file, "set %s has element %lld; a number from 1 to %lld is expected",
+        return exodus_report_fault(&x->file, "set %s has element %lld; give a number from 1 to %lld",
                                    x->m->set[set].name, (long long)label, (long long)x->elements);
     *element = x->element[label - 1];
     return OK;
@@ -272,8 +274,8 @@ static status node_set_add(struct exodus *x, int64_t number)
     status s = OK;
     for (int64_t k = 0; k < n && s == OK; k++)
         if (node[k] < 1 || node[k] > x->m->nodes)
-            s = exodus_report_fault(&x->file, "set %s has node %lld; a number from 1 to %lld is expected",
-                                    x->m->set[set].name, (long long)node[k], (long long)x->m->nodes);
+            s = exodus_report_fault(&x->file, "set %s has node %lld; give a number from 1 to %lld", x->m->set[set].name,
+                                    (long long)node[k], (long long)x->m->nodes);
         else
             element_mesh_add_to_set(x->m, set, node[k] - 1);
     memory_free(node);
@@ -306,7 +308,7 @@ static status mesh_read(struct exodus *x)
     const struct exodus_file *f = &x->file;
     if (f->blocks > ELEMENT_SETS_MAX || f->side_sets > ELEMENT_SETS_MAX || f->node_sets > ELEMENT_SETS_MAX ||
         f->element_sets > ELEMENT_SETS_MAX)
-        return exodus_report_fault(f, "has more than %d blocks and sets; join some", ELEMENT_SETS_MAX);
+        return exodus_report_fault(f, "the mesh has more than %d blocks and sets; join some", ELEMENT_SETS_MAX);
     TRY(nodes_add(x));
     for (int64_t k = 1; k <= f->blocks; k++) TRY(element_block_add(x, k));
     for (int64_t k = 1; k <= f->side_sets; k++) TRY(side_set_add(x, k));

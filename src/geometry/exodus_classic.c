@@ -148,7 +148,7 @@ static status arrays_check(const struct exodus_file *f)
         const int64_t bytes = a->extent[0] * a->extent[1]; /* both fit in 32 bits */
         if (a->at <= f->length && bytes <= (f->length - a->at) / type_bytes[a->type]) continue;
         return status_set(REFUSED,
-                          "%s: array %s should have %lld x %lld numbers, but the file ends earlier: it is cut off",
+                          "%s: array %s should have %lld x %lld numbers, but the file is cut off; write it again",
                           f->path, a->name, (long long)a->extent[0], (long long)a->extent[1]);
     }
     return OK;
@@ -164,8 +164,9 @@ status exodus_classic_open(struct exodus_file *f)
     const int64_t n = next_list(&h, TAG_ARRAYS);
     for (int64_t k = 0; k < n && h.good; k++) header_array(&h);
     if (!h.good)
-        return status_set(REFUSED, "%s: the header of this netCDF file ends early or is damaged near byte %lld",
-                          f->path, (long long)h.at);
+        return status_set(
+            REFUSED, "%s: the header of this netCDF file is cut off or damaged near byte %lld; write the file again",
+            f->path, (long long)h.at);
     return arrays_check(f);
 }
 

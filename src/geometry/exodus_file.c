@@ -62,9 +62,10 @@ static status counts_read(struct exodus_file *f)
     f->element_sets = exodus_read_dimension_length(f, "num_elem_sets", 0);
     f->dim = (int)dim;
     if (dim >= 1 && dim <= DIM_MAX && f->nodes >= 1) return OK;
-    return exodus_report_fault(
-        f, "a netCDF file with num_dim = %lld and num_nodes = %lld; give a mesh in the format Exodus II",
-        (long long)dim, (long long)f->nodes);
+    return exodus_report_fault(f,
+                               "this netCDF file has num_dim = %lld and num_nodes = %lld, so it is not a mesh; give "
+                               "one in the format Exodus II",
+                               (long long)dim, (long long)f->nodes);
 }
 
 status exodus_open_from_memory(struct exodus_file *f, const char *path, const char *content, int64_t length)
@@ -142,14 +143,16 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t nam
  * not have n numbers, contains letters, or is larger than its file can be. */
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
-    if (!array_find(f, name, a)) return exodus_report_fault(f, "lacks the array %s; write the file again", name);
-    if (a->type == EXODUS_CHAR) return exodus_report_fault(f, "array %s contains letters instead of numbers", name);
+    if (!array_find(f, name, a)) return exodus_report_fault(f, "the array %s is missing; write the file again", name);
+    if (a->type == EXODUS_CHAR)
+        return exodus_report_fault(f, "array %s contains letters in place of numbers; write the file again", name);
     if (a->extent[0] * a->extent[1] != n)
-        return exodus_report_fault(f, "array %s has %lld x %lld numbers; %lld are expected", name,
-                                   (long long)a->extent[0], (long long)a->extent[1], (long long)n);
+        return exodus_report_fault(f, "array %s has %lld x %lld numbers, but must have %lld; write the file again",
+                                   name, (long long)a->extent[0], (long long)a->extent[1], (long long)n);
     if (f->hdf5 < 0 || n <= f->length * UNPACKED_MOST) return OK;
     return exodus_report_fault(f,
-                               "array %s claims %lld numbers, more than the file can contain: it is cut off or damaged",
+                               "array %s claims %lld numbers, more than the file can contain, so it is cut off or "
+                               "damaged; write the file again",
                                name, (long long)n);
 }
 
@@ -171,7 +174,7 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     if (f->hdf5 < 0)
         exodus_classic_read_array(f, &a, n, real_value, whole_value);
     else if (n > 0 && !exodus_hdf5_read_array(f, &a, real_value, whole_value, NULL))
-        s = exodus_report_fault(f, "array %s cannot be read: the file is damaged", called);
+        s = exodus_report_fault(f, "array %s cannot be read, because the file is damaged; write it again", called);
     for (int64_t k = 0; k < n && s == OK && real_value; k++)
         if (!isfinite(real_value[k]))
             s = exodus_report_fault(f, "array %s: number %lld is infinite or not a number; correct it", called,
@@ -243,8 +246,9 @@ status exodus_read_block_header(const struct exodus_file *f, int64_t block_numbe
         return exodus_report_fault(f, "block %lld has no list of nodes %s; remove it, or give its elements nodes",
                                    (long long)block_number, called);
     if (!a.elements[0])
-        return exodus_report_fault(f, "block %lld does not name the type of its elements (attribute elem_type of %s)",
-                                   (long long)block_number, called);
+        return exodus_report_fault(
+            f, "block %lld does not name the type of its elements; add the attribute elem_type of %s",
+            (long long)block_number, called);
     *elements = a.extent[0], *nodes_per_element = a.extent[1];
     memcpy(type, a.elements, NAME_MAX_LENGTH);
     for (char *c = type; *c; c++) *c = (char)toupper((unsigned char)*c);

@@ -16,7 +16,7 @@ status exodus_hdf5_open(struct exodus_file *f)
     H5E_END_TRY;
     if (f->hdf5 >= 0) return OK;
     crash_message_set_file_in_use(NULL);
-    return status_set(REFUSED, "%s: HDF5 cannot read it: it is cut off or damaged", f->path);
+    return status_set(REFUSED, "%s: HDF5 cannot read this file, which is cut off or damaged; write it again", f->path);
 }
 
 void exodus_hdf5_close(struct exodus_file *f)

@@ -66,7 +66,7 @@ static status check_closed(const struct hull *s, const char *path)
                           "close holes and orient faces)",
                           path, (long long)s->open_edges, at[0], at[1], at[2], 100 * doubt);
     if (s->volume > 0) return OK;
-    return status_set(REFUSED, "%s: encloses no volume; give the surface of a body", path);
+    return status_set(REFUSED, "%s: the surface encloses no volume; give the surface of a body", path);
 }
 
 /* Reads the mesh or surface file `path` into g. dim: dimensions of the space; scale: length of the file's unit [m];

@@ -91,7 +91,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
         g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_or_create_set(g->m, name, false);
     }
     if (g->last_set < 0)
-        return source_report_fault(g->s, "more than %d physical groups; remove some", ELEMENT_SETS_MAX);
+        return source_report_fault(g->s, "the mesh has more than %d physical groups; remove some", ELEMENT_SETS_MAX);
     element_mesh_add_to_set(g->m, g->last_set, element);
     struct element_set *set = &g->m->set[g->last_set];
     set->mixed = set->mixed || element_dim[g->m->element[set->member[0]].kind] != dim;
@@ -165,7 +165,8 @@ static status nodes_known(struct gmsh *g)
 static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
-    if (!source_skip_blanks(s) || s->text[s->at] != '"') return source_report_fault(s, "a name in quotes is expected");
+    if (!source_skip_blanks(s) || s->text[s->at] != '"')
+        return source_report_fault(s, "the name of this group is not in quotes; add them");
     for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
         if (n + 1 < capacity) text[n++] = s->text[s->at];
     text[n] = '\0';
@@ -183,7 +184,7 @@ static status names_read(struct gmsh *g)
     TRY(source_check_count_fits_file(g->s, "names", n, 4));
     g->announced = n, g->items = "names";
     if (n > ELEMENT_SETS_MAX)
-        return source_report_fault(g->s, "more than %d physical groups; remove some", ELEMENT_SETS_MAX);
+        return source_report_fault(g->s, "the mesh has more than %d physical groups; remove some", ELEMENT_SETS_MAX);
     GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
         struct group_name *name = &g->name[g->names];
@@ -340,8 +341,9 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks, int64_
 static status new_total(const struct gmsh *g, const char *what, int64_t announced, int64_t found)
 {
     if (found == announced) return OK;
-    return source_report_fault(g->s, "the section gives %lld %s, but its blocks contain %lld: the file is damaged",
-                               (long long)announced, what, (long long)found);
+    return source_report_fault(
+        g->s, "the section gives %lld %s, but its blocks contain %lld, so the file is damaged; save it again",
+        (long long)announced, what, (long long)found);
 }
 
 /* Reads a block of nodes of the file g in format 4.1: their labels, then their coordinates. Each node may have
@@ -355,8 +357,7 @@ static status new_node_block(struct gmsh *g)
     TRY(source_read_int64(g->s, "number of nodes", &n));
     TRY(source_check_count_fits_file(g->s, "nodes", n, 8));
     if (dim < 0 || dim > 3)
-        return source_report_fault(g->s, "a block of $Nodes has the dimension %lld; 0 to 3 is expected",
-                                   (long long)dim);
+        return source_report_fault(g->s, "a block of $Nodes has the dimension %lld; give 0 to 3", (long long)dim);
     const int64_t first = g->m->nodes;
     for (int64_t k = 0; k < n; k++) {
         TRY(source_read_int64(g->s, "number of a node", &label));
@@ -434,7 +435,8 @@ static status format_read(struct gmsh *g)
     if (!g->old && strcmp(version, "4.1") != 0) return format_refuse(g, version);
     TRY(source_read_integer(g->s, "kind of file", &bytes));
     TRY(source_read_integer(g->s, "size of numbers", &size));
-    if (size != 8) return source_report_fault(g->s, "numbers have %lld bytes; save them with 8", (long long)size);
+    if (size != 8)
+        return source_report_fault(g->s, "numbers have %lld bytes each; save the mesh with 8", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
     source_skip_to_next_line(g->s);
@@ -442,7 +444,8 @@ static status format_read(struct gmsh *g)
     TRY(source_read_int32(g->s, "the number 1", &one));
     g->s->binary = false;
     if (one == 1) return OK;
-    return source_report_fault(g->s, "the file has the byte order of another machine; save it as text (ASCII)");
+    return source_report_fault(g->s,
+                               "the file has the byte order of another kind of processor; save it as text (ASCII)");
 }
 
 /* Skips the rest of the section `name` of the file s, such as $Nodes: advances to the line after its last one, such as
@@ -464,9 +467,10 @@ static status section_end(struct gmsh *g, const char *name)
     source_skip_blanks(g->s);
     source_read_word(g->s, word, sizeof word);
     if (strcmp(word, end) == 0) return OK;
-    return source_report_fault(
-        g->s, "%s gives %lld %s, but more follow where %s is expected: the count is wrong, or the file is damaged",
-        name, (long long)g->announced, g->items, end);
+    return source_report_fault(g->s,
+                               "%s gives %lld %s, but more follow in place of %s, so the count is wrong or the file "
+                               "damaged; save the mesh again",
+                               name, (long long)g->announced, g->items, end);
 }
 
 /* Reads the section `name` of the file g, such as $Nodes, or skips it if it is not needed. Returns REFUSED if it is
@@ -481,9 +485,9 @@ static status section_read(struct gmsh *g, const char *name)
                     {"$Elements", old_elements, new_elements},
                     {"$Entities", NULL, entities_read}};
     if (strcmp(name, "$PartitionedEntities") == 0)
-        return source_report_fault(g->s, "the mesh has partitions; save it without them");
+        return source_report_fault(g->s, "the mesh has partitions, which are not supported; save it without them");
     if (strcmp(name, "$Nodes") == 0 && g->node.entry)
-        return source_report_fault(g->s, "has a second section of nodes; remove one of the two");
+        return source_report_fault(g->s, "the mesh has a second section of nodes; remove one of the two");
     for (size_t k = 0; k < COUNT_OF(sections); k++) {
         if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
         if (!g->old && g->bytes && k > 0) source_skip_to_next_line(g->s);
@@ -503,12 +507,15 @@ static status sections_read(struct gmsh *g)
     source_read_word(g->s, name, sizeof name);
     if (strcmp(name, "$NOD") == 0) return format_refuse(g, "1");
     if (strcmp(name, "$MeshFormat") != 0)
-        return source_report_fault(g->s, "does not begin with $MeshFormat, so it is no mesh of Gmsh; save it by Gmsh");
+        return source_report_fault(
+            g->s, "the file does not begin with $MeshFormat, so it is not a mesh of Gmsh; save it with Gmsh");
     TRY(format_read(g));
     section_skip(g->s, name);
     while (source_skip_blanks(g->s)) {
         source_read_word(g->s, name, sizeof name);
-        if (name[0] != '$') return source_report_fault(g->s, "a section such as $Nodes is expected, not %.30s", name);
+        if (name[0] != '$')
+            return source_report_fault(
+                g->s, "%.30s is not the beginning of a section, such as $Nodes; save the mesh again", name);
         TRY(section_read(g, name));
     }
     if (!g->node.entry) return source_report_fault(g->s, "ends without $Nodes");

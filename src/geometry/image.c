@@ -14,16 +14,17 @@ status pages_append_page(struct pages *p, const struct source *s, int64_t width,
 {
     const int64_t memory = machine_memory_size();
     const real all = (real)width * (real)height * (real)(p->n + 1);
-    if (width < 1 || height < 1) return status_set(REFUSED, "%s: the image has no pixels; give another one", s->path);
+    if (width < 1 || height < 1) return status_set(REFUSED, "%s: the image has no pixels; give another image", s->path);
     if (p->n > 0 && (width != p->width || height != p->height))
         return status_set(
             REFUSED,
             "%s: this slice has %lld x %lld pixels, but earlier slices have %lld x %lld; give slices of equal size",
             s->path, (long long)width, (long long)height, (long long)p->width, (long long)p->height);
     if ((real)width * (real)height > (real)s->length * SHRINKS_MOST * BITS)
-        return status_set(
-            REFUSED, "%s: its header gives %lld x %lld pixels, more than a file of its size can contain; it is damaged",
-            s->path, (long long)width, (long long)height);
+        return status_set(REFUSED,
+                          "%s: its header gives %lld x %lld pixels, more than a file of its size can contain, so it is "
+                          "damaged; save it again",
+                          s->path, (long long)width, (long long)height);
     if (all > VOXELS_MAX || (memory > 0 && all * BYTES_A_VOXEL > (real)memory))
         return status_set(REFUSED, "%s: %.3g voxels do not fit into memory; use fewer or smaller slices", s->path, all);
     const int64_t size = width * height;
@@ -41,9 +42,10 @@ static status file_read(struct pages *p, const char *path)
     TRY(source_read_whole_file(&s, path));
     const bool png = s.length > 4 && memcmp(s.text, "\x89PNG", 4) == 0;
     const bool tiff = s.length > 4 && (memcmp(s.text, "II", 2) == 0 || memcmp(s.text, "MM", 2) == 0);
-    const status result = png    ? png_read_pages(p, &s)
-                          : tiff ? tiff_read_pages(p, &s)
-                                 : status_set(REFUSED, "%s: neither PNG nor TIFF; save it as one of them", path);
+    const status result =
+        png    ? png_read_pages(p, &s)
+        : tiff ? tiff_read_pages(p, &s)
+               : status_set(REFUSED, "%s: the file is neither PNG nor TIFF; save it as one of them", path);
     source_close(&s);
     return result;
 }

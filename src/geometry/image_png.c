@@ -86,7 +86,7 @@ status png_read_pages(struct pages *p, struct source *s)
         result = page_read(png, info, p, s, &rows, &bytes);
     } else {
         text_replace_control_characters(what);
-        result = status_set(REFUSED, "%s: not a complete PNG: %s", s->path, what);
+        result = status_set(REFUSED, "%s: the PNG file is incomplete or damaged (%s); save it again", s->path, what);
     }
     memory_free((void *)rows);
     memory_free(bytes);

@@ -209,17 +209,18 @@ static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
     TRY(pages_append_page(p, s, a.width, a.height, &page));
     const bool good = samples_used(&a) > 0 ? samples_read(tiff, page, &a) : colours_read(tiff, page, a.width, a.height);
     return good ? OK
-                : status_set(
-                      REFUSED,
-                      "%s: page %lld cannot be read: the file is cut off, or compressed by a method that libtiff lacks",
-                      s->path, (long long)p->n);
+                : status_set(REFUSED,
+                             "%s: page %lld cannot be read, because the file is cut off, or compressed by a method "
+                             "that libtiff lacks; save it uncompressed",
+                             s->path, (long long)p->n);
 }
 
 status tiff_read_pages(struct pages *p, struct source *s)
 {
     TIFFSetErrorHandler(NULL), TIFFSetWarningHandler(NULL);
     TIFF *tiff = TIFFClientOpen(s->path, "rm", s, tiff_take, tiff_write, tiff_seek, tiff_close, tiff_size, NULL, NULL);
-    status result = tiff ? OK : status_set(REFUSED, "%s: not a TIFF file, or a damaged one", s->path);
+    status result =
+        tiff ? OK : status_set(REFUSED, "%s: the file is damaged, or not a TIFF file; save it again", s->path);
     while (result == OK) {
         result = tiff_page(tiff, p, s);
         if (result != OK || !TIFFReadDirectory(tiff)) break;

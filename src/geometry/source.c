@@ -30,8 +30,10 @@ status source_read_whole_file(struct source *s, const char *path)
     if (s->length == length && length > 0) return OK;
     source_close(s);
     if (!fits)
-        return status_set(REFUSED, "%s: its %.3g GB do not fit into the memory of this machine", path,
-                          1e-9 * (real)length);
+        return status_set(REFUSED,
+                          "%s: its %.3g GB do not fit into the memory of this machine; use a smaller file or a machine "
+                          "with more memory",
+                          path, 1e-9 * (real)length);
     return status_set(REFUSED, length == 0 ? "%s: empty" : "%s: cannot be read", path);
 }
 
@@ -84,7 +86,7 @@ static status text_real(struct source *s, const char *what, real *value)
     *value = strtod(word, &end);
     if (end != word && *end == '\0' && isfinite(*value)) return OK;
     s->at = from;
-    return source_report_fault(s, "%.40s is not a %s; a number is expected", word, what);
+    return source_report_fault(s, "%.40s is not a %s; write a number", word, what);
 }
 
 /* Copies the next `size` bytes of the binary file s to `value`. what: name of the value, for messages. Returns REFUSED,
@@ -92,7 +94,8 @@ static status text_real(struct source *s, const char *what, real *value)
 static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
 {
     if (s->length - s->at < size)
-        return source_report_fault(s, "the file ends where %s is expected: it is cut off", what);
+        return source_report_fault(s, "the file is cut off, because it ends where %s is expected; write it again",
+                                   what);
     array_copy(value, s->text + s->at, size, 1);
     s->at += size;
     return OK;
@@ -110,7 +113,7 @@ status source_read_integer(struct source *s, const char *quantity, int64_t *valu
     real number = 0;
     TRY(text_real(s, quantity, &number));
     if (number != floor(number) || fabs(number) > 9e15)
-        return source_report_fault(s, "%s is %.17g; a whole number is expected", quantity, number);
+        return source_report_fault(s, "%s is %.17g; write a whole number", quantity, number);
     *value = (int64_t)number;
     return OK;
 }
@@ -133,9 +136,10 @@ status source_check_count_fits_file(const struct source *s, const char *item_nam
                                     int64_t bytes_per_item)
 {
     if (count >= 0 && count <= (s->length - s->at) / bytes_per_item) return OK;
-    return source_report_fault(
-        s, "the header gives %lld %s, more than the rest of the file can contain: it is cut off or damaged",
-        (long long)count, item_name);
+    return source_report_fault(s,
+                               "the header gives %lld %s, more than the rest of the file can contain, so it is cut off "
+                               "or damaged; write it again",
+                               (long long)count, item_name);
 }
 
 void source_skip_to_next_line(struct source *s)

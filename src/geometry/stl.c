@@ -85,7 +85,8 @@ static status words_read(struct element_mesh *m, struct source *s)
             source_skip_to_next_line(s);
         }
     }
-    if (m->nodes % 3 != 0 || !ended) return source_report_fault(s, "ends within a solid: it is cut off");
+    if (m->nodes % 3 != 0 || !ended)
+        return source_report_fault(s, "the file ends within a solid, so it is cut off; write it again");
     return OK;
 }
 
@@ -152,12 +153,14 @@ status stl_read(struct element_mesh *m, struct source *s)
         const long long needed = HEADER + COUNT + FACET * (long long)word_at(s, HEADER);
         s->binary = true;
         return source_report_fault(s,
-                                   "not a complete STL file: it has %lld bytes, but the %lld triangles that its header "
-                                   "gives need %lld; %s or it is not in the STL format",
+                                   "the STL file is incomplete: it has %lld bytes, but the %lld triangles that its "
+                                   "header gives need %lld; %s or it is not in the STL format",
                                    (long long)s->length, (long long)word_at(s, HEADER), needed,
                                    s->length < needed ? "it is cut off" : "this number is wrong");
     } else {
-        return source_report_fault(s, "not an STL file: it neither begins with `solid` nor has a header of %d bytes",
+        return source_report_fault(s,
+                                   "this is not an STL file, because it neither begins with `solid` nor has a header "
+                                   "of %d bytes; give a file in the STL format",
                                    HEADER + COUNT);
     }
     if (m->elements == 0) return source_report_fault(s, "contains no triangle");

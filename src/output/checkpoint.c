@@ -168,7 +168,7 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
                        "with --overwrite, or use the version that wrote it",
                        path, (int)version, CHECKPOINT_VERSION);
     else if (!same_scene(&f, scene_text))
-        s = status_set(FAILED, "cannot resume: %s belongs to another scene; choose another -o, or restore that scene",
+        s = status_set(FAILED, "cannot resume: %s belongs to another scene; restore that scene, or choose another -o",
                        path);
     else
         s = archive_all(context, &a);

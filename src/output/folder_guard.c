@@ -22,14 +22,14 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
     char found[PATH_NAME_ROOM] = "";
     DIR *d = opendir(folder);
     if (!d && (errno == ENOENT || errno == ENOTDIR)) return OK;
-    if (!d) return status_set(REFUSED, "%s: cannot be read (%s); choose another -o", folder, strerror(errno));
+    if (!d) return status_set(REFUSED, "the folder %s cannot be read (%s); choose another -o", folder, strerror(errno));
     for (struct dirent *e; !*found && (e = readdir(d));)
         if (!file_name_is_hidden_or_temporary(e->d_name) && !(kind->is_early && kind->is_early(folder, e->d_name)))
             snprintf(found, sizeof found, "%s", e->d_name);
     closedir(d);
     if (!*found) return OK;
-    return status_set(REFUSED, "%s holds files, for instance %s, but no %s; choose another -o", folder, found,
-                      kind->what);
+    return status_set(REFUSED, "the folder %s contains files, for instance %s, but no %s; choose another -o", folder,
+                      found, kind->what);
 }
 
 status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text, bool *exists)

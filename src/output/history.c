@@ -64,8 +64,9 @@ static status read_rows(struct history *h, FILE *from, const char *path, char **
     while ((length = getline(line, room, from)) > 0 && (*line)[length - 1] == '\n') {
         GROW("history.value", h->value, (h->rows + 1) * h->columns);
         if (!read_row(h, *line, h->value + h->rows * h->columns))
-            return status_set(FAILED, "%s:%lld: the line does not have %d entries", path, (long long)h->rows + 2,
-                              h->columns);
+            return status_set(
+                FAILED, "%s:%lld: this line does not have %d entries, so the file is damaged; run the scene again",
+                path, (long long)h->rows + 2, h->columns);
         h->rows++;
     }
     return OK;
@@ -87,7 +88,7 @@ status history_read(struct history *h, const char *folder)
     char path[4096];
     *h = (struct history){0};
     if (snprintf(path, sizeof path, "%s/history.csv", folder) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", folder);
+        return status_set(FAILED, "%s: the name of the file is too long; choose a shorter one", folder);
     return history_read_file(h, path);
 }
 
@@ -96,11 +97,15 @@ status history_read_file(struct history *h, const char *path)
     char *line = NULL;
     size_t room = 0;
     *h = (struct history){0};
-    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is not a regular file", path);
+    if (path_exists(path) && !path_is_file(path))
+        return status_set(FAILED, "%s is not a regular file; give the folder of a run", path);
     FILE *from = fopen(path, "r");
     if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
     ssize_t length = getline(&line, &room, from);
-    status s = length > 0 && line[length - 1] == '\n' ? OK : status_set(FAILED, "%s:1: the header is missing", path);
+    status s =
+        length > 0 && line[length - 1] == '\n'
+            ? OK
+            : status_set(FAILED, "%s:1: the header is missing, so the file is damaged; run the scene again", path);
     if (s == OK) read_header(h, line);
     if (s == OK) s = read_rows(h, from, path, &line, &room);
     free(line);

@@ -45,7 +45,8 @@ static status dump_open(struct dump *d, const char *path)
     struct stat s;
     *d = (struct dump){.path = path};
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || !(d->file = fopen(path, "r")))
-        return status_set(FAILED, "cannot read %s: there is no such file", printable_name(path).text);
+        return status_set(FAILED, "cannot read %s, because there is no such file; run LAMMPS in this folder first",
+                          printable_name(path).text);
     d->bytes = s.st_size;
     return OK;
 }
@@ -78,7 +79,8 @@ static status head_columns(struct dump *d, struct dump_head *h)
             if (strcmp(name, wanted_name[w]) == 0) h->column[w] = k;
     }
     for (int w = 0; w < 4; w++)
-        if (h->column[w] < 0) return dump_fault(d, "the columns id, x, y and z are missing");
+        if (h->column[w] < 0)
+            return dump_fault(d, "the columns id, x, y and z are missing; add them to the dump command");
     return OK;
 }
 
@@ -89,18 +91,19 @@ static status head_next(struct dump *d, struct dump_head *h, bool *more)
     *more = dump_line(d);
     if (!*more) return OK;
     if (!dump_begins(d->text, "ITEM: TIMESTEP"))
-        return dump_fault(d, "ITEM: TIMESTEP is missing; a text dump of LAMMPS is expected");
+        return dump_fault(d, "ITEM: TIMESTEP is missing; give a text dump of LAMMPS");
     h->n = -1;
     if ((*more = dump_line(d)) && !dump_whole_number(d->text, &h->step))
-        return dump_fault(d, "the number of a step is missing");
+        return dump_fault(d, "the number of a step is missing; repeat the LAMMPS run");
     while (*more && (*more = dump_line(d)) && !dump_begins(d->text, "ITEM: ATOMS")) {
         if (!dump_begins(d->text, "ITEM: NUMBER OF ATOMS")) continue;
         if (!(*more = dump_line(d))) break;
         if (!dump_whole_number(d->text, &h->n) || h->n < 0 || h->n > d->bytes / LEAST_LINE || h->n > INT32_MAX)
-            return dump_fault(d, "is not a possible number of particles: the file is too short for it, or damaged");
+            return dump_fault(d, "is not a possible number of particles: the file is too short for it, or damaged; "
+                                 "repeat the LAMMPS run");
     }
     if (!*more) return OK;
-    return h->n < 0 ? dump_fault(d, "ITEM: NUMBER OF ATOMS is missing") : head_columns(d, h);
+    return h->n < 0 ? dump_fault(d, "ITEM: NUMBER OF ATOMS is missing; repeat the LAMMPS run") : head_columns(d, h);
 }
 
 /* Skips n lines of the dump d. Returns false if the file ends before the last of them. */
@@ -120,7 +123,8 @@ static status steps_read(struct dump *d, int *n, int64_t **step)
     for (;;) {
         TRY(head_next(d, &h, &more));
         if (!more || !skip_rows(d, h.n)) return OK;
-        if (*n > 0 && h.step <= (*step)[*n - 1]) return dump_fault(d, "steps are not in ascending order");
+        if (*n > 0 && h.step <= (*step)[*n - 1])
+            return dump_fault(d, "steps are not in ascending order; repeat the LAMMPS run");
         GROW("dump.steps", *step, *n + 1);
         (*step)[(*n)++] = h.step;
     }
@@ -137,7 +141,9 @@ status lammps_list_step_numbers(const char *path, int *step_count, int64_t **ste
     memory_free(*step_numbers);
     *step_numbers = NULL, *step_count = 0;
     return s != OK ? s
-                   : status_set(FAILED, "%s does not yet hold a complete time step of a LAMMPS dump",
+                   : status_set(FAILED,
+                                "%s does not yet contain a complete time step of a LAMMPS dump; wait for the LAMMPS "
+                                "run, or repeat it",
                                 printable_name(path).text);
 }
 
@@ -187,9 +193,10 @@ static status rows_take(struct dump *d, const struct dump_head *h, struct lammps
 {
     double value[WANTED];
     for (int64_t k = 0; k < h->n; k++) {
-        if (!dump_line(d) || !dump_row_read(d, h, value)) return dump_fault(d, "the numbers of a particle are missing");
+        if (!dump_line(d) || !dump_row_read(d, h, value))
+            return dump_fault(d, "the numbers of a particle are missing; repeat the LAMMPS run");
         if (!(value[0] >= 1 && value[0] <= (double)h->n))
-            return dump_fault(d, "ids from 1 to the number of particles are expected");
+            return dump_fault(d, "ids must be from 1 to the number of particles; repeat the LAMMPS run");
         const int64_t i = (int64_t)value[0] - 1;
         if (seen[i]++) return dump_fault(d, "an id occurs twice");
         for (int a = 0; a < DIM_MAX; a++) f->x[a][i] = value[1 + a], f->v[a][i] = value[4 + a];
@@ -204,7 +211,9 @@ static status frame_find(struct dump *d, struct lammps_frame *f, int64_t step)
     bool more;
     for (;;) {
         TRY(head_next(d, &h, &more));
-        if (!more) return status_set(FAILED, "%s has no step %lld", printable_name(d->path).text, (long long)step);
+        if (!more)
+            return status_set(FAILED, "%s has no step %lld; repeat the LAMMPS run up to this step",
+                              printable_name(d->path).text, (long long)step);
         if (h.step == step) break;
         if (!skip_rows(d, h.n)) h.n = 0;
     }

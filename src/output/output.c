@@ -166,15 +166,15 @@ static status refuse_other_scene(const char *folder, const char *former, const c
     a += strspn(a, " -"), b += strspn(b, " -");
     const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n"), path = (int)(line_meaning(b, &own) - b);
     if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0)
-        return status_set(REFUSED,
-                          "%s: %s holds the run of another scene: %.*s has changed; choose another -o or --overwrite",
-                          key, folder, path, b);
+        return status_set(
+            REFUSED, "%s: %s contains the run of another scene: %.*s has changed; choose another -o or --overwrite",
+            key, folder, path, b);
     const bool lasts = strncmp(a, "duration:", strlen("duration:")) == 0;
-    return status_set(REFUSED,
-                      "%s: %s holds the run of another scene, with `%.*s` instead of `%.*s`%s; choose another -o or "
-                      "--overwrite",
-                      key, folder, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b,
-                      lasts ? ": a run cannot change its duration" : "");
+    return status_set(
+        REFUSED,
+        "%s: %s contains the run of another scene, with `%.*s` in place of `%.*s`%s; choose another -o or --overwrite",
+        key, folder, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b,
+        lasts ? ": a run cannot change its duration" : "");
 }
 
 /* Returns true if the file `path` is the scene.yaml of a run: its text is scene_text, or Cleave wrote it and it is
@@ -258,19 +258,20 @@ static status mode_check(const char *folder, enum output_mode mode)
     if (path_is_file(path_join(folder, "summary.json").text))
         (void)summary_read_string(folder, "status", ended, sizeof ended);
     if (mode == OUTPUT_FIRST && there)
-        return status_set(REFUSED, "%s holds %s run of this scene; %sreplace it with --overwrite, or choose another -o",
-                          folder,
-                          !strcmp(ended, "done")     ? "a finished"
-                          : !strcmp(ended, "failed") ? "a failed"
-                                                     : "an interrupted",
-                          resumes ? "continue with --resume, " : "its checkpoints are gone; ");
+        return status_set(
+            REFUSED, "%s contains %s run of this scene; %sreplace it with --overwrite, or choose another -o", folder,
+            !strcmp(ended, "done")     ? "a finished"
+            : !strcmp(ended, "failed") ? "a failed"
+                                       : "an interrupted",
+            resumes ? "continue with --resume, " : "its checkpoints are gone; ");
     if (mode != OUTPUT_RESUME || checkpoint_exists(folder)) return OK;
     if (!resumes)
-        return status_set(REFUSED,
-                          "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or "
-                          "choose another -o",
-                          folder);
-    fprintf(stderr, "warning: nothing to resume in %s: the run starts at t = 0\n", printable_name(folder).text);
+        return status_set(
+            REFUSED,
+            "cannot resume: the run in %s has no checkpoint left; start again with --overwrite, or choose another -o",
+            folder);
+    fprintf(stderr, "warning: %s contains no checkpoint to resume from, so the run starts at t = 0\n",
+            printable_name(folder).text);
     return OK;
 }
 
@@ -452,7 +453,7 @@ status output_check_series_folder_is_free(const char *folder, const char *series
         return status_set(REFUSED, "%s is a symbolic link, so frames would be written to another folder; remove it",
                           path.text);
     if (path_exists(path.text) && !path_is_folder(path.text))
-        return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path.text);
+        return status_set(REFUSED, "%s is a file, not a folder; choose another -o", path.text);
     return OK;
 }
 
@@ -503,8 +504,8 @@ static status series_archive(struct frame_series *s, struct archive *a)
     if (!a->saving) {
         if (frames < 0 || a->stored_size(a, entry_name) != (int64_t)frames * (int64_t)sizeof *s->entry)
             return status_set(FAILED,
-                              "cannot resume: the checkpoint counts %d frames, but its list of frames has a different "
-                              "length; it is damaged, start again with --overwrite",
+                              "cannot resume: the checkpoint counts %d frames, but lists another number of them; it is "
+                              "damaged, start again with --overwrite",
                               frames);
         memory_free(s->entry);
         s->entry = NEW("output.frames", frames, struct frame_entry);

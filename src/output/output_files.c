@@ -293,9 +293,9 @@ static status folder_make_one(const char *path)
     const int cause = errno;
     if (cause == EEXIST && path_is_folder(path)) return OK;
     if (cause == EEXIST && path_is_link(path))
-        return status_set(REFUSED, "%s: is a symbolic link, but not to a folder; choose another -o", path);
+        return status_set(REFUSED, "%s is a symbolic link, but not to a folder; choose another -o", path);
     if (cause == EEXIST || cause == ENOTDIR)
-        return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path);
+        return status_set(REFUSED, "%s is a file, not a folder; choose another -o", path);
     return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(cause));
 }
 

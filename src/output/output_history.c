@@ -87,7 +87,7 @@ static status history_cut(const struct output *o)
     memory_free(text);
     if (same) return cut;
     return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); start again with --overwrite",
-                      path.text, shorter ? "shorter than" : "different from what it was", (long long)o->history_bytes);
+                      path.text, shorter ? "shorter than" : "not the file that it was", (long long)o->history_bytes);
 }
 
 /* Opens history.csv at `path` for writing, without following a link. resume: true to continue it at its end, false to

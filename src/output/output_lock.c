@@ -91,7 +91,7 @@ status folder_lock(struct folder_lock *l, const char *folder)
         }
         if (fault) {
             close(fd);
-            fprintf(stderr, "warning: cannot lock %s (%s): make sure that no other run uses it\n",
+            fprintf(stderr, "warning: cannot lock the folder %s (%s); make sure that no other run uses it\n",
                     printable_name(folder).text, strerror(fault));
             return OK;
         }
@@ -117,8 +117,8 @@ status folder_check_lock(const struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
     return status_set(FAILED,
-                      "%s was moved, removed or replaced while this run wrote to it; the folder that now has this name "
-                      "is not changed",
+                      "the folder %s was moved, removed or replaced while this run wrote to it, so the run ends and "
+                      "leaves alone the folder that now has this name; start the run again",
                       folder);
 }
 

@@ -95,7 +95,7 @@ status frame_read(struct output_frame *f, const char *path)
     struct stat s;
     *f = (struct output_frame){0};
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
-        return status_set(FAILED, "cannot read %s: there is no such file", path);
+        return status_set(FAILED, "cannot read %s, because there is no such file; check the name", path);
     const char *fault = file_describe_damage(path);
     if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
     crash_message_set_file_in_use(path);
@@ -108,7 +108,10 @@ status frame_read(struct output_frame *f, const char *path)
     crash_message_set_file_in_use(NULL);
     if (whole && linked == OK) return OK;
     frame_free(f);
-    return linked == OK ? status_set(FAILED, "cannot read %s: it is damaged, or not a frame of Cleave", path) : linked;
+    return linked == OK
+               ? status_set(FAILED, "cannot read %s, which is damaged, or not a frame of Cleave; run the scene again",
+                            path)
+               : linked;
 }
 
 void frame_free(struct output_frame *f)
@@ -216,10 +219,10 @@ status run_list_frames(const char *folder, int *frame_count, struct listed_frame
     *frame_count = 0;
     *frames = NULL;
     if (!path_exists(path.text))
-        return status_set(
-            FAILED,
-            "%s holds no frames (no frames.hdf.series); give the folder of a run, which cleave run prints at its end",
-            folder);
+        return status_set(FAILED,
+                          "%s contains no frames (no frames.hdf.series); give the folder of a run, which cleave run "
+                          "prints at its end",
+                          folder);
     TRY(file_read_whole(path.text, &text, &length));
     int count = 0;
     for (const char *at = text; next_frame(&at, &f);) count++;

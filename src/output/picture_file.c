@@ -104,7 +104,7 @@ status picture_replace_by_temporary(const char *path, enum picture_format format
     if (fault > 0) return file_report_write_failure(path, fault);
     return status_set(
         FAILED,
-        "cannot write %s: the picture is cut off, perhaps because the disk is full; free space or choose another -o",
+        "cannot write %s: the picture is incomplete, perhaps because the disk is full; free space or choose another -o",
         path);
 }
 

@@ -185,7 +185,8 @@ static bool value(struct reader *r, const char *rest, int depth)
  * be read. */
 static status read_text(const char *path, char **text)
 {
-    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is not a regular file", path);
+    if (path_exists(path) && !path_is_file(path))
+        return status_set(FAILED, "%s is not a regular file; give the folder of a run", path);
     FILE *from = fopen(path, "rb");
     if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
     size_t length = 0, room = 1 << 16, got;
@@ -216,7 +217,7 @@ static status summary_read_document(struct reader *r, const char *folder, const 
     char path[4096];
     *text = NULL;
     if (snprintf(path, sizeof path, "%s/summary.json", folder) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", folder);
+        return status_set(FAILED, "%s: the name of the file is too long; choose a shorter one", folder);
     TRY(read_text(path, text));
     r->at = *text;
     const bool sound = value(r, key, 0);
@@ -263,7 +264,10 @@ status summary_read_number(const char *folder, const char *dotted_key, double *v
     bool is_number = *found == '-' || isdigit((unsigned char)*found);
     if (is_number) *value_out = strtod(found, NULL);
     free(text);
-    return is_number ? OK : status_set(FAILED, "%s/summary.json: %s is not a number", folder, dotted_key);
+    return is_number
+               ? OK
+               : status_set(FAILED, "%s/summary.json: %s is not a number, so the file is damaged; run the scene again",
+                            folder, dotted_key);
 }
 
 status summary_read_string(const char *folder, const char *dotted_key, char *out, size_t size)
@@ -283,5 +287,8 @@ status summary_read_string(const char *folder, const char *dotted_key, char *out
     out[length] = '\0';
     text_replace_control_characters(out);
     free(text);
-    return is_string ? OK : status_set(FAILED, "%s/summary.json: %s is not a text", folder, dotted_key);
+    return is_string
+               ? OK
+               : status_set(FAILED, "%s/summary.json: %s is not a text, so the file is damaged; run the scene again",
+                            folder, dotted_key);
 }

@@ -47,7 +47,7 @@ status film_check_encoder_is_installed(void)
     if (process == 0) become_ffmpeg(word, -1, -1);
     const bool there = process > 0 && waitpid(process, &ended, 0) == process && WIFEXITED(ended) && !WEXITSTATUS(ended);
     return there ? OK
-                 : status_set(REFUSED, "plot: films are made by ffmpeg, which is missing: install the package ffmpeg, "
+                 : status_set(REFUSED, "plot: films are made by ffmpeg, which is missing; install the package ffmpeg, "
                                        "or use --format png");
 }
 

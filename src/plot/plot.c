@@ -102,7 +102,7 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
                                               "no bond breaks; draw another field with --field von_mises, speed, ..."));
     if (map == MAP_FIELD) TRY(draw_map(r, field.text, map, &view, cloud, frames->shown));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
-                  : report_picture_not_drawn(kind.text, "all particles are of one method"));
+                  : report_picture_not_drawn(kind.text, "all particles have the same method"));
     TRY(something || has.kinds ? draw_map(r, latest.text, something ? map : MAP_KIND, &own, last, 1)
                                : report_picture_not_drawn(latest.text, "nothing happens in this run"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));

@@ -105,7 +105,7 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     struct gnuplot g;
     if (!shown[0] && !shown[1])
         return report_picture_not_drawn(sheet.path, s->bar ? "a crack of a bar has no length; profiles show the damage"
-                                                           : "no crack grows, no particle becomes peridynamic");
+                                                           : "no crack grows, and no particle becomes peridynamic");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
     curves_write_data(g.to, s, column, factor, 2);
     curves_write_title(&g, title, "crack");

@@ -90,7 +90,7 @@ static status field_unknown(const char *name, const char *const *names)
             used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", used ? ", " : "", own);
     }
     if (listed > 0)
-        return status_set(REFUSED, "plot: --field %s: it has several components; draw one of %s",
+        return status_set(REFUSED, "plot: --field %s: this field has several components; draw one of %s",
                           printable_name(name).text, components);
     return status_set(REFUSED, "plot: --field %s: there is no such field%s there are %s", printable_name(name).text,
                       word_propose_similar(name, names, COUNT_OF(fields)).text, all);
@@ -117,8 +117,9 @@ status plot_field_find_by_name(const struct plot_field **field, const char *name
         if (!names_field(component, names[k])) continue;
         *field = &fields[k];
         if (!lacks_component(*field, dim)) return OK;
-        return status_set(REFUSED, "plot: --field %s: a run in %d dimension%s has no such component", name, dim,
-                          dim > 1 ? "s" : "");
+        return status_set(
+            REFUSED, "plot: --field %s: a run in %d dimension%s has no such component; remove it, or give another one",
+            name, dim, dim > 1 ? "s" : "");
     }
     return field_unknown(name, names);
 }

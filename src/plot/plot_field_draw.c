@@ -118,8 +118,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
                           : r->projection.magnify > 0 ? "--magnify"
                                                       : NULL;
     if (of_maps)
-        return status_set(REFUSED, "plot: %s is for maps, but a run in one dimension has curves; remove the option",
-                          of_maps);
+        return status_set(
+            REFUSED, "plot: %s is for maps, but a run in one dimension has curves only; remove this option", of_maps);
     if (picture_is_film(r->format))
         return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; use png, svg or pdf",
                           picture_ending[r->format]);
@@ -147,7 +147,7 @@ static status projection_check(const struct plot_request *r, int dim)
 {
     if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;
     return status_set(REFUSED,
-                      "plot: %s needs a run with space: solid, but this one has %d dimension%s; remove the option",
+                      "plot: %s needs a run with space: solid, but this one has %d dimension%s; remove this option",
                       r->projection.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
 }
 
@@ -156,7 +156,7 @@ static status projection_check(const struct plot_request *r, int dim)
 static status scale_check(const struct plot_request *r)
 {
     if (r->projection.field->scale != CATEGORY || (!r->table && !r->range[0])) return OK;
-    return status_set(REFUSED, "plot: %s: the field %s has a colour for each value and no scale; remove the option",
+    return status_set(REFUSED, "plot: %s: the field %s has one colour for each value and no scale; remove this option",
                       r->table ? "--colours" : "--range", r->projection.field->name);
 }
 
@@ -171,8 +171,8 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     if (s == OK && !r->field) s = plot_field_choose_default(&r->projection.field, r->folder, frames);
     if (s == OK) s = scale_check(r);
     if (s == OK && r->field && strcmp(r->field, "principal_stress") == 0)
-        fprintf(stderr, "plot: principal_stress is the largest one; draw the others as principal_stress_2 and "
-                        "principal_stress_3\n");
+        fprintf(stderr, "plot: principal_stress is the largest of the three; draw the others by --field "
+                        "principal_stress_2 and principal_stress_3\n");
     if (s == OK && dim == 3 && r->projection.normal < 0) r->projection.outside = true;
     if (s == OK) s = projection_complete_slice_from_particles(&r->projection, &last);
     frame_free(&last);

@@ -367,8 +367,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
 static status say_missing_load(const char *path, const struct reactions *r)
 {
     if (r->n > 0)
-        return report_picture_not_drawn(path, "the boundary that carries the load does not move; a point probe where "
-                                              "the body moves adds the displacement: probes: [{point: {at: [...]}}]");
+        return report_picture_not_drawn(path, "the boundary that carries the load does not move; add a point probe "
+                                              "where the body moves: probes: [{point: {at: [...]}}]");
     return report_picture_not_drawn(
         path, "no force to draw: give a boundary a displacement or velocity, or add a rigid body");
 }

@@ -239,7 +239,7 @@ static status view_check_crop(const struct view *v, const struct view *around, c
     const struct unit metre = panel_axis_unit(around);
     const double f = metre.factor;
     return status_set(REFUSED, "plot: --crop: %s; give a part of %.6g%s:%.6g%s,%.6g%s:%.6g%s",
-                      huge ? "the body would be a point in this rectangle, whose unit is m where none is given"
+                      huge ? "the body would be a point in this rectangle (its unit is m if none is given)"
                            : "no particle is in this rectangle",
                       around->from[0] / f, metre.name, around->to[0] / f, metre.name, around->from[1] / f, metre.name,
                       around->to[1] / f, metre.name);

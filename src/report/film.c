@@ -312,7 +312,7 @@ static status write_frame(struct page *p, const struct film *f, const struct fil
     TRY(run_read_frame(&frame, f->folder, shown->listed.number));
     if (frame.n != s->n) {
         frame_free(&frame);
-        return status_set(FAILED, "%s changed while it was read; try again", path.text);
+        return status_set(FAILED, "%s changed while it was read; repeat the command", path.text);
     }
     json_open(&p->json, NULL, '{');
     json_write_integer(&p->json, "number", shown->listed.number);

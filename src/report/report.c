@@ -24,9 +24,11 @@ static status folder_check_kind(const char *folder)
         return OK;
     if (run_has_file(folder, "study.yaml"))
         return status_set(
-            REFUSED, "%s holds a study without a table: the same command with --collect makes it once a run is done",
+            REFUSED, "%s contains a study without a table; run its command again with --collect once a run is done",
             shown.text);
-    return status_set(REFUSED, "%s holds neither a run (frames or history.csv) nor a study (sweep.csv, converge.csv)",
+    return status_set(REFUSED,
+                      "%s contains neither a run (frames or history.csv) nor a study (sweep.csv, converge.csv); give "
+                      "the folder of one",
                       shown.text);
 }
 

@@ -187,7 +187,7 @@ static status check_spacing_given(const struct particle_draft *d, int body)
  * fit it. */
 static status fill_lattice(struct particle_draft *d, int body)
 {
-    real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
+    real volume = cell_volume(d->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
     TRY(check_spacing_given(d, body));
     TRY(lattice_axes(d, body, axis));

@@ -43,11 +43,12 @@ static status refuse_material(const struct scene *s, const struct particle_list 
     entry_place(place, l, path, i, true);
     materials_in_words(names, sizeof names, s);
     if (given < 0)
-        return status_set(REFUSED, "%s: the scene has no material %s; use one of %s", place, l->name[-1 - (int)given],
-                          names);
-    return status_set(REFUSED,
-                      "%s: the scene has no material %s%d (numbered from %d in the order of the scene); it has %s",
-                      place, l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
+        return status_set(REFUSED, "%s: the scene has no material %s; give one that it has (%s)", place,
+                          l->name[-1 - (int)given], names);
+    return status_set(
+        REFUSED,
+        "%s: the scene has no material %s%d (numbered from %d in the order of the scene); give one that it has (%s)",
+        place, l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
 }
 
 /* Returns true if body number k of the scene s exists and takes its particles from the list in `file`. */

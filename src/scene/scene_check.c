@@ -114,8 +114,8 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
                      "a static equilibrium has no velocities to damp; remove damping, or set solver: explicit");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
         return fault(r, levels,
-                     "mpm.levels: %s makes coarse cells with longer time steps, but damping needs one time step for "
-                     "the whole body; set mpm.levels: 0",
+                     "%s levels of coarse cells have longer time steps, but damping needs one time step for the whole "
+                     "body; set mpm.levels: 0",
                      node_text(r, levels));
     return OK;
 }
@@ -211,8 +211,8 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
-                     "contact.distance: lammps is the rule of LAMMPS' peri/pmb; set contact.law: pair and model: bond, "
-                     "or another distance");
+                     "the distance lammps is the rule of LAMMPS' peri/pmb; set contact.law: pair and model: bond, or "
+                     "another contact.distance");
     if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
         return fault(r, between, "this static solver has no contact; set contact.between: none, or solver: explicit");
     if (s->contact_between != CONTACT_NONE && scene_has_load_steps_with_softening_bonds(s))
@@ -430,23 +430,23 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *model = yaml_node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
-        return fault(r, surface, "pd.surface: moments needs a regular lattice in 2D or 3D; set %s",
+        return fault(r, surface, "the correction moments needs a regular lattice in 2D or 3D; set pd.surface: %s",
                      s->model == MODEL_BOND ? "volume or none" : "none");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
         return fault(r, surface,
-                     "with model: %s the correction pd.surface: moments needs method: pd and pd.normalisation: bulk; "
-                     "set these, or pd.surface: none",
+                     "with model: %s the correction moments needs method: pd and pd.normalisation: bulk; set these, or "
+                     "pd.surface: none",
                      node_text(r, model));
     if (s->dim == 1 && s->calibration != CALIBRATION_LATTICE && s->influence == INFLUENCE_INVERSE_SQUARE)
         return fault(
             r, scene_check_below(root, "pd", "influence"),
-            "pd.influence: inverse square has no continuum integral in one dimension; set pd.calibration: lattice");
+            "the influence inverse square has no continuum integral in one dimension; set pd.calibration: lattice");
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1)
-        return fault(r, model, "model: %s is not defined in space: line; set model: bond", node_text(r, model));
+        return fault(r, model, "the model %s is not defined in space: line; set model: bond", node_text(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
         return fault(r, surface,
-                     "pd.surface: %s is for model: bond; with model: %s set pd.surface: none and correct bonds near "
+                     "the correction %s is for model: bond; with model: %s set pd.surface: none and correct bonds near "
                      "surfaces by pd.normalisation",
                      node_text(r, surface), node_text(r, model));
     return OK;
@@ -464,18 +464,19 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
     if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver, "solver: %s is for elastic materials, but material %s yields; set solver: %s",
+            return fault(r, solver, "the solver %s is for elastic materials, but material %s yields; set solver: %s",
                          node_text(r, solver), s->material[m].name,
                          s->method == METHOD_ADAPTIVE ? "explicit" : "static (load steps), or explicit");
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
-        return fault(r, solver, "solver: cg works with method: pd only; with material points set solver: relaxation");
+        return fault(r, solver,
+                     "the solver cg works with method: pd only; with material points set solver: relaxation");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
         return fault(r, solver,
                      "with mpm.transfer: flip a relaxation does not converge, because light nodes at the border keep "
                      "moving; set mpm.transfer: apic and an mpm.shape other than linear");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
-            return fault(r, solver, "solver: %s has no time steps, which probe %s needs; set solver: explicit",
+            return fault(r, solver, "the solver %s has no time steps, which probe %s needs; set solver: explicit",
                          node_text(r, solver), s->probe[k].name);
     return OK;
 }

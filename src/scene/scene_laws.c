@@ -105,7 +105,8 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
     TRY(read_keys_of_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
-    return fault(r, yaml_node_find(n, "T_melt"), "T_melt is %g K, not above T_room, %g K; give the melting temperature",
+    return fault(r, yaml_node_find(n, "T_melt"),
+                 "%g K is not above T_room, %g K; give the melting temperature of the material",
                  law->johnson_cook.T_melt, law->johnson_cook.T_room);
 }
 

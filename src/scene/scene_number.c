@@ -121,8 +121,9 @@ static status check_overrides(struct reader *r, const struct yaml_node *root)
             if (other->n->origin < 0 &&
                 (!nearest || edit_distance(other->n->key, v->n->key) < edit_distance(nearest->n->key, v->n->key)))
                 nearest = other;
-        return fault(r, v->n, "no value of the scene uses this variable; use it or remove it%s%s",
-                     nearest ? "; the nearest is " : "; see `cleave help variables`", nearest ? nearest->n->key : "");
+        return fault(r, v->n, "no value of the scene uses this variable; %s%s%s",
+                     nearest ? "did you mean " : "see `cleave help variables`", nearest ? nearest->n->key : "",
+                     nearest ? "?" : "");
     }
     return OK;
 }

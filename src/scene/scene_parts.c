@@ -288,9 +288,9 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
         return fault(r, yaml_node_find(n, "smoothing"),
                      "has no effect without the key probe; add probe, the name of a sif probe");
     if (growth_speed_is_controlled(g) && !(g->toughness > 0))
-        return fault(
-            r, yaml_node_find(n, "speed"),
-            "speed: follow needs a sif probe (key probe) and toughness, the value at which K_eq is kept; give both");
+        return fault(r, yaml_node_find(n, "speed"),
+                     "the choice follow needs a sif probe (key probe) and toughness, the value at which K_eq is kept; "
+                     "give both");
     if (!growth_speed_is_controlled(g) && !isnan(g->fastest))
         return fault(r, yaml_node_find(n, "fastest"),
                      "has no effect with a given speed; set speed: follow, or remove it");

@@ -43,7 +43,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     if (method && wish) return pilot_requirements_read(r, root, text, length, wish);
     if (method)
         return fault(r, method,
-                     "method: auto works in `cleave run` only, which makes pilot runs; give a method and "
+                     "the method auto works in `cleave run` only, which makes pilot runs; give a method and "
                      "particles.spacing, or use the scene.yaml that such a run writes");
     scene_store_key_locations(r, root);
     TRY(scene_read_keys_of_tree(r, root));

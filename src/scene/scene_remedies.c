@@ -172,8 +172,8 @@ status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *y
 {
     const unsigned has = scene_has(r);
     const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);
-    if (change) return fault(r, yield_node, "model: %s cannot yield; set %s", model, change);
-    return fault(r, yield_node, "model: %s cannot yield, and no method has all of %s; remove one of these", model,
+    if (change) return fault(r, yield_node, "the model %s cannot yield; set %s", model, change);
+    return fault(r, yield_node, "the model %s cannot yield, and no method has all of %s; remove one of these", model,
                  names_of(r, has));
 }
 
@@ -187,11 +187,11 @@ status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law
     if (bonds < 0)
         return fault(r, law_node, "is a key for material points; use %s",
                      points ? points : "`method: mpm` without rigid bodies and tensile_strength");
-    return fault(
-        r, law_node,
-        "is for material points; use %s%syield_stress with linear hardening by yield_hardening, which bonds%s have%s%s",
-        points ? points : "", points ? ", or " : "", s->model == MODEL_BOND ? "" : " (`model: bond`)",
-        ratio ? " at a Poisson's ratio of " : "", ratio ? ratio_of_bonds(s) : "");
+    return fault(r, law_node,
+                 "is a key for material points; use %s%syield_stress with linear hardening by yield_hardening, which "
+                 "bonds%s have%s%s",
+                 points ? points : "", points ? ", or " : "", s->model == MODEL_BOND ? "" : " (`model: bond`)",
+                 ratio ? " at a Poisson's ratio of " : "", ratio ? ratio_of_bonds(s) : "");
 }
 
 status refuse_unsupported_softening(struct reader *r, const struct yaml_node *strength_node)

@@ -30,7 +30,7 @@ static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);
     char pair[80];
-    snprintf(pair, sizeof pair, "%s has been renamed to %s; write the new name", renamed[k].old, renamed[k].now);
+    snprintf(pair, sizeof pair, "%s has been renamed to %s", renamed[k].old, renamed[k].now);
     if (strstr(s->renamed, pair)) return;
     snprintf(s->renamed + used, sizeof s->renamed - used, "%s%s", used ? ", " : "", pair);
 }

@@ -166,7 +166,7 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
         if (strcmp(c->key, n->text) == 0) return OK;
         if (!nearest || edit_distance(c->key, n->text) < edit_distance(nearest->key, n->text)) nearest = c;
     }
-    return fault(r, n, "there is no %s %s; the nearest is %s", word, node_text(r, n), nearest->key);
+    return fault(r, n, "there is no %s %s; did you mean %s?", word, node_text(r, n), nearest->key);
 }
 
 /* Reads the solids of the region whose name is the value of node n into `region`. Returns REFUSED, with a message, if

@@ -31,10 +31,10 @@ static status check_steps_motion(struct reader *r, const struct yaml_node *root)
                          "solver: explicit");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE)
-            return fault(
-                r, solver,
-                "solver: static computes no waves, which probe %s measures; remove the probe, or set solver: explicit",
-                s->probe[k].name);
+            return fault(r, solver,
+                         "the solver static computes no waves, which probe %s measures; remove the probe, or set "
+                         "solver: explicit",
+                         s->probe[k].name);
     return OK;
 }
 
@@ -112,16 +112,15 @@ status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
     r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
         return fault(r, tree_find(root, "steps.then"),
-                     "steps.then: explicit is possible only with steps.control: load, because control: %s follows an "
+                     "the choice explicit is possible only with steps.control: load, because control: %s follows an "
                      "unstable crack by load steps; set steps.then: equilibrium",
                      opening ? "opening" : "energy");
     if (s->steps.path == PATH_HOOP && s->dim == 1)
-        return fault(
-            r, tree_find(root, "steps.path"),
-            "steps.path: hoop needs crack tips, which space line does not have; set steps.path: bonds or auto");
+        return fault(r, tree_find(root, "steps.path"),
+                     "the path hoop needs crack tips, which space line does not have; set steps.path: bonds or auto");
     if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return check_steps_loaded(r, root);
     return fault(r, steps,
-                 "steps.control: opening needs two positions, steps.from and steps.to, and the increase of their "
+                 "the control opening needs two positions, steps.from and steps.to, and the increase of their "
                  "distance, steps.opening; give all three");
 }
 

@@ -135,9 +135,10 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
     char *rest = line, *time = line;
     for (char *field; (field = csv_cut_field(&c->in, &rest)) != NULL; k++) {
         if (k == c->all)
-            return csv_report_fault(
-                &c->in, field, "more values than the %d columns of the header; write numbers with a point, not a comma",
-                c->all);
+            return csv_report_fault(&c->in, field,
+                                    "this line has more values than the %d columns of the header; write numbers with a "
+                                    "decimal point, not a comma",
+                                    c->all);
         if (k != c->time && k != c->value) continue;
         found++;
         if (k == c->time) {

@@ -153,7 +153,7 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
         int word = c->kind == NODE_SCALAR ? word_index_in_list(k->words, c->text) : -1;
         if (word < 0) {
             const char *near = word_near(r, k->words, c->text);
-            return fault(r, c, "%s is unknown%s%s; give %s", node_text(r, c), near ? "; the nearest is " : "",
+            return fault(r, c, "%s is unknown%s%s; give %s", node_text(r, c), near ? "; the most similar is " : "",
                          near ? near : "", words);
         }
         *bits |= 1u << word;
@@ -253,7 +253,7 @@ static status read_series(struct reader *r, const struct key *k, const struct ya
  * `nearest`. */
 static status fault_reference(struct reader *r, const struct yaml_node *n, const char *what, const char *nearest)
 {
-    return fault(r, n, "there is no %s %s; the nearest is %s", what, node_text(r, n), nearest);
+    return fault(r, n, "there is no %s %s; did you mean %s?", what, node_text(r, n), nearest);
 }
 
 /* Stores the index of the material that node n names in *index. Returns REFUSED, with the most similar name in the

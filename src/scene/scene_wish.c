@@ -131,7 +131,7 @@ status pilot_requirements_read(struct reader *r, const struct yaml_node *root, c
     const bool given = tree_find(root, "particles.spacing");
     if (tree_find(root, "steps"))
         return fault(r, tree_find(root, "method"),
-                     "method: auto cannot be combined with load steps (steps); set method: pd or adaptive");
+                     "the method auto cannot be combined with load steps (steps); set method: pd or adaptive");
     TRY(accuracy_read(r, root, requirements));
     TRY(provisional_scene(r, text, length, &requirements->provisional, given, &requirements->spacing_most));
     if (given) requirements->spacing = requirements->provisional.spacing;

@@ -175,8 +175,8 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
     for (int f = 0; f < s->table.figures && wanted_count == 0; f++)
         if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
             fprintf(stderr,
-                    "figure %s is left out, because several positions of a run have the same value and the run reports "
-                    "one of them; --of %s includes it\n",
+                    "figure %s is left out, because a run has the same value at several positions and reports only one "
+                    "of them; --of %s includes it\n",
                     s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
@@ -190,7 +190,7 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
     memory_free(*figure);
     *figure = NULL;
     return status_set(FAILED,
-                      "no figure can be extrapolated, because none has a value at every spacing: some runs failed; "
+                      "no figure can be extrapolated, because none has a value at every spacing; some runs failed: "
                       "read their messages in %s/logs",
                       s->study.folder);
 }

@@ -155,7 +155,7 @@ static const char *study_refusal(const struct scene *s, const struct convergence
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file)
-            return "the particles of a body come from a list, so the spacing cannot be refined; give the body a shape";
+            return "the particles of a body come from a list, whose spacing cannot be refined; give the body a shape";
     if (w->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon; remove --horizon";
     return NULL;
 }
@@ -265,8 +265,10 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
                           "fewer than %d spacings at and above that of the scene are possible: use fewer --levels, or "
                           "a smaller particles.spacing",
                           w->levels);
-    return status_set(REFUSED, "--budget %.3g s is too small: three runs at each spacing would take about %.3g s",
-                      s->budget, need + s->spent);
+    return status_set(
+        REFUSED,
+        "--budget %.3g s is too small: three runs at each spacing would take about %.3g s; give a larger budget",
+        s->budget, need + s->spent);
 }
 
 /* Adds all planned runs to the study s. The first runs are one run of each spacing level, so that there are results
@@ -296,7 +298,7 @@ static void plan_print(const struct convergence_study *s)
     if (s->own < 0)
         fprintf(stderr,
                 "warning: runs at the scene's own spacing, %.4g %s, would take longer than the budget, so the results "
-                "are for %.4g %s\n",
+                "are for %.4g %s; use a larger --budget\n",
                 s->scene.spacing / metre.factor, metre.name, s->spacings.at[0][0] / metre.factor, metre.name);
 }
 

@@ -209,9 +209,9 @@ status result_name_check_is_known(const struct scene *s, const char *name)
     }
     if (known && !lacks) return OK;
     if (known)
-        return status_set(REFUSED, "%.80s: runs of this scene do not have this figure, which requires %s", name, lacks);
+        return status_set(REFUSED, "%.80s: runs of this scene do not have this figure, which needs %s", name, lacks);
     const bool similar = n.distance <= (int)strlen(n.name) / 2;
-    return status_set(REFUSED,
-                      "%.80s: summary.json has no such figure; %s%s (join names by points, such as crack.angle_deg)",
-                      name, similar ? "the nearest is " : "inputs/results.md describes them", similar ? n.name : "");
+    return status_set(
+        REFUSED, "%.80s: summary.json has no such figure; %s%s%s (join names by points, such as crack.angle_deg)", name,
+        similar ? "did you mean " : "see inputs/results.md", similar ? n.name : "", similar ? "?" : "");
 }

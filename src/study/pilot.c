@@ -185,7 +185,10 @@ static status search_failed(const struct pilot_search *p)
     }
     bool any = false;
     for (int k = 0; k < p->n; k++) any |= !p->at[k].failed[0];
-    if (!any) return status_set(REFUSED, "%s: no method can run the scene (%s)", p->scene, text);
+    if (!any)
+        return status_set(
+            REFUSED, "%s: no method can run the scene (%s); change the scene, or give method and particles.spacing",
+            p->scene, text);
     char limit[64] = "at its spacing";
     if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", PILOT_LONGEST);
     return status_set(REFUSED,

@@ -190,9 +190,9 @@ status study_folder_check_is_usable_for_scene(const char *folder, const char *te
     const bool fits = !own || !*own || scene_texts_are_equal(own, text);
     memory_free(own);
     if (fits) return study_folder_check_is_usable(folder);
-    return status_set(REFUSED,
-                      "%s holds a study of another scene (%s there); choose another -o or replace it with --overwrite",
-                      printable_name(folder).text, STUDY_SCENE);
+    return status_set(
+        REFUSED, "%s contains a study of another scene (%s there); choose another -o or replace it with --overwrite",
+        printable_name(folder).text, STUDY_SCENE);
 }
 
 /* ---- cases of a study -------------------------------------------------------------------------------------------- */
@@ -255,7 +255,9 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
     double all = 1;
     for (int k = 0; k < keys; k++) all *= key[k].values;
     if (all > CASES_MOST)
-        return status_set(REFUSED, "%.0f runs: more than %d; give fewer values of a key", all, CASES_MOST);
+        return status_set(REFUSED,
+                          "the study would have %.0f runs, more than the limit of %d; give fewer values of a key", all,
+                          CASES_MOST);
     int *at = NEW("study.at", keys, int), *order = NEW("study.order", keys, int);
     const int varied = study_list_keys_in_run_names(order, key, keys);
     struct scene_override *override = NEW("study.override", keys, struct scene_override);
@@ -365,7 +367,8 @@ void study_print_equal_scene_count(const struct study *s, FILE *out)
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state == CASE_SAME) one = &s->at[k], same++;
     if (same > 0)
-        fprintf(out, "warning: %d of %d combinations are the same scene as others (%s as %s): each scene is run once\n",
+        fprintf(out,
+                "warning: %d of %d combinations are the same scene as others (%s as %s), so each scene is run once\n",
                 same, s->n, one->name, s->at[one->same].name);
 }
 

@@ -200,7 +200,9 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     close(fd);
     memory_free(pairs);
     memory_free(word);
-    if (c->process < 0) return status_set(FAILED, "cannot start a process for a run: %s", strerror(fault));
+    if (c->process < 0)
+        return status_set(FAILED, "cannot start a process for a run (%s); use fewer runs at a time (-j)",
+                          strerror(fault));
     c->state = CASE_RUNNING;
     c->slot = slot;
     r->running++;
@@ -310,7 +312,7 @@ static status cases_run(struct runner *r)
         if (r->running > 0) nanosleep(&pause, NULL);
     }
     if (s == OK && r->how.stop && *r->how.stop)
-        return status_set(INTERRUPTED, "interrupted; the same command continues");
+        return status_set(INTERRUPTED, "interrupted; the same command continues the study");
     return s;
 }
 
@@ -346,9 +348,9 @@ static status scene_put(const struct study *s, bool overwrite)
 status study_lock_folder(struct study *s, bool overwrite)
 {
     if (path_exists(path_join(s->folder, "scene.yaml").text))
-        return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
+        return status_set(REFUSED, "%s contains a run, not a study; choose another -o", s->folder);
     if (!path_is_folder(s->folder))
-        return status_set(REFUSED, "%s: contains no study; give the folder of one", s->folder);
+        return status_set(REFUSED, "%s contains no study; give the folder of one", s->folder);
     if (s->lock.fd >= 0) return OK;
     TRY(study_folder_check_is_usable(s->folder));
     TRY(folder_lock(&s->lock, s->folder));

@@ -49,7 +49,7 @@ status panels_show_named_figures(struct study_picture *picture, const char *cons
         const int f = study_index_of_result(t, figure_name[k]);
         if (f < 0)
             return status_set(REFUSED,
-                              "sweep: --of %s: there is no such figure in sweep.csv%s its first line names all",
+                              "sweep: --of %s: sweep.csv has no such figure%s its first line names all figures",
                               printable_name(figure_name[k]).text,
                               word_propose_similar(figure_name[k], (const char *const *)t->figure, t->figures).text);
         picture->figure[picture->panels++] = f;

@@ -61,7 +61,7 @@ static char *trimmed(const char *from, const char *to)
 static status value_add(struct varied_key *k, char *value)
 {
     const char *fault = !*value                         ? "a value is missing; write key=value,value,..."
-                        : k->values == VALUES_MOST      ? "more than 10000 values; give fewer"
+                        : k->values == VALUES_MOST      ? "the list has more than 10000 values; give fewer"
                         : strlen(value) > VALUE_LONGEST ? "a value has more than 1000 characters; shorten it"
                                                         : NULL;
     for (int v = 0; v < k->values && !fault; v++)
@@ -103,9 +103,9 @@ static bool row_read(struct row *r, const struct varied_key *k, const char *text
         memory_free(piece);
         if (!fits && part < 2) return false;
         if (!fits)
-            *s = status_set(
-                REFUSED, "-s %s: %s: give a range as from:to:step with a number as step; give other values as a list",
-                k->key, text);
+            *s = status_set(REFUSED,
+                            "-s %s: %s: give a range as from:to:step with a number as step, or other values as a list",
+                            k->key, text);
         if (other) *s = status_set(REFUSED, "-s %s: %s: use one unit, such as 10:30:5 mm", k->key, text);
         at = end + 1;
     }

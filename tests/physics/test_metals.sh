@@ -294,11 +294,11 @@ near "sheet: plastic strain of the block" "$(f pulled_sheet_of_block probes.poin
 
 # ---- refusals ------------------------------------------------------------------------------------------------------------------
 
-refused "coarse cells" "$work/no" 'materials that yield need mpm.levels: 0 (one time step) in this frame' "$work/beam.yaml" -s mpm.levels=2
+refused "coarse cells" "$work/no" 'materials that yield need mpm.levels: 0 (one time step) in the reference frame' "$work/beam.yaml" -s mpm.levels=2
 refused "constants of a lattice" "$work/no" 'mpm.constants: isotropic' "$work/beam.yaml" -s mpm.constants=lattice -s material.poisson=1/3
-refused "conversion" "$work/no" 'materials that yield need method: mpm in this frame' "$work/beam.yaml" -s method=adaptive \
+refused "conversion" "$work/no" 'materials that yield need method: mpm in the reference frame' "$work/beam.yaml" -s method=adaptive \
     -s "material={young: 200 GPa, density: 7850, yield_stress: 200 MPa}"
-refused "bonds" "$work/no" 'is for material points; use `method: mpm`' "$work/beam.yaml" -s method=pd -s material.poisson=1/3
+refused "bonds" "$work/no" 'is a key for material points; use `method: mpm`' "$work/beam.yaml" -s method=pd -s material.poisson=1/3
 refused "one equilibrium" "$work/no" 'material material yields; set solver: static (load steps), or explicit' "$work/beam.yaml" -s mpm.frame=current -s solver=relaxation
 refused "softening" "$work/no" 'tensile_strength: cannot be combined with johnson_cook' "$work/beam.yaml" \
     -s 'material={young: 200 GPa, density: 7850, tensile_strength: 1 GPa, energy_release_rate: 100, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0, T_melt: 900}}'

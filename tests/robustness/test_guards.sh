@@ -10,7 +10,7 @@ small="inputs/kalthoff_winkler.yaml -s particles.spacing=4mm -s output.frames=4 
 
 calm "$work/once" $small -t 1
 cp -r "$work/once" "$work/kept"
-refused "the same command again" "$work/kept" "holds a finished run of this scene; continue with --resume, replace it with --overwrite" $small
+refused "the same command again" "$work/kept" "contains a finished run of this scene; continue with --resume, replace it with --overwrite" $small
 same "left alone" "$work/once" "$work/kept"
 calm "$work/kept" $small --overwrite
 same "replaced" "$work/once" "$work/kept"
@@ -20,10 +20,10 @@ refused "a failed run" "$work/kept" "holds a failed run of this scene" $small
 rm "$work/kept/summary.json"
 refused "an interrupted run" "$work/kept" "holds an interrupted run of this scene" $small
 rm "$work/kept"/checkpoint*.h5
-refused "without its checkpoints" "$work/kept" "whose checkpoints are gone; replace it with --overwrite" $small --resume
+refused "without its checkpoints" "$work/kept" "has no checkpoint left; start again with --overwrite" $small --resume
 "$cleave" run -q -o "$work/new" $small --resume 2>"$work/err"
 is "nothing to resume: exit status" $? 0
-holds "nothing to resume: said" grep -q "^warning: nothing to resume in $work/new" "$work/err"
+holds "nothing to resume: said" grep -q "^warning: $work/new contains no checkpoint to resume from" "$work/err"
 same "nothing to resume" "$work/once" "$work/new"
 
 # ---- two runs at a time ------------------------------------------------------------------------------------------
@@ -241,7 +241,7 @@ mv "$work/swapped/frames/000002.hdf" "$work/swapped/frames/000001.hdf"
 mv "$work/frame" "$work/swapped/frames/000002.hdf"
 warned "frames that changed places" "$work/swapped" "frames/000001.hdf belongs to another time, and 1 more frames" $small -s output.frames=6 --resume
 sed -i '5s/1/2/' "$work/swapped/history.csv"
-stopped "a history that changed" "$work/swapped" "history.csv is different from what it was.*--overwrite" $small -s output.frames=6 --resume
+stopped "a history that changed" "$work/swapped" "history.csv is not the file that it was.*--overwrite" $small -s output.frames=6 --resume
 holds "no index of all frames is left of the run before" test ! -e "$work/swapped/frames.vtkhdf"
 mkfifo "$work/pipe"
 mv "$work/pipe" "$work/swapped/history.csv" 2>/dev/null
@@ -324,7 +324,7 @@ is "a folder by a link: $(cat "$work/err")" $? 0
 holds "the run is where the link leads" test -s "$work/disk/summary.json" -a -L "$work/short"
 "$cleave" run -q "$work/strip.yaml" -o "$work/short/" --overwrite -s duration=0.9us 2>"$work/err"
 is "replaced by a link: $(cat "$work/err")" $? 0
-declined "a second run by the folder's name" "strip.yaml:4:1: duration: .* holds the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
+declined "a second run by the folder's name" "strip.yaml:4:1: duration: .* contains the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
 rm -rf "$work/disk"
 cp -r "$work/papers" "$work/disk"
 declined "files of others behind a link" "holds files" run -q "$work/strip.yaml" -o "$work/short" --overwrite
@@ -356,7 +356,7 @@ declined "a style by another name" "--style: give peri (pair_style peri) or bpm 
 "$cleave" export lammps "$work/strip.yaml" -o "$work/bonds" --allow-different --style bpm >"$work/out" 2>&1
 is "an export with bonds: $(cat "$work/out")" $? 0
 holds "an untested style is said" grep -q "^bond_style bpm/peri has not been tested with a LAMMPS of that style" "$work/out"
-declined "an export that is there" "holds an export; .*--overwrite" export lammps "$work/strip.yaml" -o "$work/there" --allow-different
+declined "an export that is there" "contains an export; .*--overwrite" export lammps "$work/strip.yaml" -o "$work/there" --allow-different
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite -s duration=2us >"$work/out" 2>&1
 is "an export that is replaced" $? 0
 cksum "$work/there"/* >"$work/sums"

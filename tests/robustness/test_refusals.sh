@@ -86,7 +86,7 @@ while IFS='|' read -r line text place words; do
     "$cleave" check bad.yaml >out 2>err
     ended "check: $text" $? "$refused" ""
 done <<'END'
-1|nme: plate|1:1|nme: unknown key; the nearest is name
+1|nme: plate|1:1|nme: unknown key; did you mean name?
 1|name: ../plate|1:1|is not a name
 1|name: plate^name: plate|2:1|given twice
 1|name: &anchor plate|1:7|anchor
@@ -96,7 +96,7 @@ done <<'END'
 1|name: [[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]|1:22|deeper than 16
 1|{|3:10|not YAML
 1|"name|21:1|unexpected end of stream
-2|spaces: plane|2:1|the nearest is space
+2|spaces: plane|2:1|did you mean space?
 2|space: plane stress^temperature: 300|3:1|heat does not flow and does not expand a body; plastic work heats metals with
 2|space: plane stress^dt: 1 us|3:1|here it is `time.step`
 2|space: plane stress^periodic: x|3:1|has no periodic boundaries; nearest: planes of symmetry, boundary: {mirror
@@ -124,7 +124,7 @@ done <<'END'
 5|method: adaptive^contact: {stiffness: 1e9}|6:11|it is a factor of the stiffness of the bonds
 5|method: adaptive^time: 10 us|6:1|the simulated time is the key `duration`
 5|method: adaptive^crack: [{at: 1}]|6:1|pre-cracks are the key `cracks`
-10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|give a number of spacings, here horizon: 3
+10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|give it in spacings, here horizon: 3
 2|space: plane stress^crack: {from: [0, 0]}|3:9|from: unknown key; pre-cracks are a list of their own: cracks: [{from:
 13|  - {from: [10 mm, 5 mm], length: 5 mm}|13:27|length: unknown key; a crack is given by its ends
 16|    pressure: 1 MPa^    face: y+|17:5|pressure acts on every free face of the particles in `region`
@@ -138,12 +138,12 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, gc: 100}|6:43|here it is `energy_release_rate`
 6|material: {bulk: 190 GPa, density: 7800}|6:12|here it is `young`
 19|output: {length: 2}|19:10|`cleave help length` lists the 2 keys of that name
-20|probes: [{reaction: {boundary: bottom}}]|20:22|there is no boundary named bottom; of the 1 in the scene, pull has
+20|probes: [{reaction: {boundary: bottom}}]|20:22|there is no boundary named bottom; give the name of one of the 1 in the scene (most similar: pull)
 2|space: plane|2:1|plane stress
 2|space: solid|3:1|thickness
 2||1:1|space: missing
 3||1:1|thickness: missing
-3|thickness: 10 kg|3:1|a length is expected
+3|thickness: 10 kg|3:1|give a length
 4|duration: 1e10 s|4:1|duration: 1e+10 s needs
 11|mpm: {frame: reference, cell: 1}|11:7|mpm.frame: body body cannot be in the reference frame: the reference frame needs mpm.cell: 2
 3|thickness: 0|3:1|out of range
@@ -160,18 +160,18 @@ done <<'END'
 4|duration: [1 us]|4:1|a list is not a number
 5|method: magic|5:1|pd, mpm, adaptive or auto
 5|method: auto^accuracy: 0.7|6:1|out of range
-5|method: auto^accuracy: {of: tip, withn: 2 %}|6:21|the nearest is within
+5|method: auto^accuracy: {of: tip, withn: 2 %}|6:21|did you mean within?
 5|method: auto^solver: static^steps: {number: 3}|5:1|set method: pd or adaptive
 5|method: adaptive^accuracy: 1 %|6:1|no effect without method: auto
 5|model: lps|5:1|bond, ospd or mospd
-5|solver: cg|5:1|cg works with method pd only
+5|solver: cg|5:1|cg works with method: pd only
 5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
 6|material: {young: -1, density: 7800}|6:12|out of range
 6|material: {density: 7800}|6:1|young: missing
 6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|which have 1/3 in space plane stress; use `model: ospd` for any ratio
 6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given together with critical_stretch
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|not below Young's modulus
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|has no law; linear, voce
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|has no law; give linear, voce
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa}}}|6:76|rate: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|remove one of the two
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_hardening: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:88|remove one of the two
@@ -179,34 +179,34 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {swift: {a: 1}}}|6:76|linear
 6|material: {young: 190 GPa, density: 7800, hardening: {linear: {modulus: 1 GPa}}}|6:43|add yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {power: {coefficient: 1 GPa, exponent: 1.2}}}|6:104|out of range
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa]]}}|6:55|2 to 16 are expected
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa]]}}|6:55|give 2 to 16
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1]]}}|6:75|is not a point of a curve
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|let the first point be the yield stress
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|give the yield stress at strain 0 as the first point
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0, 2 GPa]]}}|6:75|strains in ascending order
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [1 mm, 2 GPa]]}}|6:76|a plain number is expected
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[1 GPa, 0], [2 GPa, 0.1]]}}|6:64|a plain number is expected
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the stress falls
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [1 mm, 2 GPa]]}}|6:76|give a plain number
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[1 GPa, 0], [2 GPa, 0.1]]}}|6:64|give a plain number
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the yield stress falls
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|the slope of the curve increases
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|remove one of the two
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is for material points; use `method: mpm`
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is a key for material points; use `method: mpm`
 6|material: {young: 190 GPa, density: 7800, kinematic: {modulus: 1 GPa}}|6:43|add yield_stress
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, kinematic: {recall: 3}}|6:64|modulus: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}}|6:64|remove one of the two
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 1.3, C: 0.025, T_melt: 1356}}|6:81|out of range
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 200 K}}|6:99|is not above T_room
-6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356 m}}|6:99|a temperature in kelvin is expected
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356 m}}|6:99|give a temperature in kelvin
 6|material: {young: 190 GPa, density: 7800, specific_heat: 383}|6:43|no effect without johnson_cook
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, Tm: 1356}}|6:99|Tm: unknown key; here it is `T_melt`
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, N: 0.3, C: 0.025, T_melt: 1356}}|6:81|N: unknown key; here it is `n`
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, D1: 0.1}}|6:99|does not have Johnson and Cook's failure law
-6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}, specific_heat: 0.4 kJ/m}|6:114|a specific heat is expected
-6|material: {young: 190 GPa, density: 7800, specific_heat: 383 J}|6:43|a specific heat is expected
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}, specific_heat: 0.4 kJ/m}|6:114|give a specific heat
+6|material: {young: 190 GPa, density: 7800, specific_heat: 383 J}|6:43|give a specific heat
 6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no effect without specific_heat
 6|material: steel|6:1|not a mapping
 8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
 8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not below to
 8|  - box: {from: [0, 0], to: [inf, 10 mm]}|8:30|not finite
-8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|particles, more than the limit of 2e9
+8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|m long, more than the limit of 2e9
 8|  - cylinder: {radius: 1}|8:5|cannot be used in space plane stress
 8|  - half-space: {point: [0, 0], normal: [1, 0]}|8:5|infinite
 8|  - pyramid: {radius: 1}|8:5|unknown key
@@ -221,14 +221,14 @@ done <<'END'
 11|mpm: {cell: 0}|11:7|out of range
 11|conversion: {alpha: 2}|11:14|out of range
 11|conversion: {criteria: [bond, luck]}|11:31|bond or stress
-13|  - {from: [10 mm, 5 mm], to: [10 mm, 5 mm]}|13:5|no length
+13|  - {from: [10 mm, 5 mm], to: [10 mm, 5 mm]}|13:5|the length 0
 13|  - {from: [10 mm, 5 mm]}|13:5|to
 13|  - {polygon: [[0, 0, 0]]}|13:6|cannot be used in space plane stress
 16|    velocity: [free, free]|16:5|every component is free
-16|    velocity: [free, 1 m]|16:22|a velocity is expected
+16|    velocity: [free, 1 m]|16:22|give a velocity
 16|    fixed: [z]|16:13|not an axis
 16|    traction: [1 MPa, 0]|15:5|face
-16||15:5|does nothing
+16||15:5|has no load or support
 16|    absorbing: true^    face: x-|19:5|cannot be given with absorbing
 16|    absorbing: true^    velocity: [free, 1 m/s]|17:5|given together with absorbing
 14|boundary:^  - {absorbing: false, face: x+}|15:6|can only be true
@@ -237,7 +237,7 @@ done <<'END'
 14|solver: relaxation^initial: [{displacement_gradient: [1e-3, 0, 0, 0]}]^boundary:|15:12|depends on their initial strain
 14|solver: relaxation^boundary:^  - {absorbing: true, face: x+}|16:6|has no waves
 17|    body: disk|17:5|there is no body
-18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not before until
+18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not earlier than until
 18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times in ascending order
 18|    time: whenever|18:5|not a function of time
 19|time: {step: 0}|19:8|out of range
@@ -250,8 +250,8 @@ done <<'END'
 20|probes: [crack]|20:10|does not belong here
 20|probes: [sif: {inner: 21 mm}]|20:16|is not smaller than the outer radius
 20|probes: [growth]|20:10|add the key growth
-20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no crack growth named a
-20|growth: [{at: [0, 0], direction: [1, 0], speed: 1 m/s, smoothing: 1 mm}]|20:56|without probe
+20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no growth named a
+20|growth: [{at: [0, 0], direction: [1, 0], speed: 1 m/s, smoothing: 1 mm}]|20:56|without the key probe
 20|probes: [growth: {experiment: 200}]|20:19|out of range
 20|probes: [rigid: {region: here}]|20:18|region
 20|probes: [tip, tip]|20:15|name of another probe
@@ -260,11 +260,11 @@ done <<'END'
 19|output: {times: [2 us, 1 us]}|19:24|values in ascending order
 19|output: {frames: 2, every: 1 us}|19:21|remove one of the two
 19|output: {regions: [{name: a, every: 1 us}]}|19:20|region: missing
-19|output: {regions: [{name: frames, region: {all: true}, every: 1 us}]}|19:21|the files of the whole body
+19|output: {regions: [{name: frames, region: {all: true}, every: 1 us}]}|19:21|the name of the frames of all bodies
 19|output: {regions: []}|19:10|regions
 19|output: {every: 1e-13}|19:10|at least
 19|output: {every: 0}|19:10|every
-19|output: {fields: [von_mise]}|19:19|the nearest is von_mises
+19|output: {fields: [von_mise]}|19:19|the most similar is von_mises
 19|output: {fields: heat}|19:10|none, all or a list
 20|probes: [{reaction: {boundary: push}}]|20:22|no boundary named push
 20|probes: [{line: {from: [0, 0], to: [1, 1], points: 1}}]|20:44|out of range
@@ -273,7 +273,7 @@ done <<'END'
 20|initial: {velocity: [1, 0]}|20:1|a mapping is not a list such as [{velocity: [22 m/s, 0]}]
 20|growth: {at: [1 mm, 0]}|20:1|a mapping is not a list such as [{at: [0.5 mm, 0]}]
 10|particles: 1 mm|10:1|1 mm is not a mapping such as {spacing: 0.5 mm}
-20|gravity: 9.81|20:1|is not a list; 2 components are expected in space plane stress, such as [-9.81 m/s^2, 0]
+20|gravity: 9.81|20:1|is not a list; give 2 components in space plane stress, such as [-9.81 m/s^2, 0]
 20|---^name: second|20:1|second document
 END
 
@@ -281,9 +281,9 @@ END
 sed -e 's/young/yuong/; s/radius/raduis/; s/samples/smaples/' good.yaml >bad.yaml
 "$cleave" run bad.yaml >out 2>err
 is "three unknown keys: exit status" $? 2
-is "three unknown keys" "$(cat err)" "bad.yaml:6:12: yuong: unknown key; the nearest is young
-bad.yaml:9:45: raduis: unknown key; the nearest is radius
-bad.yaml:19:21: smaples: unknown key; the nearest is samples"
+is "three unknown keys" "$(cat err)" "bad.yaml:6:12: yuong: unknown key; did you mean young?
+bad.yaml:9:45: raduis: unknown key; did you mean radius?
+bad.yaml:19:21: smaples: unknown key; did you mean samples?"
 for k in a b c d e f g h i j k l; do echo "q$k: 1"; done | cat good.yaml - >bad.yaml
 "$cleave" run bad.yaml >out 2>err
 is "twelve unknown keys: lines" "$(wc -l <err | tr -d ' ')" 11
@@ -307,7 +307,7 @@ done <<'END'
 14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [10 mm, 0], to: [12 mm, 10 mm]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|are in front of every particle
 14|boundary:^  - {absorbing: true, face: x+}^  - {absorbing: true, face: y+}^  - {absorbing: true, face: x+, region: {box: {from: [15 mm, 4 mm], to: [20 mm, 6 mm]}}}|bad.yaml:17:5: boundary[2]: boundary boundary2|boundary0 already absorbs at this face
 14|initial: [{displacement_gradient: [-2, 0, 0, 0]}]^boundary:|bad.yaml:14:11: initial[0]: |inside out
-8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|holds no particle
+8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|contains no particle
 END
 
 # ---- files that are not scenes ---------------------------------------------------------------------------------------
@@ -396,7 +396,7 @@ END
 list "a pipe" "kept/grains.csv:1:1: " "column x is missing" <<'END'
 x|y|volume
 END
-list "decimal commas" "kept/grains.csv:2:7: " "a point, not a comma" <<'END'
+list "decimal commas" "kept/grains.csv:2:7: " "a decimal point, not a comma" <<'END'
 x,y,volume
 0,5,1,5,1
 END
@@ -412,18 +412,18 @@ frobnicate|unknown command frobnicate|
 run|no scene given|usage
 run good.yaml --fast|unknown option --fast|usage
 run good.yaml -x|unknown option -x|usage
-run good.yaml good.yaml|give one scene, not two|
-run good.yaml method=pd|method=pd: |the option -s is missing before it: -s method=pd
+run good.yaml good.yaml|two scenes are given|
+run good.yaml method=pd|method=pd: |write the option -s before a key and its value: -s method=pd
 run good.yaml -o|-o needs a value|
 run good.yaml -s|-s needs a value|
 run good.yaml -s duration|-s duration|particles.spacing=0.5mm
 run good.yaml -s =3|-s =3|
-run good.yaml -s duraton=1us|-s duraton=1us|nearest is duration
-run good.yaml -s duration=fast|-s duration=fast|a time is expected
+run good.yaml -s duraton=1us|-s duraton=1us|did you mean duration?
+run good.yaml -s duration=fast|-s duration=fast|give a time
 run good.yaml -s duration=-1|-s duration=-1|out of range
 run good.yaml -s material.E=1|-s material.E=1: E|here it is `young`
 run good.yaml -s material.youn=1|-s material.youn=1|young
-run good.yaml -s material.young=1mm|-s material.young=1mm|a stress is expected
+run good.yaml -s material.young=1mm|-s material.young=1mm|give a stress
 run good.yaml -s particles.horizon=0.5|-s particles.horizon=0.5|smaller than one spacing
 run good.yaml -s method=[pd]|-s method=[pd]|
 run good.yaml -s space=line|good.yaml|
@@ -478,7 +478,7 @@ nu|material.poisson
 Young-modulus|material.young
 END
 "$cleave" run good.yaml -o kept --resume >out 2>err
-is "--resume of a finished run" "$? $(grep -c '^kept holds the finished run: no step is left' err)" "0 1"
+is "--resume of a finished run" "$? $(grep -c '^the run in kept is finished: no step is left' err)" "0 1"
 
 # The first word of each row of the table has a page whose keys there are.
 sed -n 's/^    {"\([^|"]*\).*/\1/p' "$root/src/scene/scene_foreign.c" >kept/words

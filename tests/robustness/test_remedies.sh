@@ -65,7 +65,7 @@ refused 'use `method: mpm` for any ratio' "$plate" -s material.poisson=0.2 $yiel
 remedied -s method=mpm
 refused 'use `method: mpm` for any ratio' "$plate" -s material.poisson=0.2 $cook
 remedied -s method=mpm
-refused 'use that ratio: no method allows another one together with rigid bodies and yield_stress' "$wall" -s material.poisson=0.2 $yields
+refused 'use the ratio of bonds, because no method allows another one together with rigid bodies and yield_stress' "$wall" -s material.poisson=0.2 $yields
 remedied -s material.poisson=1/3
 refused 'which have 1/3 in space plane stress; use `model: ospd` for any ratio' "$plate" -s material.poisson=0.2 $soft
 remedied -s model=ospd
@@ -93,24 +93,24 @@ other "$work/mirror.yaml"
 
 # ---- plasticity --------------------------------------------------------------------------------------------------------
 
-refused 'model ospd cannot yield; use `model: bond`' "$plate" -s model=ospd $yields
+refused 'the model ospd cannot yield; set `model: bond`' "$plate" -s model=ospd $yields
 remedied -s model=bond
 refused 'model ospd cannot yield; use no key model' "$plate" -s method=mpm -s model=ospd $cook
 remedied -s model=
-refused 'model mospd cannot yield; use `method: mpm` without the key model' "$plate" -s model=mospd -s material.poisson=0.2 $yields
+refused 'the model mospd cannot yield; set `method: mpm` without the key model' "$plate" -s model=mospd -s material.poisson=0.2 $yields
 remedied -s method=mpm -s model=
 refused "no method has all of rigid bodies and a Poisson's ratio that bonds do not have and yield_stress; remove one" "$wall" -s model=ospd \
     -s material.poisson=0.2 $yields
 remedied -s material.yield_stress=
 remedied -s material.poisson= -s model=
-refused 'is for material points; use `method: mpm`, or yield_stress with linear hardening by yield_hardening, which bonds have' "$plate" $cook
+refused 'is a key for material points; use `method: mpm`, or yield_stress with linear hardening by yield_hardening, which bonds have' "$plate" $cook
 remedied -s method=mpm
 remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
 refused '`method: mpm` without the key model, or yield_stress with linear hardening by yield_hardening, which bonds (`model: bond`) have at' \
     "$plate" -s model=ospd -s material.poisson=0.2 -s material.yield_stress=100MPa -s material.hardening.voce.saturation=1MPa -s material.hardening.voce.rate=1
 remedied -s method=mpm -s model=
 remedied -s material.hardening= -s model=bond -s material.poisson=1/3 -s material.yield_hardening=1GPa
-refused 'is for material points; use yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
+refused 'is a key for material points; use yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
 remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
 refused 'material m yields; set solver: static (load steps), or explicit' "$plate" $yields -s solver=cg
 remedied -s solver=explicit
@@ -120,7 +120,7 @@ remedied -s solver=static
 
 # ---- strength ----------------------------------------------------------------------------------------------------------
 
-refused 'needs bonds that can soften; use `method: pd` or `method: adaptive`' "$plate" $soft -s method=mpm
+refused 'needs bonds that can soften; set `method: pd` or `method: adaptive`' "$plate" $soft -s method=mpm
 remedied -s method=pd
 remedied -s method=adaptive
 refused 'set solver: explicit or static' "$plate" $soft -s solver=cg
@@ -129,7 +129,7 @@ remedied $steps
 refused 'set solver: explicit or static' "$plate" $soft -s material.compressive_strength=300MPa -s solver=cg
 remedied -s solver=explicit
 remedied $steps
-refused 'need method: pd; set method: pd' "$plate" $soft $steps -s method=adaptive
+refused 'need method: pd; set it, or remove tensile_strength' "$plate" $soft $steps -s method=adaptive
 remedied -s method=pd
 remedied -s method=pd -s model=ospd
 refused 'cannot be combined with yield_stress' "$plate" $soft $yields
@@ -138,22 +138,22 @@ remedied -s material.tensile_strength=
 
 # ---- solvers, faces, interfaces ----------------------------------------------------------------------------------------
 
-refused 'with material points use relaxation' "$plate" -s solver=cg -s method=mpm
+refused 'with material points set solver: relaxation' "$plate" -s solver=cg -s method=mpm
 remedied -s solver=relaxation
 refused 'so friction has no effect' "$plate" -s contact.friction=0.3
 remedied -s contact.friction=0
 remedied -s contact.between=all
-refused 'moments needs a regular lattice in 2D or 3D; use volume or none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1
+refused 'the correction moments needs a regular lattice in 2D or 3D; set pd.surface: volume or none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1
 remedied -s pd.surface=volume
 remedied -s pd.surface=none
-refused 'moments needs a regular lattice in 2D or 3D; use none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1 -s model=ospd
+refused 'the correction moments needs a regular lattice in 2D or 3D; set pd.surface: none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1 -s model=ospd
 remedied -s pd.surface=none
 refused 'cannot be used in space plane stress' "$plate" -s 'material.viscosity={}'
 remedied -s 'space=plane strain'
-refused 'a static equilibrium has no velocities to damp; set solver: explicit' "$plate" -s damping=1e3 -s solver=cg
+refused 'a static equilibrium has no velocities to damp; remove damping, or set solver: explicit' "$plate" -s damping=1e3 -s solver=cg
 remedied -s solver=explicit
 sed 's/^particles:/interfaces: [{bodies: [plate, wall]}]\n&/' "$work/stiff.yaml" >"$work/joined.yaml"
-refused 'by their grid (method mpm); use `method: pd` or `method: mpm`' "$work/joined.yaml" -s method=adaptive
+refused 'by their grid (method: mpm) only; set `method: pd` or `method: mpm`' "$work/joined.yaml" -s method=adaptive
 remedied -s method=pd
 remedied -s method=mpm
 refused 'space plane stress; use `method: pd` with `model: ospd` or `method: mpm` for any ratio' "$work/joined.yaml" -s method=adaptive -s materials.m.poisson=0.2

@@ -77,7 +77,7 @@ material: {young: 1 GPa, density: 1000}
 body: {disc: {centre: [0, 0], radius: 20}}
 particles: {spacing: 1}
 END
-says "filled" '^filled  *body body: its particles have 1300 m^3, 3.45 % more than its shape' "$work/disc.yaml" -s particles.spacing=5
+says "filled" '^filled  *body body: its particles fill 1300 m^3, 3.45 % more than its shape' "$work/disc.yaml" -s particles.spacing=5
 silent "filled: less than anyone acts on" '^filled' "$work/disc.yaml"
 silent "filled: boxes" '^filled' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}'
 # Loads: 20 x 10 m^2 under 3 Pa at half of a pulse, linear in x towards the end, the weight of 400 m^2; areas of faces that the spacing does
@@ -175,7 +175,7 @@ says "levels: none, too thin" 'no coarse cells: they need parts at least 24 spac
 says "levels given to a thin body" 'accuracy  *mpm.levels: 1 makes coarse cells of 4 spacings in thin parts, such as at .* (100 % of all coarse cells)' "$far" -s mpm.levels=1 \
     -s "body={box: {from: [0, 0], to: [200 mm, 2 mm]}}"
 silent "levels of what has no cells" '^levels' plate_crack -s method=pd
-costs "few particles made" '^levels  *321536 particles would fill the body, and coarse cells replace them by [0-9]* at the start; memory [6-9][0-9] MB instead of 221 MB; \(at least\|about\) .* if all of it' \
+costs "few particles made" '^levels  *321536 particles would fill the body; coarse cells reduce them to [0-9]* at the start; memory [6-9][0-9] MB instead of 221 MB; \(at least\|about\) .* if all of it' \
     kalthoff_3d_fine -s mpm.levels=1 -s particles.spacing=0.5mm -s time.step=auto -s probes=[] -s "body[0].box.to=[100 mm, 100 mm, 4 mm]" \
     -s "body[1].add.box.to=[0, 24 mm, 4 mm]" -s "boundary[0].region.box.to=[0, 24 mm, 4 mm]"
 
@@ -220,7 +220,7 @@ rollers() { sed "/name: $1/d" inputs/plate_pulse.yaml >"$work/rollers.yaml"; }
 silent "thin between mirrors" 'accuracy  *body' plate_impact_3d
 rollers high
 says "thin beside a mirror" 'accuracy  *body body: a part of 0.008 m is 2.65 horizons (8 spacings)' "$work/rollers.yaml"
-holds "a spacing is advised in the unit of the scene" grep -q 'lack neighbours beyond a face: use a spacing of [0-9.]* mm' "$work/said"
+holds "a spacing is advised in the unit of the scene" grep -q 'lack neighbours beyond a face; use a spacing of [0-9.]* mm' "$work/said"
 silent "thick beside a mirror" 'accuracy  *body' "$work/rollers.yaml" -s "body={box: {from: [0, 0], to: [1024 mm, 8 mm]}}"
 silent "narrow hole" 'accuracy  *body' plate_hole -s particles.spacing=2mm
 silent "wide hole" 'accuracy  *body' plate_hole
@@ -233,7 +233,7 @@ silent "long crack" 'accuracy  *crack' plate_crack
 notched() { sed "s/19 mm\], width/$1 mm], width/" inputs/three_point_bend.yaml >"$work/notched.yaml"; }
 silent "crack from a face" 'accuracy  *crack' three_point_bend
 notched 14
-says "short crack from a face" 'accuracy  *crack 1 is 0.014 m deep, 1.8 horizons: the face affects its tip' "$work/notched.yaml"
+says "short crack from a face" 'accuracy  *crack 1 is 0.014 m deep, 1.8 horizons, so the face affects its tip' "$work/notched.yaml"
 notched 90
 silent "crack through the body" 'accuracy  *crack' "$work/notched.yaml"
 says "narrow pulse" 'accuracy  *an initial pulse is .* spacings wide' bar_pulse -s particles.spacing=40mm
@@ -288,10 +288,10 @@ says "who knows how far" 'body body touches no other body: mpm.frame: ' plate_cr
 says "it would but for a key" 'body body touches no other body.*: mpm.frame: reference in place of current' plate_crack -s mpm.transfer=apic
 silent "it does" 'in place of current' plate_crack
 silent "bodies meet" 'in place of current' hopkinson_bar
-says "nothing breaks" 'no bond can break: .*; method: mpm is enough in place of pd' bar_step
+says "nothing breaks" 'no bond can break: .*; method: mpm is enough and faster; set it in place of pd' bar_step
 silent "bonds meet rigid bodies" 'method: mpm is enough' slope
 # 4 rho c v = 4 x 1000 kg/m^3 x 33.54 m/s x 25 m/s; the waves have crossed the plate's 20 mm four times after 2.4 ms.
-says "too slow to break" 'stress in waves is at most 3.35e+06 Pa, but bonds break at 6e+07 Pa: method: mpm is enough in place of adaptive' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60
+says "too slow to break" 'stress in waves is at most 3.35e+06 Pa, but bonds break at 6e+07 Pa: method: mpm is enough and faster; set it in place of adaptive' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60
 silent "waves pile up" 'method: mpm is enough' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60 -s duration=3ms
 silent "fast enough" 'method: mpm is enough' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=0.1
 

@@ -82,7 +82,7 @@ silent "a ramp of a rigid body" 'by its ramp' "$glass" -s body= -s "$(rigid '40 
 
 # ---- keys that do nothing ----------------------------------------------------------------------------------------------
 
-idle='keys without effect in this scene: '
+idle='keys without effect in this scene (remove them): '
 silent "no idle keys" "$idle" "$glass"
 says "keys of points" "^hints .*${idle}mpm.cell, mpm.frame (method pd has no material points)$" "$glass" -s boundary.up.traction='[0, 11 MPa]' -s mpm.cell=2 -s mpm.frame=current
 says "keys of bonds" "${idle}particles.horizon, model (method mpm has no bonds); contact.law (no particles with bonds have contact)$" "$glass" -s method=mpm -s cracks=[] \
@@ -95,7 +95,7 @@ says "keys of conversion and solvers" "${idle}conversion.alpha, pd.region (only 
 says "time steps of an equilibrium" "${idle}time.safety (the solver makes no time steps); crack.speed_window (no crack grows in time)$" "$glass" -s solver=cg -s time.safety=0.4 \
     -s crack.speed_window=1us
 silent "keys of an equilibrium" "$idle" "$glass" -s solver=cg -s solver_tolerance=1e-3 -s solver_steps=100
-says "a material of no body" 'material other: no body consists of it; remove it, or name it in a body$' "$glass" -s material= -s body= \
+says "a material of no body" 'material other: no body consists of this material; remove it, or name it in a body$' "$glass" -s material= -s body= \
     -s 'materials=[{name: glass, young: 72 GPa, density: 2440}, {name: other, young: 72 GPa, density: 2440}]' \
     -s 'bodies=[{name: a, material: glass, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}]'
 "$cleave" run "$glass" -q -o "$work/ran" -s output.frames=0 -s duration=3us >/dev/null 2>&1
@@ -159,7 +159,7 @@ pressing='^warning: boundary down: its traction of 1.2e+07 Pa on y- closes crack
 ends='^warning: crack 1 has no end inside a body' short='^warning: duration: in 2e-06 s waves travel 0.0115 m'
 turned() { echo "boundary=[{name: up, traction: [0, -12 MPa], face: y+}, {name: down, $1, face: y-}]"; }
 held() { echo "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: down, fixed: $1, face: y-, depth: 24 mm}]"; }
-says "loads that press a crack" "$pressing, .* points outwards, -1.2e+07 Pa; .* accept: \[growth\]" "$glass" -s "$(turned 'traction: [0, 12 MPa]')"
+says "loads that press a crack" "$pressing, .* give an outward traction, -1.2e+07 Pa, .* accept: \[growth\]" "$glass" -s "$(turned 'traction: [0, 12 MPa]')"
 silent "loads that press a crack and are meant" "$pressing" "$glass" -s "$(turned 'traction: [0, 12 MPa]')" -s accept=[growth]
 silent "loads that press beside shear" "$pressing" "$glass" -s "$(turned 'traction: [1 MPa, 12 MPa]')"
 silent "loads that press along a crack" "$pressing" "$glass" -s "$(turned 'traction: [0, 12 MPa]')" -s 'cracks=[{from: [20.1 mm, -5 mm], to: [20.1 mm, 5.1 mm]}]'

@@ -169,9 +169,9 @@ done
 
 # ---- refusals and stops ------------------------------------------------------------------------------------------------
 
-refused "a mass without rigid" "$work/no" "is for rigid bodies only" "$work/hit.yaml" \
+refused "a mass without rigid" "$work/no" "is a key of rigid bodies only" "$work/hit.yaml" \
     -s "bodies=[{name: a, mass: 1 kg, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}]"
-refused "a material of a rigid body" "$work/no" "cannot be given for a rigid body" "$work/hit.yaml" \
+refused "a material of a rigid body" "$work/no" "has no meaning for a rigid body" "$work/hit.yaml" \
     -s "bodies=[{name: b, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}, {name: a, rigid: true, material: material, shape: {box: {from: [20 mm, 0], to: [29 mm, 9 mm]}}}]"
 refused "only rigid bodies" "$work/no" "all bodies are rigid" "$work/hit.yaml" \
     -s "bodies=[{name: a, rigid: true, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}]"

@@ -91,7 +91,7 @@ near "by the scene's name" "$(figure results/rod 'uncertainty.energy.external_wo
 # Its folder refuses another scene, unless that scene replaces it.
 "$cleave" converge bar.yaml -o results/rod_converge -s duration=2us --runs 1 -q >out 2>err
 is "status of another scene" $? 2
-grep -q "results/rod_converge holds a study of another scene" err && pass || fail "another scene: $(cat err)"
+grep -q "results/rod_converge contains a study of another scene" err && pass || fail "another scene: $(cat err)"
 before=$(value energy.external_work value)
 "$cleave" converge bar.yaml -o results/rod_converge -s duration=2us --runs 1 -q --overwrite >out 2>err
 is "replaced" $? 0
@@ -167,7 +167,7 @@ refused "unknown key" bar.yaml -s nonsense=1 -o none
 holds "nothing is left behind" test ! -e none
 # A wrong figure is refused before anything runs; the most similar name is stated.
 refused "summary.json has no such figure" bar.yaml --of nonsense -o none
-refused "the nearest is crack.angle_deg" bar.yaml --of crack.angel_deg -o none
+refused "did you mean crack.angle_deg?" bar.yaml --of crack.angel_deg -o none
 refused "no such figure" bar.yaml --of probes.tip.x -o none
 holds "nothing has run" test ! -e none
 # The known names are those with which summaries are written.
@@ -179,6 +179,6 @@ is "names that figure_names.c lacks" "$(sort -u written | awk 'NR == FNR { text 
     text !~ "[\" ]" $0 "[\" ]" { print }' "$root/src/study/figure_names.c" -)" ""
 awk 'BEGIN { print "x,volume"; for (i = 0; i < 20; i++) printf "%.4f,1e-3\n", 0.0005 + i * 0.001 }' >points.csv
 sed 's/^body:.*/bodies: [{name: bar, particles: points.csv}]/; s/0.2 mm/1 mm/' bar.yaml >list.yaml
-refused "so the spacing cannot be refined" list.yaml -o none
+refused "whose spacing cannot be refined" list.yaml -o none
 
 finish

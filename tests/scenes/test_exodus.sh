@@ -110,8 +110,8 @@ refused "choose another -o, or replace it with --overwrite" export exodus plate.
 refused "is a run, whose scene -s cannot change" export exodus shape -o other.g -s duration=1us
 refused "are for lammps" export exodus plate.yaml -o other.g --allow-different
 mkdir study && touch study/sweep.csv study/study.yaml
-refused "study: holds a study; export one of its runs" export exodus study -o other.g
-refused "study: holds a study; export one of its runs" export lammps study -o other
+refused "study contains a study; export one of its runs" export exodus study -o other.g
+refused "study contains a study; export one of its runs" export lammps study -o other
 refused "give lammps or exodus" export cubit plate.yaml -o other.g
 refused "is not a list of columns" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, columns: x}}]'
 refused "is not a unit of length" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, unit: inch}}]'

@@ -182,7 +182,7 @@ calm "$work/one" "$work/three.yaml" -s contact.friction=0 -s "$two" -s contact.b
 calm "$work/joined" "$work/three.yaml" -s contact.friction=0 -s "$two" -s "interfaces=[{bodies: [a, b]}]"
 for run in one joined; do cut -d , -f 1-24 "$work/$run/history.csv" >"$work/$run.csv"; done     # the last is round-off
 if cmp "$work/one.csv" "$work/joined.csv"; then pass; else fail "joined bodies are not one on the grid"; fi
-refused "a toughness of the grid" "$work/no" "the grid of method: mpm does not break" "$work/three.yaml" -s "$two" \
+refused "a toughness of the grid" "$work/no" "joined by the grid of method: mpm do not separate" "$work/three.yaml" -s "$two" \
     -s "interfaces=[{bodies: [a, b], energy_release_rate: 5}]"
 says=$("$cleave" check "$work/three.yaml" -t 1 2>&1)
 case $says in *"plate, loose, block with each other, on a grid for each, friction 0.3"*) pass ;; *) fail "check: $says" ;; esac

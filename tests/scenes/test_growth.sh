@@ -171,16 +171,16 @@ refuse "$good, damping: -1 mm" "damping"
 refuse "$good, exponent: 0" "exponent"
 refuse "$good, length: 0 mm" "length"
 refuse "$good, start: -1 us" "start"
-refuse "$good, probe: none" "names the sif probe none"
+refuse "$good, probe: none" "the scene has no sif probe none"
 refuse "$good, toughness: 1 MPa m^0.5" "without probe"
 follow="at: [30 mm, 0], direction: [1, 0], speed: follow"
-refuse "$follow" "needs probe and toughness"
-refuse "$follow, probe: sif" "needs probe and toughness"
+refuse "$follow" "needs a sif probe (key probe) and toughness"
+refuse "$follow, probe: sif" "needs a sif probe (key probe) and toughness"
 refuse "$follow, toughness: 1 MPa m^0.5" "without probe"
 refuse "$follow, probe: sif, toughness: 1 MPa m^0.5, fastest: 0 m/s" "fastest"
 refuse "$good, fastest: 900 m/s" "has no effect with a given speed"
 refuse "$good, colour: red" "colour"
-refuse "$good" "method mpm has no bonds" -s method=mpm
+refuse "$good" "method: mpm has no bonds" -s method=mpm
 # Bonds that have yielded and fade behind the tip: their plastic work stays on the account. Without it 4.6 % of the energy would be missing.
 cat >"$work/yields.yaml" <<'END'
 space: plane strain

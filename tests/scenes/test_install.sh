@@ -94,9 +94,9 @@ for page in units run theory trust; do
 done
 "$cleave" rnu 2>"$work/err"
 is "a mistyped command: exit status" $? 2
-is "and its line" "$(cat "$work/err")" "unknown command rnu; the nearest is run"
+is "and its line" "$(cat "$work/err")" "unknown command rnu; did you mean run?"
 "$cleave" help thoery 2>"$work/err"
-is "a mistyped page" "$(cat "$work/err")" "thoery: neither a page nor a key; the nearest is theory"
+is "a mistyped page" "$(cat "$work/err")" "thoery: this is neither a page nor a key; did you mean theory?"
 for word in adaptive bond ospd peridynamics results resume python fragment impact branching example tutorial wave modulus stress; do
     holds "help $word answers" "$cleave" help $word >"$work/out"
 done

@@ -171,7 +171,7 @@ done
 
 # ---- refusals ----------------------------------------------------------------------------------------------------------
 
-refused "five levels" "$work/not" "levels: 5 is unknown; 0, 1, 2, 3, 4 or auto is expected" "$work/ring.yaml" -s mpm.levels=5
+refused "five levels" "$work/not" "levels: 5 is unknown; give 0, 1, 2, 3, 4 or auto" "$work/ring.yaml" -s mpm.levels=5
 refused "a step too long" "$work/not" "too large for coarse cells (mpm.levels above 0)" "$work/ring.yaml" -s time.step=0.32us
 
 finish

@@ -311,7 +311,7 @@ silent "a traction beside a face that is held" "$idle" "$plate" -s "$(loaded all
 # A layer of three of 20 rows, which shortens the plate by 2.25 mm: 20/17.75 = 1.127, its cube 1.43.
 rests() { test=$1 what=$2; shift 2; "$test" "$what" 'the layer behind its face' "$plate" -s solver=cg -s 'boundary.b={name: b, traction: [0, 1 MPa], face: y+}' "$@"; }
 rests says "a layer of a short body"
-holds "its stiffness: $(cat "$work/said")" grep -q 'boundary a: .* of 0.02 m by 0.00225 m along y: .* +13 % in tension, +43 % in bending; use depth: 1 mm' "$work/said"
+holds "its stiffness: $(cat "$work/said")" grep -q 'boundary a: .* of 0.02 m by 0.00225 m along y. .* +13 % in tension, +43 % in bending; set depth: 1 mm' "$work/said"
 rests silent "a layer of one row" -s 'boundary.a={name: a, fixed: all, face: y-, depth: 1 mm}'
 # From the corner at 20 mm to 8 m: sqrt(2) 7.98 m.
 solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }
@@ -353,6 +353,6 @@ free='boundary=[{traction: [0, 1 MPa], face: y+, time: {step: {from: 1 ms, until
 says "a load after the end" '^warning: nothing loads the body: no load, speed or displacement differs from 0 up to 1e-05 s;' "$plate" -s "$free"
 silent "a load after the end that is meant" 'nothing loads' "$plate" -s "$free" -s 'accept=[stress]'
 says "no load" '^warning: nothing loads the body' "$plate" -s boundary=[]
-says "a spacing larger than the body" 'body body: holds no particle: its shape is at most 0.02 x 0.02 m, the spacing 0.05 m' "$plate" -s particles.spacing=50mm
+says "a spacing larger than the body" 'body body: contains no particle: its shape is at most 0.02 x 0.02 m, the spacing 0.05 m' "$plate" -s particles.spacing=50mm
 
 finish

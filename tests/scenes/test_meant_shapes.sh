@@ -30,9 +30,9 @@ says "alone, and an equilibrium" "warning: $lone; remove such particles, because
 "$cleave" run "$work/lone.yaml" -q -o "$work/lone" >/dev/null 2>"$work/said"
 holds "alone: the run says it: $(cat "$work/said")" grep -qF "$lone" "$work/said"
 printf '31.5, 0.5\n31.5, 1.5\n' >>"$work/lone.csv"
-says "an island" 'pieces  *body p consists of 2 parts without bonds between them; all parts but the heaviest have 3 particles together, and the second heaviest is at (0.03117, 0.0008333) m; parts that touch pass through each other: set contact.between: all to prevent this$' \
+says "an island" 'pieces  *body p consists of 2 parts without bonds between them; all parts but the heaviest have 3 particles together, and the second heaviest is at (0.03117, 0.0008333) m; parts that touch pass through each other; set contact.between: all to prevent this$' \
     "$work/lone.yaml"
-says "an island, and an equilibrium" 'pieces .*; some parts have no support, so there is no equilibrium' "$work/lone.yaml" -s solver=cg \
+says "an island, and an equilibrium" 'pieces .*; some parts have no support, so no equilibrium exists' "$work/lone.yaml" -s solver=cg \
     -s 'boundary=[{fixed: all, face: x-, depth: 1 mm}]'
 sed -i '/^3[01]/d' "$work/lone.csv"
 silent "none alone" 'no neighbour\|^pieces' "$work/lone.yaml"
@@ -115,9 +115,9 @@ whole=$(strain whole -s bodies= -s "$box")
 near "a lattice as a list" "$(strain list)" "$whole" 1e-9
 near "a lattice as a list in decimals" "$(strain decimals -s bodies.p.particles="$work/decimals.csv" -s "$third")" "$whole" 1e-6
 says "a lattice as a list" '^accuracy  *body p: a part of 0.005 m is 1.66 horizons' "$bar"
-says "a list that is none" '^accuracy  *body p: parts of it (from a particle list) are only 5 layers of particles thick: with pd.surface: volume .* 39 % in bending and tension, 50 % in twisting; with pd.surface: moments by about 3 % in bending and tension, 15 %' "$bar" \
+says "a list that is none" '^accuracy  *body p: parts of it (from a particle list) are only 5 layers of particles thick, so with pd.surface: volume .* 39 % in bending and tension, 50 % in twisting; with pd.surface: moments by about 3 % in bending and tension, 15 %' "$bar" \
     -s bodies.p.particles="$work/shaken.csv"
-weights='its list is not a lattice along the axes, for which pd.weights: isotropic is made'
+weights='its list is not a lattice along the axes, as pd.weights: isotropic assumes'
 says "weights of a list that is no lattice" "^accuracy  *body p: $weights" "$bar" -s bodies.p.particles="$work/shaken.csv"
 silent "weights of a lattice" "$weights" "$bar"
 silent "equal weights" "$weights" "$bar" -s bodies.p.particles="$work/shaken.csv" -s pd.weights=uniform

@@ -6,7 +6,7 @@ test_name=test_mirror_points
 . tests/support/scenes.sh
 seed=3
 
-# A plane of symmetry that a block on the grid meets after a flight of 1 mm acts 1.6 spacings before they touch: with the plane moved back by
+# A plane of symmetry that a block on the grid meets after a flight of 1 mm acts 1.6 spacings too early: with the plane moved back by
 # this length, as `cleave check` says, the momentum changes its sign when it should, 1 mm at 50 m/s after that of a block that starts at the
 # plane, within 0.1 spacings (0.5 us); without it 1.4 spacings early at least.
 cat >"$work/wall.yaml" <<'END'
@@ -31,8 +31,8 @@ calm "$work/back" "$work/wall.yaml" -s boundary.wall.mirror.at=-0.4mm
 calm "$work/early" "$work/wall.yaml"
 between "wall: moved back" "$(compute "$(turns back) - ($(turns at_once))")" 19.5 20.5
 between "wall: acts early" "$(compute "$(turns early) - ($(turns at_once))")" 11 13
-is "wall: its distance" "$("$cleave" check --no-trial "$work/wall.yaml" | grep -c 'about 0.0004 m (1.6 spacings) before they touch')" 1
-is "wall: a block that lies there is not warned of" "$("$cleave" check --no-trial "$work/wall.yaml" -s mpm.frame=current -s boundary.wall.mirror.at=1mm | grep -c 'before they touch')" 0
+is "wall: its distance" "$("$cleave" check --no-trial "$work/wall.yaml" | grep -c 'about 0.0004 m (1.6 spacings) too early')" 1
+is "wall: a block that lies there is not warned of" "$("$cleave" check --no-trial "$work/wall.yaml" -s mpm.frame=current -s boundary.wall.mirror.at=1mm | grep -c 'too early')" 0
 
 # A ball below a cylinder has no void beside a plane of symmetry: the gap is between them and the plane, and the reference frame, which is
 # refused, is no remedy.

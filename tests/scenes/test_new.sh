@@ -36,12 +36,12 @@ refused()
     is "$what" "$(cat "$work/.message")" "$message"
     is "$what: files" "$(ls | wc -l)" "$files"
 }
-refused "a scene that is there" "bar.yaml exists and is not replaced; choose another name" bar
+refused "a scene that is there" "the file bar.yaml exists and is not replaced; choose another name" bar
 touch c.stl
-refused "a part that is there" "c.stl exists and is not replaced; choose another name" c stl
-refused "an unknown kind" "there is no kind impct; the nearest is impact, and cleave new lists all" b impct
-refused "a name with a blank" "b c: is not a name of a scene; use letters, digits, _ and -" "b c"
-refused "a name that is none" ".yaml: is not a name of a scene; use letters, digits, _ and -" .yaml
+refused "a part that is there" "the file c.stl exists and is not replaced; choose another name" c stl
+refused "an unknown kind" "there is no kind impct; did you mean impact? \`cleave new\` lists all kinds" b impct
+refused "a name with a blank" "b c is not a valid name of a scene; use letters, digits, _ and -" "b c"
+refused "a name that is none" ".yaml is not a valid name of a scene; use letters, digits, _ and -" .yaml
 refused "a folder that is not there" "no/b.yaml: No such file or directory; choose a folder that can be written" no/b
 refused "three words" "usage: cleave new NAME [KIND]" a bar b
 finish

@@ -103,8 +103,8 @@ drawn "a rectangle with one unit for both ends" "set xrange \[4:12\]"
 drawn "of the other end" "set yrange \[2:8\]"
 "$cleave" plot results/strip --field stress_yy --times last --range -1:3MPa $small -o unit.png >out 2>err
 holds "one unit for both ends" grep -q "colours from -1e+06 to 3e+06 Pa" out
-refused "fragment has a colour for each value and no scale" results/strip --field fragment --colours magma
-refused "range.* fragment has a colour for each value" results/strip --field fragment --range 0:2
+refused "fragment has one colour for each value and no scale" results/strip --field fragment --colours magma
+refused "range.* fragment has one colour for each value" results/strip --field fragment --range 0:2
 refused "a picture has space for 192" results/strip --title "$(printf '%0200d' 0)"
 "$cleave" plot results/strip --field speed --times last --title "a title of $(printf '%0150d' 0)" --size 60mm -o long.png >out 2>err
 drawn "what has no space of a title" "0[.][.][.]' at screen"
@@ -154,13 +154,13 @@ is "a film without ffmpeg: exit status" $? 2
 holds "a film without ffmpeg: one line names it" grep -q "the package ffmpeg" err
 
 refused "von_mises" results/strip --field van_mises
-refused "it has several components; draw one of strain_xx, strain_yy" results/strip --field strain
+refused "this field has several components; draw one of strain_xx, strain_yy" results/strip --field strain
 refused "there are damage, kind, material" results/strip --field nonsense
 "$cleave" plot results/strip --field principal_stress $small >out 2>err
-holds "principal_stress: which one is drawn" grep -q "principal_stress is the largest one; draw the others as principal_stress_2" err
+holds "principal_stress: which one is drawn" grep -q "principal_stress is the largest of the three; draw the others by --field principal_stress_2" err
 refused "a run with space: solid" results/strip --slice z=1mm
 refused "did you mean --field" results/strip --feild speed
-refused "a time is expected" results/strip --times 5kg
+refused "give a time" results/strip --times 5kg
 refused "the body would be a point in this rectangle" results/strip --crop 0:6,0:6
 "$cleave" plot results/strip --field damage --range 0.1:0.2 --times 0,last $small -o beyond.png >out 2>err
 holds "a list of times may end with last: $(cat err)" grep -q "damage of 2 frames.*some values beyond" out
@@ -337,7 +337,7 @@ END
     for study in "sweep strip.yaml -s particles.spacing=1mm,2mm" "converge strip.yaml"; do
         "$cleave" $study --format mp4 -o none >out 2>err
         is "$study --format mp4: exit status" $? 2
-        is "$study --format mp4" "$(cat err)" "--format mp4: png, svg or pdf is expected"
+        is "$study --format mp4" "$(cat err)" "--format mp4: give png, svg or pdf"
     done
     # In a column of a journal the panel takes most of the width: colour bar or names are below it, and the height is what they need.
     "$cleave" run block.yaml -q -o halves -s duration=0.1us -s output.frames=1 -s body= -s 'bodies=[{name: lower, shape: {box: {from: [0, 0, 0], to: [12 mm, 8 mm, 3 mm]}}},

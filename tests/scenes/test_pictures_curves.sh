@@ -41,7 +41,7 @@ for title in "crack: start time .[µnm]s." "energy: kinetic .[mµn]J."; do holds
 is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.strat_time -o varied >out 2>err
 is "sweep --of an unknown figure: exit status" $? 2
-holds "it names the nearest" grep -q "no such figure in sweep.csv; did you mean crack\." err
+holds "it names the nearest" grep -q "sweep.csv has no such figure; did you mean crack\." err
 
 # Numbers of a key without a unit are in SI, which the axis says, and so does the page.
 : >all

@@ -160,7 +160,7 @@ refused "no method that is accurate to 0.1 % at its spacing" plate.yaml -s parti
 refused "nothing moves or loads the bodies" plate.yaml -s boundary=[]
 refused "no time is left for it" collide.yaml -s accuracy.budget=1ms
 refused "accuracy_table: is no longer a key; remove it (.method: auto. always chooses by pilot runs)" plate.yaml -s accuracy_table=mine.csv
-refused "auto cannot use load steps" plate.yaml -s steps.number=3
+refused "auto cannot be combined with load steps" plate.yaml -s steps.number=3
 refused "accuracy: 0 is out of range" plate.yaml -s accuracy=0
 refused "is not a figure of summary.json" plate.yaml -s "accuracy={of: [1]}"
 refused "no method of the pilot runs can be combined with the model, solver and pd.region" plate.yaml -s "pd.region={box: {from: [0, 0], to: [1mm, 1mm]}}"
@@ -172,7 +172,7 @@ for command in "converge" "sweep -s time.safety=0.5,0.8" "export lammps"; do
     "$cleave" ${command%% -s*} collide.yaml $(echo "$command" | grep -o -- '-s.*') -o none >out 2>err
     is "$command" $? 2
     is "$command: lines" "$(wc -l <err)" 1
-    holds "$command: $(cat err)" grep -q "collide.yaml:3:1: method: auto is for .cleave run. only, which chooses by pilot runs; give a method" err
+    holds "$command: $(cat err)" grep -q "collide.yaml:3:1: method: the method auto works in .cleave run. only, which makes pilot runs; give a method" err
     holds "$command: left behind" test ! -e none
 done
 finish

@@ -313,9 +313,9 @@ def faulty(entries, key, line, words, **more):
     sys.exit("test_python: not refused: " + words)
 
 
-fault = faulty({**plate, "duratoin": 1}, "duratoin", 41, "the nearest is duration")
-both = faulty({**plate, "duratoin": 1, "thikness": 1}, "duratoin", 41, "the nearest is duration")
-holds("a second unknown key", "thikness: unknown key; the nearest is thickness" in str(both))
+fault = faulty({**plate, "duratoin": 1}, "duratoin", 41, "did you mean duration?")
+both = faulty({**plate, "duratoin": 1, "thikness": 1}, "duratoin", 41, "did you mean duration?")
+holds("a second unknown key", "thikness: unknown key; did you mean thickness?" in str(both))
 holds("its line", fault.source == "duratoin: 1" and fault.column == 1)
 faulty({**plate, "boundary": [plate["boundary"][0], {"traction": [0, "1 kg"], "face": "y-"}]}, "boundary.1.traction", 21, "1 kg is a mass")
 faulty(plate, "thickness", 1, "thickness: missing", changes={"thickness": None})

@@ -71,7 +71,7 @@ bad "a modulus" "modulus: missing" 'material.scatter={length: 1 mm}'
 bad "a variation with weibull" "belongs to another distribution" 'material.scatter={modulus: 8, variation: 0.1}'
 bad "lognormal" "variation: missing" 'material.scatter={distribution: lognormal}'
 bad "below 1" "1 to 1000" material.scatter.modulus=0.5
-bad "nothing that breaks" "bonds of the material never break" material.critical_stretch=inf
+bad "nothing that breaks" "bonds of this material never break" material.critical_stretch=inf
 bad "a length of time" "length" 'material.scatter.length=2 us'
 refused "yield" "$work/no" "where it yields" "$work/ring.yaml" -s method=adaptive -s material.yield_stress=100MPa
 # Material points do not break, and their yield stress does not scatter: with the position of the key.

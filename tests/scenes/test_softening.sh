@@ -86,13 +86,13 @@ bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/st
 bad "a large horizon" "particles.spacing below 0.00020" -s particles.spacing=0.3mm
 bad "a large strength" "above a tenth of Young's modulus" -s materials.0.tensile_strength=8GPa
 bad "no energy" "energy that a bond dissipates; add" -s materials.0.energy_release_rate=
-bad "softening alone" "tensile_strength, whose decrease it" -s materials.1.softening=bilinear
-bad "two laws" "another law than material glass" -s 'materials.1.energy_release_rate=10' -s materials.1.tensile_strength=40MPa -s materials.1.softening=bilinear
-bad "static" "has no effect in a single equilibrium, in which no bond breaks" -s solver=cg
+bad "softening alone" "tensile_strength, because it describes how" -s materials.1.softening=bilinear
+bad "two laws" "another value of softening than material glass" -s 'materials.1.energy_release_rate=10' -s materials.1.tensile_strength=40MPa -s materials.1.softening=bilinear
+bad "static" "has no effect with this solver, whose single equilibrium breaks no bonds" -s solver=cg
 bad "mpm" "needs bonds that can soften" -s method=mpm
 bad "yield" "cannot be combined with yield_stress" -s materials.0.yield_stress=30MPa
 bad "yield of another" "bonds of material glass soften and those of grip yield" -s materials.1.yield_stress=500MPa
-bad "scatter of energy" "set strength (the energy does not scatter)" -s 'materials.0.scatter={of: energy_release_rate, modulus: 8}'
+bad "scatter of energy" "set scatter.of: strength (the energy does not vary)" -s 'materials.0.scatter={of: energy_release_rate, modulus: 8}'
 "$cleave" export lammps "$work/strip.yaml" -o "$work/lammps" >"$work/said" 2>&1
 is "export: status" $? 2
 holds "export" grep -q "bonds that soften; remove it (bonds are then brittle" "$work/said"

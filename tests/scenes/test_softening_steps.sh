@@ -127,7 +127,7 @@ holds "check: pre-crack" grep -q 'pre-cracks  *the smallest is 0.001 m long, 3.3
 bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/notch.yaml" "$@"; }
 bad "opening" "control: energy or load" -s 'steps={control: opening, from: [0, 0], to: [0, 1mm], opening: 1um}'
 bad "hoop" "control: energy or load" -s steps.path=hoop
-bad "adaptive" "need method: pd; set method: pd" -s method=adaptive
+bad "adaptive" "need method: pd; set it, or remove tensile_strength" -s method=adaptive
 bad "contact" "load steps have no contact if bonds soften" -s contact.between=all
 bad "a brittle material beside" "material grip breaks without softening while another softens; with load steps" -s materials.1.energy_release_rate=10
 finish

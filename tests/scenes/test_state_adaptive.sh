@@ -10,7 +10,7 @@ test_name=test_state_adaptive
 sed 's/energy_release_rate/yield_stress: 1 GPa, energy_release_rate/' inputs/kalthoff_winkler.yaml >"$work/yields.yaml"
 "$cleave" check "$work/yields.yaml" -s model=ospd >"$work/out" 2>"$work/err"
 is "a state-based material that yields: exit status" $? 2
-holds "a state-based material that yields: the message" grep -q ':19:.*model ospd cannot yield; use `model: bond`' "$work/err"
+holds "a state-based material that yields: the message" grep -q ':19:.*the model ospd cannot yield; set `model: bond`' "$work/err"
 
 # ---- reproducibility -----------------------------------------------------------------------------------------------
 

@@ -210,8 +210,8 @@ other "hydrostatic strength" "more than 1.333e+07 Pa, a third" -s materials.0.hy
 other "a small biaxial strength" "more than 2e+07 Pa (half of tensile_strength) and at most 4e+07" -s materials.0.biaxial_strength=20MPa
 other "a large biaxial strength" "more than 2e+07 Pa (half of tensile_strength) and at most 4e+07" -s materials.0.biaxial_strength=41MPa
 other "radius alone" "belongs to a strength surface; add" -s materials.0.strength_radius=1mm
-bad "no tensile strength" "tensile_strength too; give both" -s materials.0.tensile_strength=
+bad "no tensile strength" "tensile_strength too; add tensile_strength" -s materials.0.tensile_strength=
 bad "ospd" "a strength surface (a strength that depends on the stress state) needs model: bond" -s model=ospd
-bad "an equilibrium" "has no effect in a single equilibrium, in which no bond breaks" -s solver=cg
-refused "line" "$work/no" "which a line does not have" inputs/hopkinson_bar.yaml -s 'material.tensile_strength=100' -s 'material.compressive_strength=900'
+bad "an equilibrium" "has no effect with this solver, whose single equilibrium breaks no bonds" -s solver=cg
+refused "line" "$work/no" "which space line does not have" inputs/hopkinson_bar.yaml -s 'material.tensile_strength=100' -s 'material.compressive_strength=900'
 finish

@@ -98,8 +98,8 @@ refused()
     is "status of $*" $? 2
     grep -qF "$wanted" err && pass || fail "$*: $(cat err)"
 }
-for how in "" --list --collect; do refused "two holds a study of another scene" other.yaml -s particles.spacing=1mm,2mm -o two $how; done
-refused "holds a study of another scene" bar.yaml -s method=mpm -s particles.spacing=1mm,2mm -o two
+for how in "" --list --collect; do refused "two contains a study of another scene" other.yaml -s particles.spacing=1mm,2mm -o two $how; done
+refused "contains a study of another scene" bar.yaml -s method=mpm -s particles.spacing=1mm,2mm -o two
 holds "its table stays" cmp -s two/sweep.csv before.csv
 "$cleave" sweep other.yaml -s particles.spacing=1mm,2mm -o units --overwrite -q >out 2>err
 is "replaced" "$? $(wc -l <units/sweep.csv | tr -d ' ')" "0 3"
@@ -178,7 +178,7 @@ refused "unknown key" bar.yaml -s particles.spacin=1mm,2mm -o none
 refused "particles.spacing" bar.yaml -s particles.spacing=1mm,-1mm -o none
 refused "one of the two" bar.yaml -s method=pd,mpm --list --collect -o none
 refused "contains no study" bar.yaml -s method=pd,mpm --collect -o none
-refused "holds a run, not a study" bar.yaml -s method=pd,mpm -o two/spacing=1mm,traction=5MPa,0
+refused "contains a run, not a study" bar.yaml -s method=pd,mpm -o two/spacing=1mm,traction=5MPa,0
 refused "more than 100000" bar.yaml -s time.safety=0.1:0.9:0.0001 -s particles.seed=1:100:1 -o none
 holds "nothing is left behind" test ! -e none
 

@@ -90,7 +90,7 @@ class Frame:
         try:
             file = h5py.File(self.path, "r")
         except FileNotFoundError:
-            raise Error("%s: there is no such file" % self.path) from None
+            raise Error("%s: there is no such file; check the name and the folder" % self.path) from None
         except OSError as fault:
             raise Error("%s cannot be read: %s" % (self.path, str(fault).split(" (", 1)[0])) from None
         lost = _particles_fault(file, self.path)

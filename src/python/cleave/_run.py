@@ -111,7 +111,7 @@ class Run:
             if self._read.get(name, (None,))[0] != sign:
                 self._read[name] = (sign, read(path))
         except FileNotFoundError:
-            raise Error("%s: there is no such file" % path) from None
+            raise Error("%s: there is no such file; check the name and the folder" % path) from None
         return self._read[name][1]
 
     # ---- tables and figures ---------------------------------------------------------------------------------------

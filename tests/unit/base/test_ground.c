@@ -105,11 +105,11 @@ static void out_of_memory_says_so(void **state)
     int64_t few = 10, count[] = {-1, INT64_MAX, INT64_MAX / 8 + 1, (int64_t)1 << 60};
     for (size_t c = 0; c < COUNT_OF(count); c++) {
         assert_int_equal(exit_of(allocate, &count[c], line), FAILED);
-        assert_non_null(strstr(line, "out of memory: bonds.w"));
+        assert_non_null(strstr(line, "out of memory: the array bonds.w"));
         assert_ptr_equal(strchr(line, '\n'), line + strlen(line) - 1); /* one line */
         if (count[c] < 0) continue;
         char wanted[80];
-        snprintf(wanted, sizeof wanted, "out of memory: bonds.w needs %lld entries of 8 bytes", (long long)count[c]);
+        snprintf(wanted, sizeof wanted, "out of memory: the array bonds.w needs %lld entries of 8 bytes", (long long)count[c]);
         assert_int_equal(exit_of(grow, &count[c], line), FAILED);
         assert_non_null(strstr(line, wanted));
     }

@@ -168,7 +168,7 @@ static void run_by_netcdf(void **state)
     NC(nc_close(file));
     unlink("a.exo");
     assert_refused(export_exodus(&(struct export_request){.scene = "out", .folder = "a.exo", .overrides = 1}),
-                   "out: is a run, whose scene -s cannot change");
+                   "out is a run, whose scene -s cannot change");
     remove_run();
 }
 
@@ -179,10 +179,10 @@ static void files_are_kept(void **state)
     FILE *to = fopen("a.e", "w");
     fputs("mine\n", to);
     fclose(to);
-    assert_refused(export_to("a.e", true), "a.e: exists and is not an export of Cleave");
+    assert_refused(export_to("a.e", true), "a.e exists and is not an export of Cleave");
     unlink("a.e");
     assert_ok(export_to("a.e", false));
-    assert_refused(export_to("a.e", false), "a.e: exists; choose another -o, or replace it with --overwrite");
+    assert_refused(export_to("a.e", false), "a.e exists; choose another -o, or replace it with --overwrite");
     assert_ok(export_to("a.e", true));
     unlink("a.e");
     assert_refused(export_to("a.vtk", false), "a.vtk: give a name that ends in .exo, .e or .g");

@@ -173,7 +173,7 @@ static void what_lammps_cannot(void **state)
     (void)state;
     refused("", "", false,
             "-s pd.volume=cut-ramp -s pd.surface=none -s pd.weights=uniform -s pd.last_force=whole "
-            "-s contact.law=pair -s contact.distance=lammps; set these keys in the scene, or pass --allow-different");
+            "-s contact.law=pair -s contact.distance=lammps; set these keys in the scene, or add --allow-different");
     refused(scene_equal, "", true, "-s contact.between=none");
     refused(scene_equal, "boundary: [{mirror: {axis: x, at: -6 mm}}]\n", false, "no planes of symmetry");
     refused(scene_equal, "boundary: [{absorbing: true, face: x+}]\n", false, "absorbing faces cannot be exported");

@@ -267,7 +267,7 @@ static void refused_curves(void **state)
     fputs("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3, 4\n", file);
     fclose(file);
     assert_refused(geometry_read(&g, "r.inp", 2, 1, NAN),
-                   "r.inp:7: an element of a type with 3 nodes lists more, such as 4");
+                   "r.inp:7: an element has more nodes than the 3 of its type, such as 4");
     remove("r.inp");
 }
 

@@ -303,12 +303,13 @@ static void bad_files(void **state)
     write_bytes("bad.e", "solid cube\n", 11);
     refused("bad.e: does not begin like a netCDF file; give a file in the format Exodus II");
     write_bytes("bad.e", "CDF\1\0\0\0\0\0\0\0\12", 12);
-    refused("bad.e: the header of this netCDF file ends early or is damaged near byte 12");
+    refused("bad.e: the header of this netCDF file is cut off or damaged near byte 12; write the file again");
     int file;
     NC(nc_create("bad.e", NC_CLOBBER, &file));
     exodus_dim(file, "x", 0, 3);
     NC(nc_close(file));
-    refused("bad.e: a netCDF file with num_dim = 0 and num_nodes = 0; give a mesh in the format Exodus II");
+    refused("bad.e: this netCDF file has num_dim = 0 and num_nodes = 0, so it is not a mesh; give one in the format "
+            "Exodus II");
 
     file = begin_bad(0, 0);
     exodus_put_block(file, 1, "QUAD4", 1, 4, (int[]){1, 2, 3, 5});
@@ -331,17 +332,17 @@ static void bad_files(void **state)
     exodus_put_block(file, 1, "QUAD4", 1, 4, square);
     exodus_put_sides(file, 1, 1, (int[]){1}, (int[]){5});
     NC(nc_close(file));
-    refused("set surface_1 has side 5 of an element, but the element has 4 sides");
+    refused("set surface_1 has side 5 of an element that has only 4 sides; correct the set");
     file = begin_bad(1, 0);
     exodus_put_block(file, 1, "QUAD4", 1, 4, square);
     exodus_put_sides(file, 1, 1, (int[]){2}, (int[]){1});
     NC(nc_close(file));
-    refused("set surface_1 has element 2; a number from 1 to 1 is expected");
+    refused("set surface_1 has element 2; give a number from 1 to 1");
     file = begin_bad(0, 1);
     exodus_put_block(file, 1, "QUAD4", 1, 4, square);
     exodus_put_nodes(file, 1, 1, (int[]){0});
     NC(nc_close(file));
-    refused("set nodelist_1 has node 0; a number from 1 to 4 is expected");
+    refused("set nodelist_1 has node 0; give a number from 1 to 4");
     unlink("bad.e");
 }
 

@@ -278,7 +278,7 @@ static void bad_gmsh(void **state)
     (void)state;
     static const struct {
         const char *from, *to, *message;
-    } bad[] = {{"2.2 0", "4.0 0", ":2: Gmsh's file format 4.0 is not supported; save it as 4.1"},
+    } bad[] = {{"2.2 0", "4.0 0", ":2: Gmsh's file format 4.0 is not supported; save the mesh as 4.1"},
                {"$MeshFormat", "Meshformat", "does not begin with $MeshFormat"},
                {"$Nodes\n12", "$Nodes\n12000000000", "12000000000 nodes, more than the rest of the file"},
                {"$Nodes\n12", "$Nodes\n-1", "the header gives -1 nodes, more"},
@@ -287,7 +287,7 @@ static void bad_gmsh(void **state)
                {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, but $Nodes does not define it"},
                {"4 6 2 2 2", "4 77 2 2 2", "type 77"},
                {"$Nodes", "$Knots", "ends without $Nodes"},
-               {"\"grip\"", "grip", "a name in quotes"},
+               {"\"grip\"", "grip", "is not in quotes"},
                {"3 6 2 2 2 2 3 6 102 103 106\n4 6 2 2 2 2 6 5 102 106 105", "", "$EndElements is no"}};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
         write_changed("bad.msh", msh2, bad[k].from, bad[k].to);
@@ -418,20 +418,20 @@ static void bad_abaqus(void **state)
     (void)state;
     static const struct {
         const char *from, *to, *message;
-    } bad[] = {{"2, 1., 0.", "2, 1.x, 0.", ":6: 1.x is not a number"},
+    } bad[] = {{"2, 1., 0.", "2, 1.x, 0.", ":6: 1.x is not a number; correct this entry"},
                {"2, 1., 0.", "-2, 1., 0.", ":6: -2 is not the number of a node"},
                {"2, 1., 0.", "1, 1., 0.", "node 1 is given twice"},
                {"10, 1, 2, 5, 4", "10, 1, 2, 5, 44", "element 10 has node 44"},
-               {" 3, 6, 5\n", "", "an element of a type with 4 nodes lists only 1"},
+               {" 3, 6, 5\n", "", "an element should have the 4 nodes of its type, but lists only 1"},
                {"CPS4R", "B31", "no elements that can fill a body, but others such as T3D2"},
                {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; write a deck that lists all nodes"},
                {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", ":15: *NSET: x: "},
                {"*node, nset=all", "*node, input=d.inp", "d.inp:1: a keyword is among the data lines of *NODE"},
                {"*node, nset=all", "*Include, input=nodes.inc", ":4: *INCLUDE: nodes.inc: "},
-               {"*node, nset=all", "*Include, input=bad.inp", "files include each other"},
+               {"*node, nset=all", "*Include, input=bad.inp", "files are nested by *INCLUDE"},
                {"CPS4R", "CPS4Q", "element type CPS4Q is unknown"},
                {"*NSET, NSET=left", "*NSET", "a set has no name"},
-               {"*node, nset=all", "*node, system=C", ":4: coordinates in the system C"},
+               {"*node, nset=all", "*node, system=C", ":4: coordinates of the system C"},
                {"11, 11, 1\n", "1, 999999999, 1\n", "sets list more nodes or elements than the file has"}};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
         write_changed("bad.inp", flat, bad[k].from, bad[k].to);

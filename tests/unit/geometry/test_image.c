@@ -289,12 +289,12 @@ static void bad_images(void **state)
     static unsigned char bytes[MOST];
     write_png("a.png", PNG_COLOR_TYPE_GRAY, 8);
     const size_t n = read_bytes("a.png", bytes);
-    refused(bytes, n / 2, "bad.png: not a complete PNG: ");
-    refused(bytes, 20, "not a complete PNG: it is cut off");
+    refused(bytes, n / 2, "bad.png: the PNG file is incomplete or damaged (");
+    refused(bytes, 20, "incomplete or damaged (it is cut off)");
     refused((const unsigned char *)"GIF89a", 6, "neither PNG nor TIFF");
     refused((const unsigned char *)"II*\0abcd", 8, "not a TIFF file");
     bytes[20] ^= 1;
-    refused(bytes, n, "not a complete PNG: ");
+    refused(bytes, n, "incomplete or damaged (");
 }
 
 /* Compares the distances of voxel centres from the nearest voxel of the other kind with tests of all pairs, and checks

@@ -48,7 +48,7 @@ static void what_is_there(void **state)
     assert_true(f.x[0][0] == 1.25 && f.x[1][2] == 33 && f.x[2][0] == -1 && f.v[1][1] == 9 && f.damage[1] == 1);
     lammps_frame_free(&f);
     assert_int_equal(lammps_frame_read(&f, name, 100), FAILED);
-    assert_string_equal(status_message(), "plate.dump has no step 100");
+    assert_string_equal(status_message(), "plate.dump has no step 100; repeat the LAMMPS run up to this step");
 }
 
 static void being_written(void **state)
@@ -81,13 +81,15 @@ static void what_is_wrong(void **state)
 {
     (void)state;
     refused("ATOMS\n3", "ATOMS\n300000000",
-            "plate.dump:4: is not a possible number of particles: the file is too short for it, or damaged");
+            "plate.dump:4: is not a possible number of particles: the file is too short for it, or damaged; repeat the "
+            "LAMMPS run");
     refused("ATOMS\n3", "ATOMS\nmany", "plate.dump:4: is not a possible number of particles");
-    refused("id x y", "id y", "plate.dump:9: the columns id, x, y and z are missing");
+    refused("id x y", "id y", "plate.dump:9: the columns id, x, y and z are missing; add them to the dump command");
     refused("\n2 1.5", "\n1 1.5", "plate.dump:11: an id occurs twice");
-    refused("\n2 1.5", "\n4 1.5", "plate.dump:11: ids from 1 to the number of particles are expected");
-    refused("1.5 2 0", "nan 2 0", "plate.dump:11: the numbers of a particle are missing");
-    refused("ITEM: TIMESTEP", "<html>", "plate.dump:1: ITEM: TIMESTEP is missing; a text dump of LAMMPS is expected");
+    refused("\n2 1.5", "\n4 1.5",
+            "plate.dump:11: ids must be from 1 to the number of particles; repeat the LAMMPS run");
+    refused("1.5 2 0", "nan 2 0", "plate.dump:11: the numbers of a particle are missing; repeat the LAMMPS run");
+    refused("ITEM: TIMESTEP", "<html>", "plate.dump:1: ITEM: TIMESTEP is missing; give a text dump of LAMMPS");
 }
 
 static void damaged(void **state)

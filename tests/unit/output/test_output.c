@@ -287,7 +287,7 @@ static void folders_of_others_are_refused(void **state)
     open_fresh(&o, "folder/deep/run", false);
     output_close(&o);
     assert_int_equal(output_open(&o, "folder/deep/run", "name: \"other\"\n", OUTPUT_FIRST, false), REFUSED);
-    assert_message("name: folder/deep/run holds the run of another scene, with `");
+    assert_message("name: folder/deep/run contains the run of another scene, with `");
     assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml/x", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_int_equal(output_open(&o, "folder/deep", scene_text, OUTPUT_FIRST, false), REFUSED);
@@ -327,13 +327,14 @@ static void older_run_is_replaced_unless_resumed(void **state)
     assert_false(path_exists("again/frames/000001.hdf.cleave.tmp"));
     assert_false(path_exists("again/checkpoint.h5.cleave.tmp"));
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_FIRST, false), REFUSED);
-    assert_message("again holds an interrupted run of this scene; continue with --resume, replace it with --overwrite");
+    assert_message(
+        "again contains an interrupted run of this scene; continue with --resume, replace it with --overwrite");
     assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK); /* the run has only begun */
     assert_int_equal(output_write_text(&o, "history.csv", "time [s],step\n0,0\n", 18), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), REFUSED);
-    assert_message("holds a run whose checkpoints are gone");
+    assert_message("has no checkpoint left");
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_OVERWRITE, false), OK);
     output_close(&o);
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_false(path_exists(path_join("again", made[k]).text));
@@ -389,7 +390,7 @@ static void history_is_cut_back(void **state)
     assert_int_equal(output_open(&o, "history", scene_text, OUTPUT_RESUME, false), OK);
     o.history_bytes = kept, o.history_hash = hash ^ 1;
     assert_int_equal(output_history_open(&o, column, 3, true), FAILED);
-    assert_message("is different from what it was at the checkpoint");
+    assert_message("is not the file that it was at the checkpoint");
     o.history_hash = hash;
     assert_int_equal(output_history_open(&o, column, 3, true), OK);
     assert_int_equal(output_write_history(&o, (real[]){2.5, 1, 2}), OK);

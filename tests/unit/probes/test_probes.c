@@ -110,7 +110,7 @@ static void probes_refuse_what_is_not_there(void **state)
         {{.name = "p", .kind = PROBE_POINT, .at = {11.6, 5}}, "point (11.6, 5) m is outside"},
         {{.name = "p", .kind = PROBE_BREAK, .region = {.n = 1, .solid = &outside}}, "contains no particle"},
         {{.name = "p", .kind = PROBE_REACTION, .boundary = "grap"},
-         "no boundary is named \"grap\"; there are: \"grip\""},
+         "no boundary is named \"grap\"; give one of these names: \"grip\""},
         {{.name = "p", .kind = PROBE_REACTION, .boundary = "pull"}, "prescribes no motion"},
         {{.name = "p", .kind = PROBE_LINE, .from = {20, 0}, .to = {20, 9}, .points = 5}, "whole line is outside"},
         {{.name = "p", .kind = PROBE_LINE}, "stations is 0, so its line has no position"},

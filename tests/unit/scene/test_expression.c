@@ -156,14 +156,15 @@ static void faults_are_placed(void **state)
         enum unit unit;
         const char *text, *message;
     } wrong[] = {
-        {UNIT_LENGTH, "x + t", "x + t combines a length and a time by + (character 3); give both the same unit"},
+        {UNIT_LENGTH, "x + t",
+         "x + t combines a length and a time by + (character 3); give both operands the same unit"},
         {UNIT_LENGTH, "x + 3",
-         "x + 3 combines a length and a plain number by + (character 3); give both the same unit"},
+         "x + 3 combines a length and a plain number by + (character 3); give both operands the same unit"},
         {UNIT_NONE, "2*exp(x)", "2*exp(x) applies exp to a length (character 3); give a plain number, such as (t/5us)"},
-        {UNIT_PRESSURE, "3 mm*x/m", "3 mm*x/m is a length; a stress is expected, such as 190 GPa"},
-        {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; a stress is expected, such as 190 GPa"},
-        {UNIT_NONE, "x*x", "x*x is an area; a plain number is expected, such as 0.25"},
-        {UNIT_NONE, "x*t", "x*t is in m^1 s^1; a plain number is expected, such as 0.25"},
+        {UNIT_PRESSURE, "3 mm*x/m", "3 mm*x/m is a length; give a stress, such as 190 GPa"},
+        {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; give a stress, such as 190 GPa"},
+        {UNIT_NONE, "x*x", "x*x is an area; give a plain number, such as 0.25"},
+        {UNIT_NONE, "x*t", "x*t is in m^1 s^1; give a plain number, such as 0.25"},
         {UNIT_NONE, "2*(3 +",
          "2*(3 + ends where a number is expected (in a list, put a formula with a comma in quotes)"},
         {UNIT_NONE, "2*(3",
@@ -172,19 +173,21 @@ static void faults_are_placed(void **state)
         {UNIT_NONE, "2**3", "2**3 has * at character 3, where a number is expected"},
         {UNIT_NONE, "--2", "--2 has - at character 2, where a number is expected"},
         {UNIT_NONE, "2*sinn(3)", "2*sinn(3) has an unknown function sinn (character 3); see `cleave help expression`"},
-        {UNIT_NONE, "2*sin", "2*sin ends where ( and what it is of is expected"},
-        {UNIT_NONE, "2*tau", "2*tau has an unknown name tau, and the scene has no variables"},
-        {UNIT_NONE, "3 mm*s1", "3 mm*s1 has an unknown name s1, and the scene has no variables"},
+        {UNIT_NONE, "2*sin", "2*sin ends where ( and an operand is expected"},
+        {UNIT_NONE, "2*tau",
+         "2*tau has an unknown name tau, and the scene has no variables; define it by the key variables"},
+        {UNIT_NONE, "3 mm*s1",
+         "3 mm*s1 has an unknown name s1, and the scene has no variables; define it by the key variables"},
         {UNIT_NONE, "2*3 pounds",
          "2*3 pounds has an unknown unit pounds (character 5); write an operation, such as *, between a number and a "
          "name"},
         {UNIT_NONE, "min(x)/m", "min(x)/m has ) at character 6, where a comma and another operand is expected"},
         {UNIT_NONE, "sin(1, 2)", "sin(1, 2) has , at character 6, where an operation or ) is expected"},
         {UNIT_NONE, "2*1_000",
-         "2*1_000 has no number at character 3: digits cannot be grouped by _; write 1000 or 1e3"},
+         "2*1_000 has no valid number at character 3: digits cannot be grouped by _; write 1000 or 1e3"},
         {UNIT_NONE, "2*007",
-         "2*007 has no number at character 3: a leading 0 means octal elsewhere; write the decimal "
-         "number without it"},
+         "2*007 has no valid number at character 3: a leading 0 means octal elsewhere; write the decimal number "
+         "without it"},
         {UNIT_NONE, "2/(1 - 1)", "2/(1 - 1) divides by 0 (character 2); change the divisor"},
         {UNIT_NONE, "log(-1)*t/s",
          "log(-1)*t/s has a part that is infinite or not a number; check its divisions and powers"},
@@ -196,7 +199,7 @@ static void faults_are_placed(void **state)
         {UNIT_LENGTH, "sqrt(sqrt(x))",
          "sqrt(sqrt(x)) takes the square root of in m^0.5 (character 1), whose unit has no square root; change the "
          "operand"},
-        {UNIT_LENGTH, "2*1e20 m*1e20", "2*1e20 m*1e20 is above 1e30 in SI units; a length is expected, such as 0.5 mm"},
+        {UNIT_LENGTH, "2*1e20 m*1e20", "2*1e20 m*1e20 is above 1e30 in SI units; give a length, such as 0.5 mm"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct expression e = {0};

@@ -338,11 +338,11 @@ static void bad_bodies_are_refused(void **state)
     struct setting s;
     struct particles p;
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 0.2}); /* 0.4 of a spacing thick */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: holds no particle");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: contains no particle");
     s.solid[0][0].to[1] = 1e300;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: too large for particles.spacing");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: is too large for particles.spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8; /* 1.6e17 positions */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: too large for particles.spacing");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: is too large for particles.spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "body plate: has an infinite shape");
@@ -362,7 +362,7 @@ static void bad_bodies_are_refused(void **state)
     s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* expanded across by as much and more */
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "inside out");
     s.scene.bodies = 0;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "give body or bodies");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "the scene has no body");
 }
 
 /* Tests pulses along and across their direction: velocity from its form, displacement from its integral; the stress on

@@ -123,42 +123,46 @@ static void faults_name_the_file(void **state)
         const char *outer, *inner, *message;
     } wrong[] = {
         {"include: inner.yaml\n", "space: line\nduration: 5 kg\n",
-         "sub/inner.yaml:2:1: duration: 5 kg is a mass; a time is expected, such as 20 us"},
+         "sub/inner.yaml:2:1: duration: 5 kg is a mass; give a time, such as 20 us"},
         {"include: inner.yaml\n", "space: line\nmaterial:\n  young: 1\n",
-         "sub/outer.yaml:1:1: duration: missing; a time is expected, such as 20 us"},
+         "sub/outer.yaml:1:1: duration: missing; give a time, such as 20 us"},
         {"include: inner.yaml\nduration: 1\nparticles: {spacing: 1}\n", "space: line\nmaterial:\n  yuong: 1\n",
-         "sub/inner.yaml:3:3: yuong: unknown key; the nearest is young"},
+         "sub/inner.yaml:3:3: yuong: unknown key; did you mean young?"},
         {"include: inner.yaml\nmaterial: {yuong: 3}\nduration: 1\nparticles: {spacing: 1}\n",
-         "space: line\nmaterial: {young: 1}", "sub/outer.yaml:2:12: yuong: unknown key; the nearest is young"},
+         "space: line\nmaterial: {young: 1}", "sub/outer.yaml:2:12: yuong: unknown key; did you mean young?"},
         {"include: inner.yaml\nbodies: []\nduration: 1\nparticles: {spacing: 1}\n",
          "space: line\nmaterial: {young: 1, density: 1}\nbody: {box: {from: 0, to: 1}}\n",
          "sub/outer.yaml:2:1: bodies: is given together with body; remove one of the two"},
         {"include: inner.yaml\n", "space: [",
-         "sub/inner.yaml:2:1: not YAML: did not find expected node content; indent by spaces (not "
-         "tabs), end a key in `: `, close brackets"},
-        {"include: inner.yaml\n", "a: 1\na: 2\n", "sub/inner.yaml:2:1: a: is given twice, first in line 1; remove one"},
+         "sub/inner.yaml:2:1: not YAML: did not find expected node content; indent by spaces (not tabs), write `: ` "
+         "after each key, and close all brackets"},
+        {"include: inner.yaml\n", "a: 1\na: 2\n",
+         "sub/inner.yaml:2:1: a: is given twice, first in line 1; remove one of the two"},
         {"include: inner.yaml\n", "a: &b 1\n",
          "sub/inner.yaml:1:4: an anchor (&) is not allowed in a scene; write the value "
          "out where it is used"},
         {"include: inner.yaml\n", "- 1\n", "sub/inner.yaml:1:1: a list is not a scene (a mapping of keys to values)"},
         {"include: inner.yaml\n", "", "sub/inner.yaml:1:1: empty; begin with keys such as space and duration"},
         {"include: inner.yaml\n", "include: outer.yaml\n",
-         "sub/inner.yaml:1:1: include: outer.yaml includes itself, or this scene; remove one of these includes"},
+         "sub/inner.yaml:1:1: include: outer.yaml includes itself, or the scene that includes it; remove one of these "
+         "includes"},
         {"include: inner.yaml\n", "include: inner.yaml\n",
-         "sub/inner.yaml:1:1: include: inner.yaml includes itself, or this scene; remove one of these includes"},
+         "sub/inner.yaml:1:1: include: inner.yaml includes itself, or the scene that includes it; remove one of these "
+         "includes"},
         {"a: 1\ninclude: outer.yaml\n", "",
-         "sub/outer.yaml:2:1: include: outer.yaml includes itself, or this scene; remove one of these includes"},
+         "sub/outer.yaml:2:1: include: outer.yaml includes itself, or the scene that includes it; remove one of these "
+         "includes"},
         {"include: no.yaml\n", "",
          "sub/outer.yaml:1:1: include: no.yaml cannot be read; give a scene file in the folder of this one"},
         {"include: .\n", "",
          "sub/outer.yaml:1:1: include: . cannot be read; give a scene file in the folder of this one"},
-        {"include: []\n", "", "sub/outer.yaml:1:1: include: has 0 items; 1 to 64 are expected"},
+        {"include: []\n", "", "sub/outer.yaml:1:1: include: has 0 items; give 1 to 64"},
         {"include:\n", "", "sub/outer.yaml:1:1: include: no value is not a file name; give a scene file"},
         {"include: [{a: 1}]\n", "", "sub/outer.yaml:1:11: include[0]: a mapping is not a file name; give a scene file"},
         {"include: inner.yaml\ninclude: inner.yaml\n", "space: line\n",
-         "sub/outer.yaml:2:1: include: is given twice, first in line 1; remove one"},
+         "sub/outer.yaml:2:1: include: is given twice, first in line 1; remove one of the two"},
         {"include: inner.yaml\nduration: 1\n", "space: line\nduration:\n  include: b.yaml\nparticles: {include: a}\n",
-         "sub/inner.yaml:4:13: include: does not belong here; put the key include at the left margin"},
+         "sub/inner.yaml:4:13: include: this key does not belong here; put include at the left margin"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct scene s;
@@ -170,12 +174,13 @@ static void faults_name_the_file(void **state)
     static const struct scene_override o = {"include", "inner.yaml"};
     struct scene s;
     assert_int_equal(scene_read(&s, "base.yaml", &o, 1), REFUSED);
-    assert_string_equal(status_message(),
-                        "-s include=inner.yaml: include: can be given in a file only; write a scene that includes "
-                        "this one");
+    assert_string_equal(
+        status_message(),
+        "-s include=inner.yaml: include cannot be given by -s; write a scene file that includes this one");
     assert_int_equal(scene_read_text(&s, "include: a.yaml\n", 16, "text", NULL, 0), REFUSED);
-    assert_string_equal(status_message(),
-                        "text:1:1: include: a.yaml: scenes with include cannot be read here; give a scene without it");
+    assert_string_equal(
+        status_message(),
+        "text:1:1: include: a.yaml: scenes with the key include cannot be read here; give a scene without this key");
 }
 
 static void chains_and_numbers_are_bounded(void **state)
@@ -189,15 +194,15 @@ static void chains_and_numbers_are_bounded(void **state)
         write_file(name, text);
     }
     assert_int_equal(scene_read(&s, "chain0.yaml", NULL, 0), REFUSED);
-    assert_string_equal(status_message(), "chain7.yaml:1:1: include: chain8.yaml ends a chain of "
-                                          "more than 8 scenes, each included by the one before; shorten it");
+    assert_string_equal(status_message(), "chain7.yaml:1:1: include: chain8.yaml ends a chain of more than 8 scenes, "
+                                          "each included by the previous one; merge some of them");
     write_file("leaf.yaml", "space: line\n");
     strcpy(text, "include: [leaf.yaml");
     for (int k = 1; k < 64; k++) strcat(text, ", leaf.yaml");
     strcat(text, "]\n");
     write_file("many.yaml", text);
     assert_int_equal(scene_read(&s, "many.yaml", NULL, 0), REFUSED);
-    assert_string_equal(status_message(), "many.yaml:1:1: duration: missing; a time is expected, such as 20 us");
+    assert_string_equal(status_message(), "many.yaml:1:1: duration: missing; give a time, such as 20 us");
     write_file("twice.yaml", "include: [many.yaml, many.yaml]\n");
     assert_int_equal(scene_read(&s, "twice.yaml", NULL, 0), REFUSED);
     assert_non_null(strstr(status_message(), "more than 64 scenes are included; merge some of them"));

@@ -89,12 +89,12 @@ static void scene_says_unit_and_columns(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     list_written(&s, name, "500 2 3\n");
     assert_refused(particle_list_read_column_names(&head, name, &(struct particle_list_form){0, "x,volume"}, 2),
-                   "said.txt: columns: [x,volume] lack y");
+                   "said.txt: columns: [x,volume] does not name y");
     struct particle_list l;
     assert_refused(particle_list_read(&l, name, &(struct particle_list_form){0, "x,y"}, 2),
-                   "said.txt:1:7: more values than the 2 columns of the scene");
+                   "said.txt:1:7: this line has more values than the 2 columns of the scene");
     assert_refused(particle_list_read(&l, name, &(struct particle_list_form){0, "x,y,volume,block"}, 2),
-                   "said.txt:1:1: 3 values, but the scene names 4 columns");
+                   "said.txt:1:1: this line has 3 values, but the scene names 4 columns");
     remove(name);
     list_written(&s, h5, "x");
     assert_refused(particle_list_read(&l, h5, &(struct particle_list_form){0, "x,y"}, 2),

@@ -69,9 +69,9 @@ static void bodies_share_a_list(void **state)
     }
     particles_free(&p);
     s.body[1].file = NULL;
-    assert_refused(
-        fill_bodies_with_particles(&p, &s.scene, NULL, 0),
-        "shared.csv:2: the body with the number 1 (counted from 0 in the order of the scene) does not use this file");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+                   "shared.csv:2: the body with the number 1 (counted from 0 in the order of the scene) does not use "
+                   "this file; correct the column body");
     remove(name);
 }
 
@@ -82,21 +82,22 @@ static const struct {
     {"", "bad.csv: empty"},
     {"# nothing\n\n", "bad.csv: empty"},
     {"x,y,volume\n", "body plate: has no particle in its list"},
-    {"x,y,weight,volume\n", "bad.csv:1:5: weight may be a mass or a volume; give its unit, such as weight [kg]"},
-    {"x,y,weight [m],volume\n", "bad.csv:1:5: weight may be a mass or a volume"},
+    {"x,y,weight,volume\n",
+     "bad.csv:1:5: the column weight may be a mass or a volume; give its unit, such as weight [kg]"},
+    {"x,y,weight [m],volume\n", "bad.csv:1:5: the column weight may be a mass or a volume"},
     {"x,y,mass,density\n", "bad.csv:1:1: mass and density are both given"},
-    {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; a length is expected, such as 0.5 mm"},
+    {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; give a length, such as 0.5 mm"},
     {"x [furlong],y,volume\n", "bad.csv:1:4: x: [furlong] has an unknown unit"},
-    {"x,y,volume,material\n0,0,1,glass\n", "bad.csv:2:7: the scene has no material glass; it has"},
+    {"x,y,volume,material\n0,0,1,glass\n", "bad.csv:2:7: the scene has no material glass; give one that it has"},
     {"x,y,mass\n0,0,0\n", "bad.csv:2:5: mass: 0 must be larger than 0"},
     {"x,volume\n", "bad.csv:1:1: column y is missing"},
-    {"x,y,x,volume\n", "bad.csv:1:5: column x is named twice"},
-    {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3:1: 2 values, but the header names 3"},
-    {"x,y,volume\n0,0,1,5\n", "bad.csv:2:7: more values than the 3"},
-    {"x,y,volume\n0,0,1,\n", "bad.csv:2:7: more values than the 3"},
-    {"x,y,volume\n\n0,zero,1\n", "bad.csv:3:3: y: 'zero' is not a number"},
-    {"x,y,volume\n0,1 mm,1\n", "bad.csv:2:3: y: '1 mm' is not a number"},
-    {"x,y,volume\n0,,1\n", "bad.csv:2:3: y: '' is not a number"},
+    {"x,y,x,volume\n", "bad.csv:1:5: two columns are named x; rename or remove one"},
+    {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3:1: this line has 2 values, but the header names 3"},
+    {"x,y,volume\n0,0,1,5\n", "bad.csv:2:7: this line has more values than the 3"},
+    {"x,y,volume\n0,0,1,\n", "bad.csv:2:7: this line has more values than the 3"},
+    {"x,y,volume\n\n0,zero,1\n", "bad.csv:3:3: y: 'zero' is not a number; correct it"},
+    {"x,y,volume\n0,1 mm,1\n", "bad.csv:2:3: y: '1 mm' is not a number; correct it"},
+    {"x,y,volume\n0,,1\n", "bad.csv:2:3: y: '' is not a number; correct it"},
     {"x,y,volume\n0,nan,1\n", "bad.csv:2:3: y: nan is not a finite number"},
     {"x,y,volume\n1e999,0,1\n", "bad.csv:2:1: x: 1e999 is not a finite number"},
     {"x,y,volume\n0,0,0\n", "bad.csv:2:5: volume: 0 must be larger than 0"},
@@ -105,23 +106,24 @@ static const struct {
     {"x,y,volume,material\n0,0,1,256\n", "bad.csv:2:7: material: 256 must be a whole number"},
     {"x,y,volume,material\n0,0,1,2\n",
      "bad.csv:2:7: the scene has no material 2 (numbered from 0 in the order of the scene)"},
-    {"x,y,volume,body\n0,0,1,1\n",
-     "bad.csv:2: the body with the number 1 (counted from 0 in the order of the scene) does not use this file"},
-    {"x,y,volume\n0x1p-9,0,1\n", "bad.csv:2:1: x: '0x1p-9' is not a number"},
+    {"x,y,volume,body\n0,0,1,1\n", "bad.csv:2: the body with the number 1 (counted from 0 in the order of the scene) "
+                                   "does not use this file; correct the column body"},
+    {"x,y,volume\n0x1p-9,0,1\n", "bad.csv:2:1: x: '0x1p-9' is not a number; correct it"},
     {"'x','y','volume'\n", "names without quotes or in double quotes"},
     {"\"x,y,volume\n", "names without quotes or in double quotes"},
-    {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; write numbers with a point, not a comma"},
+    {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; correct it (the decimal sign "
+                              "is a point, not a comma)"},
     {"# x and places\n0 0 0 1\n", "bad.csv:2:1: numbers, but no line before them names the columns"},
     {"0,0,0,1,1\n", "bad.csv:1:1: numbers, but no line before them names the columns"},
     {"0 0 0 3 1.0\n",
-     "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in the order of the scene); it has"},
-    {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256"},
+     "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in the order of the scene); give one"},
+    {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256; correct it"},
     {"0 0 0 3.0 2\n", "bad.csv:1:7: 3.0: without names the fourth column is block_id, a whole number; "
                       "if it is the volume, give the list as {file: .., columns: [x, y, z, volume, block]}, else"},
     {"0 0 0 1 1\n1 0 0 1 2\n", "bad.csv:1:1: columns 4 and 5 are both whole numbers, so either may be the "
                                "block or the volume; say which: {file: .., columns: [x, y, z, block, volume]} or"},
     {"0 0 0 1 2\n0.5 0 0 0.25 2\n", "bad.csv:2:9: 0.25: without names the fourth column is block_id"},
-    {"x,y,volume\r0,0,1\r", "lines end in carriage returns only; convert the file to line feeds"},
+    {"x,y,volume\r0,0,1\r", "lines end in carriage returns only; convert the line ends to line feeds"},
     {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at (0, 0, 0) m"},
     {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "two particles at ("},
     {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
@@ -143,10 +145,11 @@ static void bad_lists_are_refused(void **state)
     char *text = memory_new("text", 10001, 1);
     memset(text, '1', 10000);
     list_of(&s, name, text);
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "bad.csv:1: not a line of text");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "bad.csv:1: this is not a line of text");
     memory_free(text);
     remove(name);
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "bad.csv: there is no such file");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+                   "bad.csv: there is no such file; check the name and the folder");
     s.body[0].file = "points.xyz";
     assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
                    "points.xyz: is not a particle list; give a file that ends in .csv, .h5 or .exo");
@@ -172,7 +175,8 @@ static void hdf5_lists_are_read(void **state)
     const int material[3] = {1, 0, 1};
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     list_of(&s, name, "no HDF5");
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "list.h5: not an HDF5 file");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+                   "list.h5: this is not an HDF5 file; give one, or a .csv file");
     for (int part = 0; part < 4; part++) {
         hid_t file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
         write_table(file, "positions", 2, (hsize_t[]){3, 2}, H5T_NATIVE_DOUBLE, X);
@@ -181,7 +185,8 @@ static void hdf5_lists_are_read(void **state)
         if (part == 3) write_table(file, "material", 1, (hsize_t[]){3}, H5T_NATIVE_INT, material);
         H5Fclose(file);
         if (part == 1)
-            assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "volumes has 2 x 1 numbers; give 3 x 1");
+            assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+                           "volumes has 2 x 1 numbers, but must have 3 x 1");
         if (part == 1) continue;
         assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
         for (int i = 0; i < 3; i++) {
@@ -231,7 +236,7 @@ static void hdf5_lists_have_units(void **state)
         H5Fclose(file);
         if (part == 2)
             assert_refused(particle_list_read_column_names(&head, name, NULL, 2),
-                           "positions: its unit kg is a mass; a length");
+                           "positions: its unit kg is a mass; give a length");
         if (part == 3)
             assert_refused(particle_list_read_column_names(&head, name, NULL, 2), "mass and density are both given");
         if (part >= 2) continue;
@@ -341,7 +346,7 @@ static const struct {
      1e-3,
      {20, 1, 0, 0, 1, 0},
      "about 100 % of its particles have no neighbour within 3.015 spacings"},
-    {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in mm, or in cm?)"},
+    {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(perhaps the list is in mm or cm)"},
     /* 1 mm apart with a spacing of 5 mm, or 1 cm apart: volumes in m^3 decide. */
     {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-6}, "(is it in mm?)"},
     {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-4}, "(is it in cm?)"},

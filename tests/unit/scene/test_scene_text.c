@@ -149,7 +149,7 @@ static void test_help(void **state)
     assert_null(strstr(some, "output"));
     free(all), free(one), free(some);
     free(help_of("yuong", REFUSED));
-    assert_string_equal(status_message(), "yuong: unknown key; the nearest is material.young");
+    assert_string_equal(status_message(), "yuong: unknown key; did you mean material.young?");
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);

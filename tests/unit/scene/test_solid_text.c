@@ -231,21 +231,21 @@ static void test_refusals(void **state)
         {2, "", "{tube: {from: [0, 0], to: [1, 1], radius: 1, inner: 0.5}}", "cannot be used in space plane stress"},
         {3, "", "{polygon: {corners: [[0, 0], [1, 0], [1, 1]]}}", "use extrude with a polygon as its shape"},
         {3, "", "{extrude: {shape: {ball: {centre: [0, 0, 0], radius: 1}}, from: 0, to: 1}}",
-         "2 are expected in the plane of extrude"},
+         "give 2 in the plane of extrude"},
         {2, "", "{ring: {centre: [0, 0], radius: 1, inner: 2}}", "is not below radius"},
-        {2, "", "{box: {from: [0, 0], to: [1, 1]}, rotate: {angle: 30}}", "has no unit; an angle is expected"},
+        {2, "", "{box: {from: [0, 0], to: [1, 1]}, rotate: {angle: 30}}", "has no unit; give an angle"},
         {2, "", "{box: {from: [0, 0], to: [1, 1]}, rotate: {angle: 30 m}}", "has another unit"},
-        {2, "", "{box: {from: [0, 0], to: [1, 1]}, rotate: {angle: 30 deg, axis: [0, 1]}}", "leave the axis out"},
-        {2, "", "{box: {from: [0, 0], to: [1, 1]}, mirror: {point: [0, 0], normal: [0, 0]}}", "has no length"},
+        {2, "", "{box: {from: [0, 0], to: [1, 1]}, rotate: {angle: 30 deg, axis: [0, 1]}}", "remove axis"},
+        {2, "", "{box: {from: [0, 0], to: [1, 1]}, mirror: {point: [0, 0], normal: [0, 0]}}", "has the length 0"},
         {2, "", "{box: {from: [0, 0], to: [1, 1]}, pattern: {grid: {count: [1.5, 2], step: [1, 1]}}}", "whole number"},
         {2, "", "{box: {from: [0, 0], to: [1, 1]}, pattern: {grid: {count: [100, 100], step: [1, 1]}}}", "4096 copies"},
         {2, "", "{box: {from: [0, 0], to: [1, 1]}, disc: {centre: [0, 0], radius: 1}}", "has 2 solids"},
         {2, "", "{rotate: {angle: 30 deg}}", "has 0 solids"},
-        {2, "", "{subtract: {box: {from: [0, 0], to: [1, 1]}}}", "has nothing to subtract from"},
+        {2, "", "{subtract: {box: {from: [0, 0], to: [1, 1]}}}", "has no solid before it from which to subtract"},
         {2, "", "{half-space: {point: [0, 0], normal: [1, 0]}}", "a body cannot be infinite"},
         {2, "", "grip", "the scene has no region of this name"},
         {2, "regions: {grip: {box: {from: [0, 0], to: [1, 1]}}, other: {region: grip}}\n", "girp",
-         "there is no region girp; the nearest is grip"},
+         "there is no region girp; did you mean grip?"},
         {2, "regions: {a: {region: b}, b: [{region: c}], c: {region: a}}\n", "a",
          "region a is part of itself; remove this reference"},
         {2, "regions: {a: {box: {from: [0, 0], to: [-1, 1]}}}\n", "a", "from is not below to"},
@@ -253,13 +253,13 @@ static void test_refusals(void **state)
         {2, "regions: {'a b': {box: {from: [0, 0], to: [1, 1]}}}\n", "a b", "is not a name"},
         {2, "regions: 3\n", "a", "is not a mapping"},
         {2, "sections: {a: {box: {from: [0, 0], to: [1, 1]}}}\n", "{box: {from: [0, 0], to: [1, 1]}}",
-         "cannot be used in space plane stress; use regions there"},
+         "cannot be used in space plane stress; use the key regions there"},
         {3, "regions: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
          "a is not a kind of solid, and the scene has no section of this name; define it by sections: {a: {box: ..}}"},
         {3, "sections: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
-         "2 are expected in the plane of extrude"},
+         "give 2 in the plane of extrude"},
         {3, "sections: {web: {disc: {centre: [0, 0], radius: 1}}}\n", "{extrude: {shape: wed, from: 0, to: 1}}",
-         "there is no section wed; the nearest is web"},
+         "there is no section wed; did you mean web?"},
         {3, "sections: {a: [{region: a}]}\n", "{extrude: {shape: a, from: 0, to: 1}}", "a is part of itself"},
     };
     char text[2000];
@@ -287,7 +287,7 @@ static void test_multiplied_names(void **state)
     }
     struct scene s;
     assert_int_equal(scene_read_text(&s, text, n, "a.yaml", NULL, 0), REFUSED);
-    assert_non_null(strstr(status_message(), "solids; use fewer"));
+    assert_non_null(strstr(status_message(), "solids; remove some"));
     scene_free(&s);
 }
 

@@ -76,19 +76,19 @@ static void bad_files_are_refused(void **state)
         {"", "blast.csv: empty"},
         {"time, value\n", "blast.csv: no line below the header has a time and a value; add some"},
         {"0, 1\n1, 2\n", "blast.csv:1:1: no column is named time; begin with a header such as time [us], value"},
-        {"value, time\n1\n", "blast.csv:2:1: this line has 1 values, but the value of column 2 is needed"},
+        {"value, time\n1\n", "blast.csv:2:1: this line has 1 values, but column 2 is needed"},
         {"time, a, b\n1,2,3\n",
          "blast.csv:1:10: column b is a second column of values; add column: NAME to choose one"},
         {"time, time, b\n", "blast.csv:1:7: column time is given twice; rename or remove one"},
         {"when, b\n", "blast.csv:1:1: no column is named time"},
         {"time\n", "blast.csv:1:1: there is only one column"},
-        {"time [m], b\n", "blast.csv:1:7: column time: [m] is a length; a time is expected"},
-        {"time, v [m/s]\n", "blast.csv:1:10: column v: [m/s] is a velocity; a stress is expected"},
+        {"time [m], b\n", "blast.csv:1:7: column time: [m] is a length; give a time"},
+        {"time, v [m/s]\n", "blast.csv:1:10: column v: [m/s] is a velocity; give a stress"},
         {"time, v\n0, 1\n2, 1\n2, 3\n",
          "blast.csv:4:1: time 2 is not later than the previous one; give times in ascending order"},
-        {"time [us],p\n0,0,0,0\n",
-         "blast.csv:2:5: more values than the 2 columns of the header; write numbers with a point"},
-        {"time,v\r0,1\r", "blast.csv:1: lines end in carriage returns only; convert the file to line feeds"},
+        {"time [us],p\n0,0,0,0\n", "blast.csv:2:5: this line has more values than the 2 columns of the header; write "
+                                   "numbers with a decimal point"},
+        {"time,v\r0,1\r", "blast.csv:1: lines end in carriage returns only; convert the line ends to line feeds"},
         {"time, v\n0, x\n", "blast.csv:2:4: 'x' is no"},
         {"time; v\n0; 1,5\n", "blast.csv:2:4: '1,5' is not a number here: the decimal sign is a point; write 1.5"},
         {"time, v\n0, nan\n", "blast.csv:2:4: 'nan' is no"},
@@ -100,7 +100,7 @@ static void bad_files_are_refused(void **state)
         assert_refused(read, c[k].message);
     }
     struct scene s = {0};
-    assert_refused(read_with(&s, "{column: a}", "", 0), "timed.yaml:8:38: column: has no effect without file");
+    assert_refused(read_with(&s, "{column: a}", "", 0), "timed.yaml:8:38: column: has no effect without the key file");
     assert_refused(read_with(&s, "{file: none.csv}", "", 0), "timed.yaml:8:38: file: none.csv cannot be read");
     assert_refused(read_with(&s, "{file: blast.csv, table: [[0, 1]]}", "", 0), "table: is given together with file");
 }

@@ -345,14 +345,14 @@ static void jumps_are_refused(void **state)
         {"method=pd", GRIP("displacement: [1 um, free], face: z+"),
          "z+ is not the name of a face in space plane stress"},
         {"method=pd", GRIP("displacement: [free, free]"), "every component is free; give at least one displacement"},
-        {"method=pd", GRIP("displacement: [1 m/s, free]"), "a length is expected"},
+        {"method=pd", GRIP("displacement: [1 m/s, free]"), "give a length"},
         {"method=pd", GRIP("displacement: 1 um"), "give a list of 2, for example [0.1 mm, free]"},
         {"method=pd", GRIP("displacement: [1 um, free], velocity: [0, 0]"), "given together with displacement"},
         {"method=pd", GRIP("pressure: 1 MPa, face: x+"),
          "face: a pressure acts on every free face of the particles in `region`"},
         {"method=pd", GRIP("traction: [1 MPa, 0], face: x+, depth: 1 mm"),
          "depth: has no effect without fixed, velocity, displacement or rotation; remove it"},
-        {"solver=cg", GRIP("velocity: [\"t*1 m/s^2\", free], face: x+"), "does not give it; use displacement"},
+        {"solver=cg", GRIP("velocity: [\"t*1 m/s^2\", free], face: x+"), "does not give; give a displacement"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         assert_refused(refusal(PLATE, bad[k].keys, bad[k].boundary, NULL), bad[k].part);
