@@ -166,7 +166,7 @@ static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
     if (!source_skip_blanks(s) || s->text[s->at] != '"')
-        return source_report_fault(s, "the name of this group is not in quotes; add them");
+        return source_report_fault(s, "the name of this group is not in quotes; write it in quotes");
     for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
         if (n + 1 < capacity) text[n++] = s->text[s->at];
     text[n] = '\0';

@@ -270,8 +270,7 @@ static status mode_check(const char *folder, enum output_mode mode)
             REFUSED,
             "cannot resume: the run in %s has no checkpoint left; start again with --overwrite, or choose another -o",
             folder);
-    fprintf(stderr, "warning: %s contains no checkpoint to resume from, so the run starts at t = 0\n",
-            printable_name(folder).text);
+    fprintf(stderr, "warning: %s has no checkpoint, so the run starts at t = 0\n", printable_name(folder).text);
     return OK;
 }
 

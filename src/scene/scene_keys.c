@@ -46,9 +46,9 @@
 const struct key keys[] = {
     KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)", "names the run and its results folder"),
     KEY("include", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(1, 64), NONE,
-        "scenes that this one changes: its mappings of keys are merged into theirs, other values replace theirs, an "
-        "empty value removes a key; their names are not used; files are sought in the folder of the scene that names "
-        "them",
+        "scenes that this one changes: its mappings of keys are merged into theirs, its other values replace theirs, "
+        "and an empty value removes a key; their names are not used; files are searched in the folder of the scene "
+        "that names them",
         .words = "file name or list of them"),
     KEY("variables", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
         "quantities that every number of the scene may contain: {a: 3 mm, b: 2*a + 1 mm}", .words = "mapping of names"),
@@ -70,10 +70,10 @@ const struct key keys[] = {
         "peridynamic law: bond-based; ordinary state-based; state-based with rotations (both: any Poisson's ratio)",
         .words = "bond|ospd|mospd"),
     KEY("solver", KEY_CHOICE, UNIT_NONE, AT(scene, solver), ANY, "explicit",
-        "explicit: steps in time; relaxation, cg: the static equilibrium under the loads at the end of the duration, "
-        "with supports where they have then moved to, by adaptive dynamic relaxation or (method pd, small strains) "
-        "conjugate gradients; bonds do not break in it; static: load steps of the duration (steps), in which bonds "
-        "break and equilibrium is found again; with method auto: relaxation or cg, whichever is cheaper",
+        "explicit: steps in time; relaxation, cg: the static equilibrium under the loads and supports at the end of "
+        "the duration, by adaptive dynamic relaxation or (method pd, small strains) conjugate gradients; bonds do not "
+        "break in it; static: load steps of the duration (steps), in which bonds break and equilibrium is found again; "
+        "with method auto: relaxation or cg, whichever is cheaper",
         .words = "explicit|relaxation|cg|static"),
     KEY("solver_tolerance", KEY_REAL, UNIT_NONE, AT(scene, solver_tolerance), BETWEEN(1e-12, 0.1), "1e-5",
         "largest residual force over the applied force or the reactions (relaxation, cg, static)"),
@@ -118,14 +118,14 @@ const struct key keys[] = {
     KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "2 %",
         "of these bonds only those whose ratio of stretch to critical stretch is within this share of the largest"),
     KEY("accept", KEY_SET, UNIT_NONE, AT(scene, accept), ANY, "none",
-        "warnings that this scene means, a list; figures that look like mistakes of units: speed of waves, critical "
-        "stretch, stress of loads over strength, load over Young's modulus, number of time steps, spacings that "
-        "waves travel, particles across a body with a crack, density, yield stress over Young's modulus, number of "
-        "times that waves cross the body, thickness over width in plane stress, energy release rate, specific heat, "
-        "cracks that cannot grow, density of a rigid body, E G_c/strength^2 over the body, times of loads "
-        "beside the duration; and what a run warns of: bodies that pass through each other, a coupling without "
-        "energy, one point in a cell, a face driven so fast that bonds beside it break, bonds that break behind the "
-        "front of a collision, a crack faster than Rayleigh waves",
+        "list of warnings to silence, because the scene intends what they report; figures that look like mistakes of "
+        "units: speed of waves, critical stretch, stress of loads over strength, load over Young's modulus, number of "
+        "time steps, spacings that waves travel, particles across a body with a crack, density, yield stress over "
+        "Young's modulus, number of times that waves cross the body, thickness over width in plane stress, energy "
+        "release rate, specific heat, cracks that cannot grow, density of a rigid body, E G_c/strength^2 over the "
+        "body, times of loads beside the duration; and warnings of a run: bodies that pass through each other, a "
+        "coupling without energy, one point in a cell, a face driven so fast that bonds beside it break, bonds that "
+        "break behind the front of a collision, a crack faster than Rayleigh waves",
         .words = ACCEPT_WORDS, .has = FLAG(scene, has_accept)),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
         "method auto: largest error of a figure, which pilot runs estimate",
@@ -167,24 +167,26 @@ const struct key keys[] = {
 
     KEY("pd", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "peridynamics"),
     KEY("pd.volume", KEY_CHOICE, UNIT_NONE, AT(scene, volume), ANY, "whole",
-        "share of a neighbour at the horizon's edge", .words = "whole|ramp|cut-ramp"),
+        "volume share of neighbours at the edge of the horizon", .words = "whole|ramp|cut-ramp"),
     KEY("pd.calibration", KEY_CHOICE, UNIT_NONE, AT(scene, calibration), ANY, "lattice",
-        "fixes stiffness: a full family, which is exact; the continuum integral or vmpd, which are not, least of all "
-        "with influence inverse square",
+        "what determines the stiffness of bonds: a full family on the lattice (exact), the continuum integral or vmpd "
+        "(not exact, least of all with influence inverse square)",
         .words = "lattice|continuum|vmpd"),
     KEY("pd.surface", KEY_CHOICE, UNIT_NONE, AT(scene, surface), ANY,
         "(moments with method pd; volume in load steps of bonds that break)",
-        "weights of bonds near faces: from moments of families, so that thin bodies bend, twist and stretch as they "
-        "should (lattices, of shapes or lists; else volume or none), or from neighbours' volume",
+        "weights of bonds near faces: moments: from moments of families, with which thin bodies bend, twist and "
+        "stretch correctly (lattices only); volume: from the volume of neighbours",
         .words = "none|volume|moments"),
     KEY("pd.weights", KEY_CHOICE, UNIT_NONE, AT(scene, shells), ANY, "(isotropic; calibration not lattice: uniform)",
-        "isotropic: two shell weights take the lattice's anisotropy away", .words = "uniform|isotropic"),
+        "isotropic: two weights of shells of neighbours remove the anisotropy of the lattice",
+        .words = "uniform|isotropic"),
     KEY("pd.influence", KEY_CHOICE, UNIT_NONE, AT(scene, influence), ANY, "(inverse with ospd and mospd, else one)",
         "weight of a bond by its length: 1, exp(-(r/delta)^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing)",
         .words = "one|gaussian|inverse|inverse square|linear"),
     KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY,
         "(bulk with mospd and irregularity 0, and with pd.surface moments, else local)",
-        "ospd and mospd: constants from the family a particle has, or from a full one", .words = "local|bulk"),
+        "ospd and mospd: constants from the family that a particle has (local), or from a full family (bulk)",
+        .words = "local|bulk"),
     KEY("pd.last_force", KEY_CHOICE, UNIT_NONE, AT(scene, last_force), ANY, "moment",
         "last force of a bond that breaks: it acts until the moment, within a step, at which its stretch is critical; "
         "or half of it, the whole of it (as in other programs) or none acts in the first step after that",
@@ -206,13 +208,13 @@ const struct key keys[] = {
         "comparison: the least of 0.9 of that and 1.35 spacings, also between particles that a bond joins",
         .words = "spacing|lammps"),
     KEY("contact.convert", KEY_FLAG, UNIT_NONE, AT(scene, contact_convert), ANY, "true",
-        "method: adaptive: material points within three spacings of another body become peridynamic, and meet it as "
-        "particles do"),
+        "method: adaptive: material points within three spacings of another body become peridynamic, so that they have "
+        "contact"),
     KEY("contact.friction", KEY_REAL, UNIT_NONE, AT(scene, contact_friction), BETWEEN(0, 100), "0",
         "coefficient of Coulomb's friction of all contact (contact.law: surface)"),
     KEY("contact.stiffness", KEY_REAL, UNIT_NONE, AT(scene, contact_stiffness), INSIDE(0, 4.001), "1",
-        "of contact, in units of that of a cell of the material (15 c V^2/delta at 3.015 spacings); above 1 it may "
-        "need a smaller step"),
+        "stiffness of contact, relative to that of a cell of the material (15 c V^2/delta at 3.015 spacings); above 1 "
+        "it may need a smaller time step"),
 
     KEY("mpm", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "material point method"),
     KEY("mpm.cell", KEY_REAL, UNIT_NONE, AT(scene, cell), BETWEEN(1, 8), "2", "node distance of the grid, in spacings"),
@@ -224,17 +226,15 @@ const struct key keys[] = {
         "frame",
         .words = "flip|apic", .has = FLAG(scene, has_transfer)),
     KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, AT(scene, frame), ANY, "auto",
-        "configuration the grid lives in; reference: linear cells with their state on the nodes and material points as "
-        "their quadrature, for bodies on a lattice that keep their neighbours and do not meet others, a tenth to a "
-        "thirtieth of "
-        "the cost; auto: reference where the body is one piece on a regular lattice, elastic, the only one and not at "
-        "rest by a solver, "
-        "with mpm.cell 2 and coupling partial stress or handshake, and the scene says nothing of shape, transfer and "
-        "interface_damping, "
-        "which have no meaning then; else current (`cleave check` says why)",
+        "configuration in which the grid is defined; reference: linear cells with their state on the nodes and "
+        "material points as their quadrature, for bodies on a lattice that keep their neighbours and have no contact "
+        "with others, a tenth to a thirtieth of the cost; auto: reference where the body is one piece on a regular "
+        "lattice, elastic, the only one and not at rest by a solver, with mpm.cell 2 and coupling partial stress or "
+        "handshake, and the scene does not give shape, transfer or interface_damping, which have no meaning then; else "
+        "current (`cleave check` says why)",
         .words = "current|reference|auto"),
     KEY("mpm.strain", KEY_CHOICE, UNIT_NONE, AT(scene, small_strain), ANY, "finite",
-        "frame reference: finite, in axes that turn with each cell; small does not know rotations",
+        "frame reference: measure of strain: finite, in axes that turn with each cell; small, for small rotations only",
         .words = "finite|small"),
     KEY("mpm.constants", KEY_CHOICE, UNIT_NONE, AT(scene, lattice_constants), ANY, "isotropic",
         "frame reference: elastic constants of the material, or of its bonds on the lattice (model bond), which are "
@@ -257,8 +257,8 @@ const struct key keys[] = {
         "coupling of material points and bonds at their interfaces", .words = "partial stress|handshake|pm|pg|pmg|pgg"),
 
     KEY("interface_damping", KEY_REAL, UNIT_NONE, AT(scene, interface_damping), FROM(0), "0.25",
-        "coupling partial stress with transfer flip: damping of motion beside peridynamic particles that the grid "
-        "cannot see, in wave speed over cell; 0: none; a scene that says it wants the current frame",
+        "coupling partial stress with transfer flip: damping of motion beside peridynamic particles that the grid does "
+        "not resolve, in wave speed over cell; 0: none; a scene with this key gets the current frame",
         .has = FLAG(scene, has_interface_damping)),
 
     KEY("conversion", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE,
@@ -266,18 +266,18 @@ const struct key keys[] = {
     KEY("conversion.stress", KEY_REAL, UNIT_PRESSURE, AT(scene, conversion.stress), ABOVE(0), "auto",
         "largest principal stress sigma_max; auto: young x critical stretch", .words = "auto", .word_value = NAN),
     KEY("conversion.alpha", KEY_REAL, UNIT_NONE, AT(scene, conversion.alpha), INSIDE(0, 1), "0.95",
-        "share of it at which a material point converts"),
+        "share of this stress at which a material point converts"),
     KEY("conversion.block", KEY_FLAG, UNIT_NONE, AT(scene, conversion.block), ANY, "true",
         "neighbours of a particle within its horizon convert with it"),
     KEY("conversion.criteria", KEY_SET, UNIT_NONE, AT(scene, conversion.criteria), ANY, "([bond, stress])",
         "criteria of conversion: a broken bond, the stress; a list, or none", .words = "bond|stress"),
     KEY("conversion.tips", KEY_REAL, UNIT_NONE, AT(scene, conversion.tips), BETWEEN(0, 1000), "0",
-        "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics "
-        "does"),
+        "radius round the ends of pre-cracks that is peridynamic from the start, in horizons; with 2 cracks start at "
+        "the time of method pd"),
     KEY("conversion.notch", KEY_CHOICE, UNIT_NONE, AT(scene, conversion.notch), ANY, "auto",
         "pre-cracks in the reference frame: free surfaces of the mesh, with cut bonds within eight spacings of their "
-        "ends (as far as tips says, where it does), or cut bonds all along; auto: slit where that can be, "
-        "`cleave check` says where",
+        "ends (or within tips, if given), or cut bonds all along; auto: slit where possible (`cleave check` reports "
+        "it)",
         .words = "auto|slit|bonds"),
     KEY("conversion.reversion", KEY_FLAG, UNIT_NONE, AT(scene, conversion.reverts), ANY, "false",
         "peridynamic particles become material points again where no bond within two horizons was ever broken and the "
@@ -285,7 +285,7 @@ const struct key keys[] = {
     KEY("conversion.hold_time", KEY_REAL, UNIT_NONE, AT(scene, conversion.hold_time), BETWEEN(1, 1e6), "5",
         "reversion: how long the stress must have been low, in horizon over wave speed; longer: fewer reversions"),
     KEY("conversion.low_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.low_stress), INSIDE(0, 0.9), "0.5",
-        "reversion: what low stress is, as a share of the one that converts; lower: fewer reversions"),
+        "reversion: limit of low stress, as a share of the stress at which points convert; lower: fewer reversions"),
 
     KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks at the start (pre-cracks)"),
     KEY("cracks.from", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "one end of a segment (plane)"),
@@ -294,8 +294,8 @@ const struct key keys[] = {
     KEY("cracks.polygon", KEY_HAND, UNIT_LENGTH, NOWHERE, BETWEEN(3, 1000), NONE, "plane convex polygon (solid)",
         .words = "list of points"),
     KEY("cracks.width", KEY_REAL, UNIT_LENGTH, AT(crack, width), FROM(0), "0",
-        "width of a notch: with contact.between: all its faces are in contact once their distance has decreased by "
-        "this"),
+        "width of a notch: with contact.between: all its faces have contact once their distance has decreased by this "
+        "width"),
     KEY("growth", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 64), NONE,
         "cracks that grow at a given speed, from the start or while the stress-intensity factors of a sif probe are "
         "large enough (plane, model with bonds)"),
@@ -323,7 +323,7 @@ const struct key keys[] = {
     KEY("growth.toughness", KEY_REAL, UNIT_TOUGHNESS, AT(growth_rule, toughness), FROM(0), "0 Pa m^0.5",
         "K_Ic (with probe)"),
     KEY("growth.smoothing", KEY_REAL, UNIT_LENGTH, AT(growth_rule, smoothing), FROM(0), "quarter",
-        "its direction is the mean over this growth (with probe); quarter: of a horizon", .words = "quarter",
+        "length of growth over which the direction is averaged (with probe); quarter: of a horizon", .words = "quarter",
         .word_value = NAN),
     KEY("crack", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "how crack tips are followed"),
     KEY("crack.speed_window", KEY_REAL, UNIT_TIME, AT(scene, speed_window), ABOVE(0), "(duration/10)",
@@ -331,7 +331,8 @@ const struct key keys[] = {
 
     KEY("initial", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "initial states; later entries overwrite"),
     KEY("initial.region", KEY_REGION, UNIT_NONE, AT(scene_initial, region), ANY, "(everywhere)", "where"),
-    KEY("initial.body", KEY_BODY, UNIT_NONE, AT(scene_initial, body), ANY, "(any)", "name of the body it holds for"),
+    KEY("initial.body", KEY_BODY, UNIT_NONE, AT(scene_initial, body), ANY, "(any)",
+        "name of the body to which it applies"),
     KEY("initial.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, "(0)",
         "velocity at the centre; a formula of x, y, z: at every position", .words = "list of number or formula"),
     KEY("initial.velocity_gradient", KEY_MATRIX, UNIT_RATE, AT(scene_initial, velocity_gradient), ANY, "(0)",
@@ -339,10 +340,10 @@ const struct key keys[] = {
     KEY("initial.displacement_gradient", KEY_MATRIX, UNIT_NONE, AT(scene_initial, displacement_gradient), ANY, "(0)",
         "H: x = X + H (X - centre), stressed accordingly", .has = FLAG(scene_initial, sets_strain)),
     KEY("initial.pulse", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "plane wave v exp(-(4 xi/width)^2) into material at rest; added to what is there"),
+        "plane wave v exp(-(4 xi/width)^2) into material at rest; added to earlier initial states"),
     KEY("initial.pulse.at", KEY_POINT, UNIT_LENGTH, AT(scene_initial, pulse.at), ANY, REQUIRED, "its centre"),
     KEY("initial.pulse.direction", KEY_POINT, UNIT_NONE, AT(scene_initial, pulse.direction), ANY, REQUIRED,
-        "where it goes, any length"),
+        "direction of travel, a vector of any length"),
     KEY("initial.pulse.width", KEY_REAL, UNIT_LENGTH, AT(scene_initial, pulse.width), ABOVE(0), REQUIRED,
         "four Gaussian radii"),
     KEY("initial.pulse.velocity", KEY_REAL, UNIT_SPEED, AT(scene_initial, pulse.velocity), ANY, REQUIRED,
@@ -362,7 +363,7 @@ const struct key keys[] = {
 
     KEY("time", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "time step"),
     KEY("time.step", KEY_REAL, UNIT_TIME, AT(scene, time_step), ABOVE(0), "auto",
-        "step; auto: safety x the critical one", .words = "auto", .word_value = 0),
+        "time step; auto: safety x the critical time step", .words = "auto", .word_value = 0),
     KEY("time.wall", KEY_REAL, UNIT_TIME, AT(scene, wall), ABOVE(0), "none",
         "wall clock, as 2 h or 90 min, after which the run ends with a checkpoint (exit status 130); scene.yaml leaves "
         "it out",
@@ -401,7 +402,7 @@ const struct key keys[] = {
     KEY("output.compress", KEY_FLAG, UNIT_NONE, AT(scene, compress), ANY, "false", "gzip the frames (slow)"),
 
     KEY("probes", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
-        "what is measured: kinds, or mappings kind: {keys}"),
+        "quantities to measure: kinds of probes, or mappings kind: {keys}"),
     KEY("probes.tip", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "a crack tip: the longest, or the one nearest to at"),
     KEY("probes.tip.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(tip)", "name in the results"),
     KEY("probes.tip.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, "(the longest)", "near where it starts",
@@ -449,11 +450,12 @@ const struct key keys[] = {
     KEY("probes.sif", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "stress-intensity factors of a crack tip by the interaction integral (plane spaces)"),
     KEY("probes.sif.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(sif)", "name in the results"),
-    KEY("probes.sif.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, "(the first pre-crack's end in the body)",
-        "the tip; followed where it is the end of a pre-crack", .has = FLAG(probe_request, has_at)),
+    KEY("probes.sif.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY,
+        "(the end of the first pre-crack inside the body)", "the tip; followed where it is the end of a pre-crack",
+        .has = FLAG(probe_request, has_at)),
     KEY("probes.sif.direction", KEY_POINT, UNIT_NONE, AT(probe_request, direction), ANY, "(along the crack)",
-        "ahead of the tip, any length; required with a tip that is no end of a pre-crack, such as the end of a gap in "
-        "material points, which must be wider than two cells: across less they touch",
+        "direction ahead of the tip, a vector of any length; required with a tip that is not the end of a pre-crack, "
+        "such as the end of a gap in material points, which must be wider than two cells: across less they touch",
         .has = FLAG(probe_request, has_direction)),
     KEY("probes.sif.inner", KEY_REAL, UNIT_LENGTH, AT(probe_request, inner), ABOVE(0), "(half of outer)",
         "radius within which the weight is 1"),
@@ -479,10 +481,11 @@ const struct key keys[] = {
     KEY("probes.sif.stress", KEY_CHOICE, UNIT_NONE, AT(probe_request, stress), ANY, "hooke",
         "Hooke's law of the gradient, or the particles' stress", .words = "hooke|particle"),
     KEY("probes.sif.core", KEY_REAL, UNIT_LENGTH, AT(probe_request, core), FROM(0), "(1.5 horizons)",
-        "radius that the inertial sum leaves out while the tip moves (its share grows from 0 to 1 between a "
-        "third and five thirds of it)"),
+        "radius that the inertial sum excludes while the tip moves (its weight grows from 0 to 1 between a third and "
+        "five thirds of it)"),
     KEY("probes.sif.speed", KEY_REAL, UNIT_SPEED, AT(probe_request, speed), ABOVE(0), "auto",
-        "of the tip once it moves; auto: of its growth over crack.speed_window", .words = "auto", .word_value = NAN),
+        "direction of the tip once it moves; auto: from its growth over crack.speed_window", .words = "auto",
+        .word_value = NAN),
     KEY("probes.growth", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "a crack with prescribed or SIF-controlled growth: position and length of its tip, angle of its path"),
     KEY("probes.growth.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(growth)", "name in the results"),

@@ -8,7 +8,7 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
     KEY("material.young", KEY_REAL, UNIT_PRESSURE, AT(material, young), ABOVE(0), REQUIRED, "Young's modulus"),
     KEY("material.poisson", KEY_REAL, UNIT_NONE, AT(material, poisson), INSIDE(-1, 0.4999),
         "(1/3 in plane stress, 1/4 in plane strain and solid, 0 in line)",
-        "Poisson's ratio; pd and adaptive with model bond can only do the default"),
+        "Poisson's ratio; pd and adaptive with model bond allow the default only"),
     KEY("material.density", KEY_REAL, UNIT_DENSITY, AT(material, density), ABOVE(0), REQUIRED, "mass density"),
     KEY("material.energy_release_rate", KEY_REAL, UNIT_SURFACE_ENERGY, AT(material, energy_release_rate), ABOVE(0),
         NONE,
@@ -33,8 +33,8 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         "between points, constant beyond; a bond keeps the strength at which it begins to soften, and spends G_c",
         .words = "list of pairs [strain rate, factor]"),
     KEY("material.compressive_strength", KEY_REAL, UNIT_PRESSURE, AT(material, compressive_strength), ABOVE(0), NONE,
-        "with tensile_strength: a strength surface (Drucker and Prager) starts the softening of bonds; at most one of "
-        "these three gives its second point; model bond, not in a line"),
+        "with tensile_strength: bonds begin to soften at a strength surface (Drucker and Prager); at most one of these "
+        "three gives its second point; model bond, not in a line"),
     KEY("material.hydrostatic_strength", KEY_REAL, UNIT_PRESSURE, AT(material, hydrostatic_strength), ABOVE(0), NONE,
         "the same by the strength in equal tension in three directions; above a third of tensile_strength"),
     KEY("material.biaxial_strength", KEY_REAL, UNIT_PRESSURE, AT(material, biaxial_strength), ABOVE(0), NONE,
@@ -111,8 +111,8 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
     KEY("material.scatter", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "random strength that varies in space, with the values above as its mean"),
     KEY("material.scatter.of", KEY_CHOICE, UNIT_NONE, AT(strength_scatter, of), ANY, "strength",
-        "what has the distribution; strength, stretch and toughness go in proportion, energy_release_rate as their "
-        "square",
+        "quantity with this distribution; strength, stretch and toughness vary in proportion, energy_release_rate as "
+        "their square",
         .words = "strength|critical_stretch|toughness|energy_release_rate"),
     KEY("material.scatter.distribution", KEY_CHOICE, UNIT_NONE, AT(strength_scatter, form), ANY, "weibull",
         "of the factor of mean 1", .words = "weibull|lognormal"),

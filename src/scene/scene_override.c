@@ -70,8 +70,7 @@ static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
-        return fault(r, blamed(list, origin), "is not a list in this scene, so [%d] cannot be used; remove it",
-                     index);
+        return fault(r, blamed(list, origin), "is not a list in this scene, so [%d] cannot be used; remove it", index);
     if (index >= list->n)
         return fault(r, blamed(list, origin),
                      "has %d items, so [%d] is beyond the last one; use a smaller number (the first is [0])", list->n,

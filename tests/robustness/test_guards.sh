@@ -16,14 +16,14 @@ calm "$work/kept" $small --overwrite
 same "replaced" "$work/once" "$work/kept"
 refused "both" "$work/kept" "one of the two" $small --resume --overwrite
 sed -i 's/"done"/"failed"/' "$work/kept/summary.json"
-refused "a failed run" "$work/kept" "holds a failed run of this scene" $small
+refused "a failed run" "$work/kept" "contains a failed run of this scene" $small
 rm "$work/kept/summary.json"
-refused "an interrupted run" "$work/kept" "holds an interrupted run of this scene" $small
+refused "an interrupted run" "$work/kept" "contains an interrupted run of this scene" $small
 rm "$work/kept"/checkpoint*.h5
 refused "without its checkpoints" "$work/kept" "has no checkpoint left; start again with --overwrite" $small --resume
 "$cleave" run -q -o "$work/new" $small --resume 2>"$work/err"
 is "nothing to resume: exit status" $? 0
-holds "nothing to resume: said" grep -q "^warning: $work/new contains no checkpoint to resume from" "$work/err"
+holds "nothing to resume: said" grep -q "^warning: $work/new has no checkpoint" "$work/err"
 same "nothing to resume" "$work/once" "$work/new"
 
 # ---- two runs at a time ------------------------------------------------------------------------------------------
@@ -143,7 +143,7 @@ cp "$work/lists/grains.csv" "$work/lists/deeper"
 cp "$work/lists/moved.yaml" "$work/lists/deeper/grains.yaml"
 calm "$work/again" "$work/lists/deeper/grains.yaml" --resume     # the same contents in another folder
 sed -i '7s/1e-9/1.1e-9/' "$work/lists/grains.csv"
-refused "a list that changed" "$work/again" "particles: .*grains.csv.*contents .* instead of .particles: .*grains.csv.*contents " "$work/lists/ran/scene.yaml" --resume
+refused "a list that changed" "$work/again" "particles: .*grains.csv.*contents .* in place of .particles: .*grains.csv.*contents " "$work/lists/ran/scene.yaml" --resume
 calm "$work/again" "$work/lists/ran/scene.yaml" --overwrite
 
 # ---- lost or damaged frames ---------------------------------------------------------------------------------------
@@ -307,13 +307,13 @@ for command in "export lammps $work/papers/scene.yaml --allow-different" "sweep 
     "run $work/strip.yaml -s duration=2us --overwrite"; do
     rm -rf "$work/desk"
     cp -r "$work/papers" "$work/desk"
-    declined "$command" "holds" $(echo "$command" | sed "s#/papers/#/desk/#") -o "$work/desk"
+    declined "$command" "contains" $(echo "$command" | sed "s#/papers/#/desk/#") -o "$work/desk"
     kept "$command" "$work/desk"
 done
 
 mkdir "$work/album" "$work/album/frames"
 for name in frames/holiday.jpg scene.yaml history.csv summary.json; do echo "$name of mine" >"$work/album/$name"; done
-declined "an album with frames" "holds files" run -q "$work/strip.yaml" -o "$work/album" --overwrite
+declined "an album with frames" "contains files" run -q "$work/strip.yaml" -o "$work/album" --overwrite
 is "an album: files of others" "$(cat "$work/album/history.csv")" "history.csv of mine"
 
 # -o itself may be a link to a folder: the run is written there, and what the folder holds is guarded as without a link.
@@ -327,7 +327,7 @@ is "replaced by a link: $(cat "$work/err")" $? 0
 declined "a second run by the folder's name" "strip.yaml:4:1: duration: .* contains the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
 rm -rf "$work/disk"
 cp -r "$work/papers" "$work/disk"
-declined "files of others behind a link" "holds files" run -q "$work/strip.yaml" -o "$work/short" --overwrite
+declined "files of others behind a link" "contains files" run -q "$work/strip.yaml" -o "$work/short" --overwrite
 kept "files of others behind a link" "$work/disk"
 rm -rf "$work/disk"
 declined "a link to nothing" "is a symbolic link, but not to a folder" run -q "$work/strip.yaml" -o "$work/short"
@@ -491,7 +491,7 @@ boundary: [{traction: [0, 1 MPa], face: y+, time: {file: pipe.csv}}]') >"$work/c
 (head_of; echo 'body: {image: {file: pipe.stl, pixel: 1 mm, above: 100}}') >"$work/e.yaml"
 for scene in a b c d e; do declined "a pipe in scene $scene" "$scene.yaml\|pipe" check "$work/$scene.yaml"; done
 declined "a pipe for a run to plot" "is a file" plot "$work/pipe.yaml"
-declined "a pipe for a run to compare" "holds no run" compare "$work/pipe.yaml" "$work/once"
+declined "a pipe for a run to compare" "contains no run" compare "$work/pipe.yaml" "$work/once"
 
 # ---- no escape sequences in output ---------------------------------------------------------------------------------
 

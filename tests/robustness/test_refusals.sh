@@ -409,7 +409,7 @@ while IFS='|' read -r words start middle; do
     ended "$words" $? "$start" "$middle"
 done <<'END'
 frobnicate|unknown command frobnicate|
-run|no scene given|usage
+run|no scene is given|usage
 run good.yaml --fast|unknown option --fast|usage
 run good.yaml -x|unknown option -x|usage
 run good.yaml good.yaml|two scenes are given|
@@ -432,7 +432,7 @@ run good.yaml -t two|-t two|from 1 to 4096
 run good.yaml -t 1e3|-t 1e3|from 1 to 4096
 run good.yaml -t 99999999999999999999|-t|from 1 to 4096
 run good.yaml -t|-t needs a value|
-check|no scene given|usage
+check|no scene is given|usage
 check missing.yaml|missing.yaml|
 plot|plot:|usage
 plot kept kept|plot:|

@@ -156,7 +156,7 @@ refused()
     is "status of $*" $? 2
     grep -qF -e "$wanted" err && pass || fail "$*: $(cat err)"
 }
-refused "no scene given" -o none
+refused "no scene is given" -o none
 refused "is too small" bar.yaml --budget 1us -o tiny
 refused "more than 10.5" bar.yaml --horizon --levels 6 -o none
 refused "give a time, such as" bar.yaml --budget 10mm -o none

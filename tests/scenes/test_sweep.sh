@@ -179,7 +179,7 @@ refused "particles.spacing" bar.yaml -s particles.spacing=1mm,-1mm -o none
 refused "one of the two" bar.yaml -s method=pd,mpm --list --collect -o none
 refused "contains no study" bar.yaml -s method=pd,mpm --collect -o none
 refused "contains a run, not a study" bar.yaml -s method=pd,mpm -o two/spacing=1mm,traction=5MPa,0
-refused "more than 100000" bar.yaml -s time.safety=0.1:0.9:0.0001 -s particles.seed=1:100:1 -o none
+refused "more than the limit of 100000" bar.yaml -s time.safety=0.1:0.9:0.0001 -s particles.seed=1:100:1 -o none
 holds "nothing is left behind" test ! -e none
 
 # ---- one at a time, and kills ----------------------------------------------------------------------------------------

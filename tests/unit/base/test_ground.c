@@ -109,7 +109,8 @@ static void out_of_memory_says_so(void **state)
         assert_ptr_equal(strchr(line, '\n'), line + strlen(line) - 1); /* one line */
         if (count[c] < 0) continue;
         char wanted[80];
-        snprintf(wanted, sizeof wanted, "out of memory: the array bonds.w needs %lld entries of 8 bytes", (long long)count[c]);
+        snprintf(wanted, sizeof wanted, "out of memory: the array bonds.w needs %lld entries of 8 bytes",
+                 (long long)count[c]);
         assert_int_equal(exit_of(grow, &count[c], line), FAILED);
         assert_non_null(strstr(line, wanted));
     }

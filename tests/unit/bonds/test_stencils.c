@@ -236,7 +236,8 @@ static void test_fault(void **state)
     assert_string_equal(bonds_describe_first_inconsistency(b), "neighbours are not consecutive");
     b->nbr[q]--;
     b->common[column].first++;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "the first neighbour of a column differs from its common value");
+    assert_string_equal(bonds_describe_first_inconsistency(b),
+                        "the first neighbour of a column differs from its common value");
     b->common[column].first--;
     b->reach = 0;
     assert_string_equal(bonds_describe_first_inconsistency(b), "a bond reaches more row blocks than allowed");

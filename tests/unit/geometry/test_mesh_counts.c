@@ -39,8 +39,10 @@ static void wrong_ones(void **state)
     static const struct {
         const char *name, *text, *from, *to, *message;
     } bad[] = {
-        {"a.msh", msh2, "Elements\n2", "Elements\n1", "a.msh:19: $Elements gives 1 elements, but more follow in place of"},
-        {"a.msh", msh2, "$Nodes\n4", "$Nodes\n3", "a.msh:14: $Nodes gives 3 nodes, but more follow in place of $EndNodes"},
+        {"a.msh", msh2, "Elements\n2", "Elements\n1",
+         "a.msh:19: $Elements gives 1 elements, but more follow in place of"},
+        {"a.msh", msh2, "$Nodes\n4", "$Nodes\n3",
+         "a.msh:14: $Nodes gives 3 nodes, but more follow in place of $EndNodes"},
         {"a.msh", msh2, "Names\n2", "Names\n1", "a.msh:7: $PhysicalNames gives 1 names, but more follow"},
         {"a.msh", msh2, "2 1 1 3 4", "1 1 3 1 2", "1 element has the corners of another one (element 2 has those of"},
         {"a.msh", msh4, "0 0 1 0", "0 0 0 0", "$Entities gives 0 entities, but more follow"},
