@@ -126,7 +126,7 @@ refused "viridis" results/strip --colours rainbow
 refused "for films" results/strip --fps 10
 refused "a width in pixels or mm" results/strip --size 52mm
 refused "a width in pixels or mm" results/strip --size 85mmx300
-refused "magnified" --scene strip.yaml --magnify 3
+refused "crop and --magnify" --scene strip.yaml --magnify 3
 # What happens in the run is drawn: damage where bonds break, else plastic strain or stress, also with a slit that does
 # not grow.
 "$cleave" plot results/strip -o default.png $small >out 2>err
