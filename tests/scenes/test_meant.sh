@@ -118,7 +118,7 @@ says "a crack outside in space" 'crack 1 is outside all bodies, 0.016 m from' "$
     -s 'body={box: {from: [0, 0, 0], to: [20 mm, 20 mm, 20 mm]}}' -s 'cracks=[{polygon: [[0, 0, 35 mm], [20 mm, 0, 35 mm], [20 mm, 20 mm, 35 mm], [0, 20 mm, 35 mm]]}]'
 says "a horizon of one spacing" 'warning: particles.horizon: 1 gives each particle bonds along the axes of the lattice only (4)' "$glass" -s particles.horizon=1
 silent "a horizon of eight neighbours" 'particles.horizon:' "$glass" -s particles.horizon=1.5
-says "a step above the critical one" 'warning: .* time.step is 1e-06 s, 3.[0-9]* times the critical .* use at most' "$glass" -s time.step=1us
+says "a step above the critical one" 'warning: .* time.step is 1e-06 s, 3.[0-9]* times the critical .* set it to at most' "$glass" -s time.step=1us
 says "a tip that nothing moves" 'warning: probe tip will have no result, because no bond can break: no material has an energy_release_rate.* (-s probes=.tip.)$' "$glass" -s 'probes=[tip]' -s material.critical_stretch=
 silent "a tip that moves" 'no bond can break' "$glass" -s 'probes=[tip]'
 silent "a tip that is grown" 'no bond can break' inputs/kalthoff_sif.yaml
@@ -290,7 +290,7 @@ particles: {spacing: 1 mm}
 boundary: [{name: a, fixed: all, face: y-}, {name: b, velocity: [0, 0.5 m/s], face: y+}]
 END
 plate=$work/plate.yaml
-says "a region in m" '^warning: boundary a holds all 400 particles, so nothing can move; check the units of its region (m if none is written) (' "$plate" \
+says "a region in m" '^warning: boundary a fixes all 400 particles, so nothing can move; check the units of its region (m if none is written) (' "$plate" \
     -s 'boundary=[{name: a, fixed: all, region: {box: {from: [0, 0], to: [20, 1]}}}]'
 silent "a region in mm" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: all, region: {box: {from: [0, 0], to: [20 mm, 1 mm]}}}'
 # The layer behind a face is three particles deep.
@@ -325,7 +325,7 @@ silent "a hole" 'of its shape' "$plate" -s "$(solids 'subtract: {disc: {centre: 
 silent "a disc across an edge" 'of its shape' "$plate" -s "$(solids 'disc: {centre: [20 mm, 10 mm], radius: 2 mm}')"
 # From 20 mm to the lower end of a disc at 8.997 m, less a spacing, at 50 m/s: 0.1795 s.
 fly() { echo "bodies=[{name: plate, shape: {box: {from: [0, 0], to: [20 mm, 20 mm]}}}, {name: ball, shape: {disc: {centre: [10 mm, $1], radius: 3 mm}}, velocity: [$2]}]"; }
-says "a ball too far away" '^warning: body ball reaches plate after 0.18 s, but the duration is 1e-05 s' "$plate" -s body= -s boundary=[] -s "$(fly '9 m' '0, -50')"
+says "a ball too far away" '^warning: body ball would reach plate after 0.18 s, but the duration is 1e-05 s' "$plate" -s body= -s boundary=[] -s "$(fly '9 m' '0, -50')"
 says "a ball that flies away" '^warning: body ball never reaches another body, because its velocity leads past plate or away' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '0, 50')"
 says "a ball that flies away from where it touches" '^warning: body ball never reaches another body' "$plate" -s body= -s boundary=[] -s "$(fly '23 mm' '0, 50')"
 says "a ball that flies away from less than a spacing" '^warning: body ball never reaches another body' "$plate" -s body= -s boundary=[] -s "$(fly '23.6 mm' '0, 50')"
