@@ -132,7 +132,7 @@ static void say_time_step(const struct run *e)
     if (scene_has_load_steps(e->scene))
         print_load_step_solver(e);
     else if (scene_is_single_equilibrium(e->scene))
-        printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld steps\n",
+        printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld iterations\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
     else
         printf("time step      %.4g s%s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->clock.dt,
@@ -225,7 +225,7 @@ static void say_interfaces(const struct scene *s)
     for (int k = 0; k < s->interfaces; k++) {
         const struct scene_interface *i = &s->interface[k];
         if (i->critical_stretch > 0)
-            printf("interface      %s and %s: bonds break at a stretch of %.4g, by %.4g J/m^2\n",
+            printf("interface      %s and %s: bonds break at a stretch of %.4g (%.4g J/m^2)\n",
                    s->body[i->body[0]].name, s->body[i->body[1]].name, i->critical_stretch, i->energy_release_rate);
     }
 }

@@ -278,7 +278,7 @@ status manual_print_page_on_runs(FILE *out)
         }
         fputc('\n', out);
     }
-    fprintf(out, "What is written is whole: `cleave help trust`. Bodies, loads, results, studies: "
+    fprintf(out, "Files are never left half-written: `cleave help trust`. Bodies, loads, results, studies: "
                  "inputs/README.md.\n");
     return OK;
 }

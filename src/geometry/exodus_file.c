@@ -247,7 +247,7 @@ status exodus_read_block_header(const struct exodus_file *f, int64_t block_numbe
                                    (long long)block_number, called);
     if (!a.elements[0])
         return exodus_report_fault(
-            f, "block %lld does not name the type of its elements; add the attribute elem_type of %s",
+            f, "block %lld does not name the type of its elements; add the attribute elem_type to the variable %s",
             (long long)block_number, called);
     *elements = a.extent[0], *nodes_per_element = a.extent[1];
     memcpy(type, a.elements, NAME_MAX_LENGTH);

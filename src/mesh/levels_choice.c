@@ -195,9 +195,11 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
     if (c->rise.pulse)
         snprintf(text, capacity, "require waves at least %g spacings long", 4 * RISES * edge);
     else
-        snprintf(text, capacity,
-                 "require a rise over at least %g spacings, or a body at least %d spacings thick (this one: %.3g)",
-                 RISES * edge, edges * edge, c->across);
+        snprintf(
+            text, capacity,
+            "require loads that rise over at least %g spacings (time times wave speed), or a body at least %d spacings "
+            "thick (this one: %.3g)",
+            RISES * edge, edges * edge, c->across);
 }
 
 /* Writes to text[capacity] the reason for the number of coarsening levels of cells that was chosen automatically for

@@ -340,7 +340,7 @@ const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, 
     if (s->bodies > 1) return "bodies have contact only on the grid of the current frame";
     if (s->body[body].file) return "it needs particles on a regular lattice, which particles from a list may not have";
     if (!scene_has_load_steps(s) && body_yields(s, body))
-        return "materials that yield may strain more than the reference frame allows";
+        return "materials that yield may strain more than the reference frame, whose strains are small, allows";
     return NULL;
 }
 

@@ -40,7 +40,7 @@ static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR 
 static status check_twins(const struct reader *r, const struct yaml_node *map)
 {
     if (map->n > KEYS_MOST)
-        return fault(r, map, "has %d keys, more than any mapping of a scene can have; remove some", map->n);
+        return fault(r, map, "has %d keys, but a mapping has at most %d; remove some", map->n, KEYS_MOST);
     for (const struct yaml_node *n = map->first; n; n = n->next) TRY(check_key_given_once(r, map, n));
     return OK;
 }

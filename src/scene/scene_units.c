@@ -378,7 +378,7 @@ static bool in_bounds(struct complaint c, real value, enum unit unit)
     if (!isfinite(value)) return complain(c, "is not finite", unit);
     if (fabs(value) > NUMBER_MOST) return complain(c, "is above 1e30 in SI units", unit);
     if (fabs(value) < NUMBER_LEAST && fabs(value) > 0)
-        return complain(c, "is below 1e-30 in SI units, and not 0", unit);
+        return complain(c, "is not 0, but smaller than 1e-30 in SI units", unit);
     return true;
 }
 

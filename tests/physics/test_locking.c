@@ -32,10 +32,10 @@ static const char bar[] = "name: bar\nspace: solid\nduration: 80 us\nmethod: mpm
                           "initial: [{velocity: [0, 0, -190]}]\noutput: {frames: 0, samples: 1}\n";
 
 /* Tests a copper bar at 190 m/s on a rigid wall, at rest after 80 us, with `shape`. MPM3D-F90 (Zhang, Chen, Liu 2016)
- * with these cells and points: the centre of the top layer at 16.24 mm, largest radius 6.56 mm, and a pressure of 1.36
- * GPa (root mean square), of which most is a checkerboard: the flow stress is 0.5 GPa. With own dilatations of the
- * points Cleave has 1.24 GPa. With means of cells the foot is softer, by 3 % of its radius. pressure_most: limit of the
- * pressure [Pa]. */
+ * with these cells and points: the centre of the top layer at 16.24 mm, largest radius 6.56 mm, and
+ * a pressure of 1.36 GPa (root mean square), of which most is a checkerboard: the flow stress is 0.5 GPa. With own
+ * dilatations of the points Cleave has 1.24 GPa. With means of cells the foot is softer, by 3 % of its radius.
+ * pressure_most: limit of the pressure [Pa]. */
 static void bar_case(const char *shape, real pressure_most)
 {
     struct held_run *r = NEW("test.run", 1, struct held_run);

@@ -168,7 +168,7 @@ costs "levels: what they save" '^levels  *[0-9]* of 133400 particles are in coar
 says "levels: none, too small" '^levels  *no coarse cells: the body has only [0-9]* particles, and coarse cells save time only with 100000 or more' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
 says "levels: none, a long step" '^levels  *no coarse cells: time.step is 0.7[0-9] of the critical time step, but coarse cells are stable only up to 0.70' "$far" -s time.step=0.03us
 narrow="body={box: {from: [0, 0], to: [200 mm, 15 mm]}}"
-says "levels: none, too sudden" 'no coarse cells: boundary pull is sudden, but cells of 4 spacings require a rise over at least 10 spacings, or a body at least 200 .*(this one: 100)$' "$far" -s "$narrow"
+says "levels: none, too sudden" 'no coarse cells: boundary pull is sudden, but cells of 4 spacings require loads that rise over at least 10 spacings (time times wave speed), or a body at least 200 .*(this one: 100)$' "$far" -s "$narrow"
 says "levels given" '^levels  *coarse cells of up to 16 spacings, set by mpm.levels; auto would choose: coarse cells of up to 4' "$far" -s mpm.levels=3
 says "levels: none, too thin" 'no coarse cells: they need parts at least 24 spacings thick (6 cells of 4 spacings), and the body has none$' "$far" -s boundary=[] \
     -s "body={box: {from: [0, 0], to: [1200 mm, 3 mm]}}"
@@ -191,8 +191,8 @@ too_coarse()
 initial_pulse() { echo "initial=[{pulse: {at: [50 mm, 0], direction: [1, 0], width: $1, velocity: 1}}]"; }
 too_coarse "a pulse of 77 spacings" '4 makes .* a wave 76.8 spacings long: cells of this size require waves at least 320 spacings long; set mpm.levels: 1 or auto' -s "$pulse" -s mpm.levels=4
 too_coarse "a pulse of 60 spacings" '4 makes coarse cells of 32 spacings, but initial pulse 1 makes a wave 60 ' -s boundary=[] -s "$(initial_pulse "9 mm")" -s mpm.levels=4
-too_coarse "a sudden load" '2 makes .* is sudden: cells of this size require a rise over at least 20 spacings, or a body at least 200 .*(this one: 100); set mpm.levels: 1 or auto' -s "$narrow" -s mpm.levels=2
-too_coarse "a ramp of 23 spacings" '3 makes .* require a rise over at least 40 spacings, or a body at least 400 .*(this one: 200); set mpm.levels: 2 or auto' -s "$ramp" -s mpm.levels=3
+too_coarse "a sudden load" '2 makes .* is sudden: cells of this size require loads that rise over at least 20 spacings .*or a body at least 200 .*(this one: 100); set mpm.levels: 1 or auto' -s "$narrow" -s mpm.levels=2
+too_coarse "a ramp of 23 spacings" '3 makes .* require loads that rise over at least 40 spacings .*or a body at least 400 .*(this one: 200); set mpm.levels: 2 or auto' -s "$ramp" -s mpm.levels=3
 silent "a ramp of 23 spacings and cells of 8" 'accuracy  *mpm.levels' "$far" -s "$ramp" -s mpm.levels=2
 silent "a pulse of 220 spacings and cells of 16" 'accuracy  *mpm.levels' "$far" -s boundary=[] -s "$(initial_pulse "33 mm")" -s mpm.levels=3
 silent "a rotation at rate 0" ' is sudden' "$far" -s boundary=[] -s "initial=[{rotation: {centre: [0, 0], rate: 0}}]" -s mpm.levels=2
