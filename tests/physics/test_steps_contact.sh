@@ -146,7 +146,7 @@ work_of_block() { compute "0.5 * 0.05e-3 * $(column "$work/blocks" roller_force_
 near "blocks: work of the first step" "$(column "$work/blocks" external_work 0.5)" "$(work_of_block)" 1e-3
 between "blocks: nothing is lost" "$(compute "$(last blocks damped)/$(last blocks external_work)")" -1e-3 1e-3
 between "above: carries" "$(last above roller_force_y)" 20 400
-says() { grep -c 'slid by' "$work/$1/summary.json"; }
+says() { grep -c 'where only contact holds it' "$work/$1/summary.json"; }
 is "slides: said" "$(says slides)" 1
 is "blocks: nothing of that" "$(says blocks)" 0
 

@@ -95,7 +95,7 @@ other "$work/mirror.yaml"
 
 refused 'the model ospd cannot yield; set `model: bond`' "$plate" -s model=ospd $yields
 remedied -s model=bond
-refused 'model ospd cannot yield; use no key model' "$plate" -s method=mpm -s model=ospd $cook
+refused 'the model ospd cannot yield; set no key model' "$plate" -s method=mpm -s model=ospd $cook
 remedied -s model=
 refused 'the model mospd cannot yield; set `method: mpm` without the key model' "$plate" -s model=mospd -s material.poisson=0.2 $yields
 remedied -s method=mpm -s model=

@@ -53,6 +53,6 @@ bad "no pairs" "is not a point of the table" -s 'materials.0.rate.table=[10, 1]'
 bad "too strong" "particles.spacing below 4.2" -s 'materials.0.rate.table=[[10, 2]]'
 bad "above a tenth of E" "above a tenth" -s 'materials.0.rate.table=[[10, 100]]' -s materials.0.tensile_strength=100MPa -s particles.spacing=0.02mm
 bad "no strength" "has no effect without tensile_strength" -s materials.0.tensile_strength=
-bad "a surface" "cannot depend on the rate" -s materials.0.compressive_strength=1GPa
+bad "a surface" "a strength surface cannot depend on the strain rate; remove rate" -s materials.0.compressive_strength=1GPa
 bad "load steps" "have no strain rate" -s solver=static
 finish
