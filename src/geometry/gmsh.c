@@ -96,7 +96,8 @@ static status entities_read(struct gmsh *g)
 static status format_refuse(const struct gmsh *g, const char *version)
 {
     return source_report_fault(
-        g->s, "Gmsh's file format %s is not supported; save it as 4.1 (gmsh -save -format msh41) or 2.2", version);
+        g->s, "Gmsh's file format %s is not supported; save the mesh as 4.1 (gmsh -save -format msh41) or 2.2",
+        version);
 }
 
 /* Reads the header of the file. Returns REFUSED unless the version is 2.2 or 4.1, and numbers are as here. */

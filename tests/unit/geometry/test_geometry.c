@@ -287,7 +287,7 @@ static void bad_gmsh(void **state)
                {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, but $Nodes does not define it"},
                {"4 6 2 2 2", "4 77 2 2 2", "type 77"},
                {"$Nodes", "$Knots", "ends without $Nodes"},
-               {"\"grip\"", "grip", "write the name in quotes"},
+               {"\"grip\"", "grip", "is not in quotes; write it in quotes"},
                {"3 6 2 2 2 2 3 6 102 103 106\n4 6 2 2 2 2 6 5 102 106 105", "", "$EndElements is no"}};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
         write_changed("bad.msh", msh2, bad[k].from, bad[k].to);

@@ -49,9 +49,9 @@ static void wrong_ones(void **state)
         {"a.msh", msh4, "1 4 1 4", "1 3 1 4", "the section gives 3 nodes, but its blocks contain 4"},
         {"a.msh", msh4, "2 2 1 2", "2 3 1 2", "the section gives 3 elements, but its blocks contain 2"},
         {"a.msh", msh4, "2 2 1 2", "1 1 1 2", "$Elements gives 1 blocks, but more follow"},
-        {"a.msh", msh2, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "$NOD\n", "file format 1 is not supported; save it"},
+        {"a.msh", msh2, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "$NOD\n", "file format 1 is not supported; save the mesh"},
         {"a.inp", inp, "2, 1, 3, 4", "2, 1, 3, 4\n*Nset, nset=a\nb",
-         ":10: set a lists b, which is no set that is given"},
+         ":10: set a lists b, which is not the name of an earlier set"},
         {"a.inp", inp, "2, 1, 3, 4", "1, 1, 3, 4", "element 1 is given twice"},
         {"a.inp", inp, "2, 1, 3, 4", "7, 2, 3, 1", "1 element has the corners of another one (element 7 has those of"},
     };
