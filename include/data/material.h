@@ -134,10 +134,11 @@ real material_uniaxial_stress(const struct material *m, real strain);
  * plane strain or solid): hardening modulus, elastic constants and wave speeds. */
 void material_compute_derived_constants(struct material *m, enum space space);
 
-/* Strengths [Pa] that follow from the strength surface of a material: in uniaxial tension, equal biaxial tension, shear
- * and hydrostatic tension. In plane strain the first two states include the stress normal to the plane. */
+/* Strengths [Pa] that follow from the strength surface of a material: in uniaxial tension, equal biaxial tension,
+ * shear, hydrostatic tension and uniaxial compression, INFINITY if no stress of that kind reaches the surface. In plane
+ * strain uniaxial and biaxial states include the stress normal to the plane. */
 struct surface_strengths {
-    real tension, biaxial, shear, hydrostatic;
+    real tension, biaxial, shear, hydrostatic, compression;
 };
 
 /* Returns the strengths [Pa] that follow from the strength surface of material m: the stresses at which the surface is

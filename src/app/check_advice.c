@@ -364,7 +364,7 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
 static void hint_model(const struct scene *s, struct warnings *to)
 {
     const real wanted = bond_based_poisson_ratio(s->space);
-    if (s->model == MODEL_BOND || s->dim == 1) return;
+    if (s->model == MODEL_BOND || s->dim == 1 || s->method == METHOD_MPM) return;
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
     warnings_add_if_new(to,

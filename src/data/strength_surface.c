@@ -84,10 +84,13 @@ struct surface_strengths material_strength_surface_strengths(const struct materi
 {
     real tension[] = {1, 0, 0}, biaxial[] = {1, 1, 0};
     const real shear[] = {1, -1, 0}, hydrostatic[] = {1, 1, 1};
-    if (space != SPACE_SOLID) complete_state(m, space, tension), complete_state(m, space, biaxial);
+    real pressure[] = {-1, 0, 0};
+    if (space != SPACE_SOLID)
+        complete_state(m, space, tension), complete_state(m, space, biaxial), complete_state(m, space, pressure);
     return (struct surface_strengths){
         strength_surface_strength_along(&m->surface, tension), strength_surface_strength_along(&m->surface, biaxial),
-        strength_surface_strength_along(&m->surface, shear), strength_surface_strength_along(&m->surface, hydrostatic)};
+        strength_surface_strength_along(&m->surface, shear), strength_surface_strength_along(&m->surface, hydrostatic),
+        strength_surface_strength_along(&m->surface, pressure)};
 }
 
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress)

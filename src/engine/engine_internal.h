@@ -122,6 +122,11 @@ real engine_particle_count_between_positions(const struct scene *s, real low, re
  * and, if particles p have temperatures, about materials that start at different ones, or flow without being heated. */
 void engine_warn_of_temperatures(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
+/* Warns of materials of scene s whose strength surface (failure criterion in stress) averages strains over more than
+ * half of the shortest side of a body: bending strains then have a mean near 0, and the body bears too much. p:
+ * particles of the run. Adds the warnings to *warnings. */
+void engine_warn_of_wide_strength_means(const struct scene *s, const struct particles *p, struct warnings *warnings);
+
 /* Adds warnings to *warnings about solids in the shapes of the bodies of scene s that add nothing to the body or remove
  * nothing from it. */
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);

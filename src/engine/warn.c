@@ -270,6 +270,7 @@ void engine_warn_of_suspicious_input(struct run *e)
     warn_of_probes(s, to);
     engine_warn_of_mistaken_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
     engine_warn_of_temperatures(s, &e->part, to);
+    engine_warn_of_wide_strength_means(s, &e->part, to);
     engine_warn_of_isolated_particles(s, &e->cells, &e->bonds, &e->part, to);
     engine_warn_of_fast_supports(s, &e->loads, &e->part, to);
     engine_warn_of_particles_faster_than_waves(&e->part, e->tables.wave_speed, to);

@@ -158,6 +158,7 @@ static void key_path_of_line(const char *text, const char *line, char *path, siz
 static status refuse_other_scene(const char *folder, const char *former, const char *now)
 {
     enum { SHOWN = 200 };
+    static const char remedy[] = "repeat its options -s, or choose another -o or --overwrite";
     const char *a = former, *b = now;
     char key[100];
     size_t own;
@@ -166,15 +167,12 @@ static status refuse_other_scene(const char *folder, const char *former, const c
     a += strspn(a, " -"), b += strspn(b, " -");
     const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n"), path = (int)(line_meaning(b, &own) - b);
     if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0)
-        return status_set(
-            REFUSED, "%s: %s contains the run of another scene: %.*s has changed; choose another -o or --overwrite",
-            key, folder, path, b);
+        return status_set(REFUSED, "%s: %s contains the run of another scene: %.*s has changed; %s", key, folder, path,
+                          b, remedy);
     const bool lasts = strncmp(a, "duration:", strlen("duration:")) == 0;
-    return status_set(
-        REFUSED,
-        "%s: %s contains the run of another scene, with `%.*s` in place of `%.*s`%s; choose another -o or --overwrite",
-        key, folder, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b,
-        lasts ? ": a run cannot change its duration" : "");
+    return status_set(REFUSED, "%s: %s contains the run of another scene, with `%.*s` in place of `%.*s`%s; %s", key,
+                      folder, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b,
+                      lasts ? ": a run cannot change its duration" : "", remedy);
 }
 
 /* Returns true if the file `path` is the scene.yaml of a run: its text is scene_text, or Cleave wrote it and it is

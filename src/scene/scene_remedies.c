@@ -159,7 +159,8 @@ status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node 
     if (change)
         return fault(
             r, poisson_node,
-            "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use %s for any ratio",
+            "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use %s for any ratio, or "
+            "remove this key",
             node_text(r, poisson_node), bonds, space_names[r->scene->space], change);
     return fault(r, poisson_node,
                  "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use the ratio of bonds, "

@@ -15,6 +15,9 @@
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
+/* Largest radius within which strains are averaged [horizons]; takes 10^4 means of families. */
+enum { FARTHEST = 100 };
+
 status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,
                                              const struct material *material, real strength)
 {
@@ -126,6 +129,9 @@ status read_strength_surface(struct reader *r, const struct yaml_node *material_
     TRY(surface_from(r, given, key, material));
     const real share = s->space == SPACE_PLANE_STRESS ? RADIUS_PLANE_STRESS : RADIUS_ELSE;
     const real reach = radius ? material->strength_radius : share * characteristic_length(s, material);
+    if (radius && reach > FARTHEST * s->horizon * s->spacing)
+        return fault(r, radius, "%.4g m is more than %d horizons; give at most %.4g m", reach, FARTHEST,
+                     FARTHEST * s->horizon * s->spacing);
     material->surface_means = (int)real_min(1e4, real_max(0, ceil(square(reach / (s->horizon * s->spacing)) - 0.3)));
     material->onset_stretch = material->critical_stretch / sqrt(OWN_RATIO);
     return check_first(r, yaml_node_find(material_node, "tensile_strength"), material);

@@ -500,7 +500,7 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
     }
     snprintf(text, sizeof text,
              "boundary %s%s: bonds of the particles that it drives break, the first %s, so the grip may tear off and "
-             "no longer load the body; drive a deeper layer (depth), or look at the damage there. These bonds count in "
+             "no longer load the body; drive a deeper layer (a larger depth or region), or look there. They count in "
              "crack.driven_bonds, not in crack.start_time and probes",
              name, others > 0 ? " and others" : "", when);
     warnings_add_and_print(to, text);
