@@ -40,7 +40,8 @@ static status carries_method(const struct scene *s)
 
 static status carries_materials(const struct scene *s, bool bond_style)
 {
-    if (any_yields(s)) return lammps_refuse(s, "yield_stress: metals that yield cannot be exported to LAMMPS; set yield_stress: inf");
+    if (any_yields(s))
+        return lammps_refuse(s, "yield_stress: metals that yield cannot be exported to LAMMPS; set yield_stress: inf");
     for (int m = 0; m < s->materials; m++)
         if (material_has_softening_bonds(&s->material[m]))
             return lammps_refuse(s, "tensile_strength: LAMMPS has no bonds that soften; remove it (bonds are then "

@@ -88,7 +88,8 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
 {
     enum { CONTOURS_MAX = 16 };
     if (p->kind != PROBE_SIF) return OK;
-    if (r->dim != 2) return fault(r, map ? map : n, "the probe sif works in plane stress and plane strain only; remove it");
+    if (r->dim != 2)
+        return fault(r, map ? map : n, "the probe sif works in plane stress and plane strain only; remove it");
     const struct number_list *c = &p->contours;
     const struct yaml_node *contours = yaml_node_find(map, "contours");
     if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; give 1 to %d", c->n, CONTOURS_MAX);

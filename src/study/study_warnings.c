@@ -16,6 +16,7 @@ enum { WARNING_ROOM = 1024, KINDS_MOST = 64 };
 struct warning_kind {
     char text[WARNING_ROOM];
     int runs, last; /* number of runs that have it; index of the last one */
+    bool differs;   /* the numbers of later texts differ from those of the first */
 };
 
 /* Returns true if the texts a and b of two warnings are equal or differ only in their numbers. */
@@ -42,6 +43,7 @@ static void warning_book(struct warning_kind *kind, int *kinds, const char *text
         kind[(*kinds)++] = (struct warning_kind){.last = -1};
         snprintf(kind[k].text, sizeof kind[k].text, "%s", text);
     }
+    kind[k].differs = kind[k].differs || strcmp(kind[k].text, text) != 0;
     kind[k].runs += kind[k].last != run;
     kind[k].last = run;
 }
@@ -62,7 +64,8 @@ void study_print_warnings(const struct study *s, FILE *out)
     }
     for (int k = 0; k < kinds; k++) {
         text_replace_control_characters(kind[k].text);
-        fprintf(out, "warning: in %d of %d runs: %s\n", kind[k].runs, runs, kind[k].text);
+        fprintf(out, "warning: in %d of %d runs%s: %s\n", kind[k].runs, runs,
+                kind[k].differs ? " (numbers of the first of them)" : "", kind[k].text);
     }
     memory_free(kind);
 }

@@ -199,8 +199,16 @@ holds "check: strengths" grep -q 'strength  *glass: 4e+07 Pa in tension, 2.70[0-
 holds "check: means" grep -q 'strains are averaged over 0.0003438 m (1 means over families)' "$work/said"
 holds "check: horizon" grep -q 'with a horizon of 0.000139[0-9]* m or more the stress does not reach the surface' "$work/said"
 holds "check: shear" grep -q 'in shear bonds soften at about 3.[0-9]*e+07 Pa already, before the surface is reached' "$work/said"
+# Bonds across uniaxial pressure reach the end of softening, sqrt(2) s_c, at E/nu times that, with s_c^2 = 4 pi G_c/(9 E horizon).
+horizon=$(sed -n 's/^ *horizon \([0-9.e-]*\) m, .*/\1/p' "$work/said")
+near "check: compression" "$(sed -n 's/.*bonds across it break at \([0-9.e+]*\) Pa at the latest.*/\1/p' "$work/said")" \
+    "$(compute "sqrt(2)*70e9*3*sqrt(4*3.14159265*10/(9*70e9*${horizon:-0}))")" 1e-3
+is "check: a plate wider than twice the radius" "$(grep -c 'averages strains' "$work/said")" 0
+"$cleave" check "$work/square.yaml" --no-trial -s materials.0.strength_radius=2.5mm >"$work/said" 2>&1
+holds "check: a wide radius" grep -q 'averages strains over 0.0025[0-9]* m, but body body is only 0.004 m thick: .* strength_radius below 0.002 m' "$work/said"
 
 bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/square.yaml" "$@"; }
+bad "a radius beyond 100 horizons" "is more than 100 horizons; give at most" -s materials.0.strength_radius=1m
 other() { what=$1 words=$2; shift 2; bad "$what" "$words" -s materials.0.compressive_strength= "$@"; }
 bad "a large horizon" "particles.spacing below 0.0001" -s particles.spacing=0.2mm
 bad "two surfaces" "biaxial_strength" -s materials.0.biaxial_strength=27MPa
