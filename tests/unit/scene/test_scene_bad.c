@@ -95,10 +95,10 @@ static const struct {
     {"190 GPa", "1e-400", "7:3: young: 1e-400 is out of range; give a stress above 0, such as 190 GPa"},
     {"poisson: 1/3", "poisson: 0.3",
      "8:3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space plane stress; use "
-     "`model: ospd` for any ratio"},
+     "`model: ospd` for any ratio, or remove this key"},
     {"poisson: 1/3", "poisson: 0.3\n  yield_stress: 1 GPa",
      "8:3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space plane stress; use "
-     "`method: mpm` for any ratio"},
+     "`method: mpm` for any ratio, or remove this key"},
     {"kJ/m^2\n", "kJ/m^2\n  yield_stress: 1 GPa\nmodel: ospd\n",
      "11:3: yield_stress: the model ospd cannot yield; set `model: bond`"},
     {"poisson: 1/3", "poisson: 0.5", "8:3: poisson: 0.5 is out of range; give a plain number above -1 up to 0.4999"},
@@ -433,7 +433,7 @@ static const struct {
     {{"method", "*a"}, "-s method=*a: an alias (*) is not allowed in a scene; write the value out"},
     {{"material.poisson", "0.3"},
      "-s material.poisson=0.3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space "
-     "plane stress; use `model: ospd` for any ratio"},
+     "plane stress; use `model: ospd` for any ratio, or remove this key"},
     {{"duration", ""}, "x:1:1: duration: missing; give a time, such as 20 us"},
 };
 
