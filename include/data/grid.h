@@ -31,7 +31,7 @@ struct damping_shares {
  * are owned. */
 struct grid {
     int dim;
-    int body;                  /* 0: the grid has points of all bodies; else 1 + index of the only body */
+    int body;                  /* number of the body whose points the grid has, from 1; 0: all bodies */
     real h;                    /* distance of neighbouring nodes, edge of a cell [m] */
     real anchor[DIM_MAX];      /* position of node 0 [m] */
     int64_t first[DIM_MAX];    /* lowest node of the box, counted from the anchor */

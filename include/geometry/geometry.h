@@ -20,6 +20,10 @@ struct geometry_set {
     struct hull hull;
 };
 
+/* Returns true if `name` is the name of the set itself in its instance (of an Abaqus assembly), in any case of letters;
+ * false if the set belongs to no instance. */
+bool geometry_set_has_own_name(const struct geometry_set *set, const char *name);
+
 /* The surface of a body and its named parts set[sets], all coordinates in metres. */
 struct geometry {
     struct hull whole; /* surface of the body; of a list of particles, which has sets alone, dim is 0 */

@@ -104,17 +104,6 @@ status output_check_series_folder_is_free(const char *folder, const char *series
  * created. */
 status output_add_frame_series(struct output *o, const char *series_name, const struct region *region);
 
-/* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
- * checksums, not by their paths. */
-bool scene_texts_are_equal(const char *a, const char *b);
-
-/* Returns true if the file `path` contains the text of the same scene as scene_text, apart from the paths of files with
- * equal contents. Returns false also if the file cannot be read. */
-bool scene_file_has_text(const char *path, const char *scene_text);
-
-/* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
-bool scene_text_is_from_cleave(const char *text);
-
 /* Writes `length` bytes of `text` to the file `file_name` in the folder of the run o, first under a temporary name,
  * which is then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be
  * written. */

@@ -33,4 +33,8 @@ real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const stru
  * have an energy release rate. */
 real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m);
 
+/* Returns the radius [m] within which strains are averaged for the strength surface of material m of scene s: the
+ * horizon times sqrt(n + 0.3) for n means over families. */
+real scene_strength_surface_radius(const struct scene *s, const struct material *m);
+
 #endif

@@ -16,10 +16,8 @@
 #define FEW 20.0         /* length of a crack, or of the material ahead, below which loads deviate [spacings] */
 #define NOTHING_BREAKS 0.8 /* tip stretch divided by critical stretch without an increment; 0.9 at Griffith's load */
 #define SLOWER 2.0         /* factor on the number of iterations of the first equilibrium for those with a long crack */
-#define LEAST_SHARE                                                                                                    \
-    0.03             /* least run time divided by the largest: early separation, fewer equilibria and iterations       \
-                      */
-#define SPACINGS 2.0 /* length of a crack increment [spacings] */
+#define LEAST_SHARE 0.03   /* least run time divided by the largest: early separation, fewer equilibria */
+#define SPACINGS 2.0       /* length of a crack increment [spacings] */
 /* LED_EQUILIBRIA: estimated number of equilibria for one crack increment whose direction follows from stress-intensity
  * factors. PAIRS_AT_ONCE: number of pairs of bonds that one equilibrium breaks in 2D. */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };

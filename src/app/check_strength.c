@@ -66,8 +66,7 @@ static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);
     const struct surface_strengths surface = material_strength_surface_strengths(m, s->space);
-    const real horizon = s->horizon * s->spacing,
-               unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
+    const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_strength own =
         softening_curve_normalised_strengths(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
     const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
@@ -80,7 +79,7 @@ static void print_surface(const struct scene *s, const struct material *m)
     if (isfinite(surface.compression)) printf(", %.4g Pa in uniaxial compression", surface.compression);
     if (s->dim == 3) printf(", %.4g Pa in hydrostatic tension", surface.hydrostatic);
     printf(", from a strength surface; strains are averaged over %.4g m (%d means over families)\n",
-           horizon * sqrt(m->surface_means + 0.3), m->surface_means);
+           scene_strength_surface_radius(s, m), m->surface_means);
     say_horizon(s, m);
     printf("; with a horizon of %.4g m or more the stress does not reach the surface",
            scene_strength_surface_largest_horizon(s, m));

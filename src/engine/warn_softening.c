@@ -3,22 +3,20 @@
 
 #include <math.h>
 
+#include "scene/scene_softening.h"
+
 /* Largest radius over which strains are averaged, divided by the shortest side of a body, without a warning. Measured:
  * a beam of concrete, 0.1 m deep, bears 1.2 times the moment of bonds that only soften at half of its depth, and 2.6
  * times at 2.2 depths, because the mean of a bending strain is nearly 0. */
 #define RADIUS_MOST 0.5
 
-/* Returns the shortest side [m] of the box around the particles of p that belong to body number `body`, whose lattice
- * has the spacing `spacing` [m]; INFINITY if the body has no particles. */
-static real shortest_side(const struct particles *p, int body, real spacing)
+/* Returns the shortest side [m] of the box around the particles of p that belong to body number `body` of scene s and
+ * to bodies joined to it; INFINITY if there are none. */
+static real shortest_side(const struct scene *s, const struct particles *p, int body)
 {
-    real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
-    real side = INFINITY;
-    for (int64_t i = 0; i < p->n; i++)
-        for (int d = 0; d < p->dim && p->body[i] == body; d++)
-            low[d] = fmin(low[d], p->X[d][i]), high[d] = fmax(high[d], p->X[d][i]);
-    for (int d = 0; d < p->dim; d++)
-        if (high[d] >= low[d]) side = fmin(side, high[d] - low[d] + spacing);
+    real low[DIM_MAX], high[DIM_MAX], side = INFINITY;
+    if (!engine_compute_box_of_joined_bodies(s, p, s->body[body].joined, low, high)) return INFINITY;
+    for (int d = 0; d < p->dim; d++) side = real_min(side, high[d] - low[d] + s->spacing);
     return side;
 }
 
@@ -27,8 +25,7 @@ void engine_warn_of_wide_strength_means(const struct scene *s, const struct part
     for (int b = 0; b < s->bodies; b++) {
         const struct material *m = &s->material[s->body[b].material];
         if (!material_has_strength_surface(m)) continue;
-        const real radius = s->horizon * s->spacing * sqrt(m->surface_means + 0.3),
-                   side = shortest_side(p, b, s->spacing);
+        const real radius = scene_strength_surface_radius(s, m), side = shortest_side(s, p, b);
         if (!(radius > RADIUS_MOST * side)) continue;
         warnings_add_if_new(warnings,
                             "material %s: its strength surface averages strains over %.3g m, but body %s is only %.3g "

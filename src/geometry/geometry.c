@@ -96,13 +96,18 @@ status geometry_read(struct geometry *g, const char *path, int dim, real scale, 
     return s;
 }
 
+bool geometry_set_has_own_name(const struct geometry_set *set, const char *name)
+{
+    return set->own > 0 && strcasecmp(set->name + set->own, name) == 0;
+}
+
 const struct geometry_set *geometry_find_named_part(const struct geometry *g, const char *name)
 {
     for (int k = 0; k < g->sets; k++)
         if (strcasecmp(g->set[k].name, name) == 0) return &g->set[k];
     const struct geometry_set *found = NULL;
     for (int k = 0; k < g->sets; k++)
-        if (g->set[k].own > 0 && strcasecmp(g->set[k].name + g->set[k].own, name) == 0) {
+        if (geometry_set_has_own_name(&g->set[k], name)) {
             if (found) return NULL;
             found = &g->set[k];
         }

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "output/output.h"
 #include "output/output_files.h"
+#include "output/scene_text.h"
 #include "output/checksum.h"
 #include "output/output_hdf5.h"
 

@@ -1,4 +1,5 @@
-/* Collects particles from lattices (fill.c) and from lists (fill_list.c). */
+/* Collects particles from lattices (fill.c) and from lists (fill_list.c), and sets their initial states
+ * (fill_initial.c). */
 #ifndef CLEAVE_FILL_DRAFT
 #define CLEAVE_FILL_DRAFT
 
@@ -37,5 +38,12 @@ status particle_draft_refuse_body(const struct particle_draft *d, int body_numbe
 /* Appends the particles of the body with the index `body_number` from its particle list file to d, the list of
  * particles to be created. Returns REFUSED, with a message, if the file cannot be read or is invalid. */
 status particle_draft_append_body_from_file(struct particle_draft *d, int body_number);
+
+/* Returns REFUSED, with a message, if an initial state of the scene s turns a body inside out; else OK. */
+status fill_check_initial_states(const struct scene *s);
+
+/* Applies the initial states of the scene s (velocities, strains, wave pulses) to the particles p; in a static problem
+ * all velocities are 0. spacing: distance of particles [m]. */
+void fill_set_initial_states(struct particles *p, const struct scene *s, real spacing);
 
 #endif

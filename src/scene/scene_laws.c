@@ -152,9 +152,9 @@ static status check_law_place(struct reader *r, const struct yaml_node *law_node
 
 const struct yaml_node *scene_material_yield_key(const struct yaml_node *material_node)
 {
-    static const char *const keys[] = {"yield_stress", "johnson_cook", "hardening"};
-    for (size_t k = 0; k < COUNT_OF(keys); k++)
-        if (yaml_node_find(material_node, keys[k])) return yaml_node_find(material_node, keys[k]);
+    static const char *const names[] = {"yield_stress", "johnson_cook", "hardening"};
+    for (size_t k = 0; k < COUNT_OF(names); k++)
+        if (yaml_node_find(material_node, names[k])) return yaml_node_find(material_node, names[k]);
     return material_node;
 }
 

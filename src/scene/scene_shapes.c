@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/memory.h"
 #include "geometry/image.h"
@@ -187,9 +186,9 @@ static status refuse_set(struct reader *r, const struct yaml_node *n, const char
 {
     char names[120 + LONG_NAME_LENGTH + 4] = "";
     int several = 0;
-    for (int k = 0; k < g->sets; k++) several += g->set[k].own > 0 && !strcasecmp(g->set[k].name + g->set[k].own, name);
+    for (int k = 0; k < g->sets; k++) several += geometry_set_has_own_name(&g->set[k], name);
     for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
-        if (several > 0 && (g->set[k].own == 0 || strcasecmp(g->set[k].name + g->set[k].own, name) != 0)) continue;
+        if (several > 0 && !geometry_set_has_own_name(&g->set[k], name)) continue;
         strcat(names, names[0] ? ", " : "");
         strcat(names, g->set[k].name);
     }

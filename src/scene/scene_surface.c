@@ -15,6 +15,8 @@
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
+/* Number of means that the strain of a particle itself counts for, because it is that of its family [1]. */
+#define MEANS_OF_FAMILY 0.3
 /* Largest radius within which strains are averaged [horizons]; takes 10^4 means of families. */
 enum { FARTHEST = 100 };
 
@@ -75,6 +77,11 @@ static real characteristic_length(const struct scene *s, const struct material *
     return m->young * release_rate / square(m->tensile_strength);
 }
 
+real scene_strength_surface_radius(const struct scene *s, const struct material *m)
+{
+    return s->horizon * s->spacing * sqrt(m->surface_means + MEANS_OF_FAMILY);
+}
+
 real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m)
 {
     const struct surface_strengths surface = material_strength_surface_strengths(m, s->space);
@@ -132,7 +139,8 @@ status read_strength_surface(struct reader *r, const struct yaml_node *material_
     if (radius && reach > FARTHEST * s->horizon * s->spacing)
         return fault(r, radius, "%.4g m is more than %d horizons; give at most %.4g m", reach, FARTHEST,
                      FARTHEST * s->horizon * s->spacing);
-    material->surface_means = (int)real_min(1e4, real_max(0, ceil(square(reach / (s->horizon * s->spacing)) - 0.3)));
+    material->surface_means =
+        (int)real_min(1e4, real_max(0, ceil(square(reach / (s->horizon * s->spacing)) - MEANS_OF_FAMILY)));
     material->onset_stretch = material->critical_stretch / sqrt(OWN_RATIO);
     return check_first(r, yaml_node_find(material_node, "tensile_strength"), material);
 }

@@ -1,9 +1,14 @@
-/* The read-only view of a run that probes measure. */
+/* The read-only view of a run that probes measure, and what they measure in every step and where bonds break. Warns of
+ * supports whose bonds break. */
+#include <stdio.h>
+
 #include "fracture/fracture_part.h"
 #include "grid/grid_part.h"
 #include "coupling/coupling_part.h"
 #include "probes/probes_part.h"
 #include "probes/diagnostics.h"
+#include "run/say.h"
+#include "step/sample.h"
 
 struct observed_run observed_run_view_of(const struct run *e)
 {
@@ -36,4 +41,51 @@ struct observed_run observed_run_view_of(const struct run *e)
                                  .growth = e->fracture->growth,
                                  .growths = s->growths,
                                  .baseline = e->probing->has_baseline ? &e->probing->baseline : NULL};
+}
+
+void sample_update_probes_of_every_step(struct run *e)
+{
+    struct observed_run o = observed_run_view_of(e);
+    probes_update_every_step(&e->probing->probes, &o);
+}
+
+/* Adds the warning to `to` that the first bonds of particles with prescribed motion break, with the first of `loads`
+ * that drives such particles, and prints it. when: the time, as "at 1 s" or "in load step 1". */
+static void say_torn(struct warnings *to, const struct loads *loads, const struct particles *p, const char *when)
+{
+    const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
+    const char *name = "";
+    char text[512];
+    int others = -1;
+    for (int b = loads->n; b-- > 0;) {
+        const struct load *l = &loads->load[b];
+        bool tears = false;
+        for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k++)
+            tears |= (p->flag[l->particle[k]] & both) == both;
+        if (tears) name = l->boundary->name, others++;
+    }
+    snprintf(text, sizeof text,
+             "boundary %s%s: bonds of the particles that it drives break, the first %s, so the grip may tear off and "
+             "no longer load the body; drive a deeper layer (a larger depth or region), or look at the damage there. "
+             "These bonds count in crack.driven_bonds, not in crack.start_time and probes",
+             name, others > 0 ? " and others" : "", when);
+    warnings_add_and_print(to, text);
+}
+
+void sample_record_broken_bonds(struct run *e, int64_t broken_bond_count)
+{
+    /* a load step breaks bonds before its end, but is recorded at its end */
+    const bool in_steps = scene_has_load_steps(e->scene);
+    const real t = in_steps ? e->scene->duration / (real)e->scene->steps.number * (real)e->clock.load_step : e->clock.t;
+    struct observed_run o = observed_run_view_of(e);
+    char when[48];
+    if (in_steps)
+        snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
+    else
+        snprintf(when, sizeof when, "at %.4g s", t);
+    if (diagnostics_record_broken_bonds(e->diagnostics, &e->part, e->source.family.horizon, broken_bond_count, t))
+        say_torn(&e->warnings, &e->loads, &e->part, when);
+    if (scene_is_dynamic(e->scene)) sample_update_probes_of_every_step(e);
+    o.t = t;
+    if (in_steps && broken_bond_count > 0) probes_update_broken_bonds(&e->probing->probes, &o);
 }

@@ -10,6 +10,7 @@
 #include "output/folder_guard.h"
 #include "output/output.h"
 #include "output/output_files.h"
+#include "output/scene_text.h"
 #include "output/summary_read.h"
 #include "scene/scene_read.h"
 #include "study_internal.h"
