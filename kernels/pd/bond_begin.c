@@ -8,10 +8,14 @@
  * may therefore begin only where n . sigma . n > 0.5 G s: 0.2 E s in solids and plane strain, 0.19 E s in plane stress
  * with the elastic constants of bonds, lambda = G. With n . eps . n = s this is
  *
- *     (lambda/G) (tr eps_i + tr eps_j)/2 + 1.5 s > 0
+ *     (lambda/G) (tr eps_i + tr eps_j)/2 + a s > 0,    a = 1.5
  *
  * where eps is the strain that fits the stretches of the bonds of a particle best, s = n . eps . n, weighted by the
  * stiffness that they keep: exact for uniform strain, beside faces, too. Uniaxial compression gives tr eps = -2 s.
+ *
+ * Where a strength surface starts the softening, too, a = 1, i.e. 0.4 E s: bonds begin by themselves at crack tips
+ * only. Measured with glass of 1000 MPa in compression: edges of a prism in space, whose families bulge, spall at 165
+ * MPa with a = 1.2, and not before the prism crushes at 1058 MPa with a = 1.
  *
  * Where the strength grows with the strain rate, a bond begins at the onset of its rate, the mean of both ends'. The
  * rate of a particle is the mean rate at which the largest stretch of its bonds grows from half the onset of slow
@@ -22,8 +26,9 @@
 #include "bond_last.h"
 #include "kernels/kernels.h"
 
-#define PULL 1.5   /* see above */
-#define PIVOT 1e-6 /* least pivot of a fit divided by the sum of its weights [1] */
+#define PULL 1.5         /* a, see above */
+#define PULL_SURFACE 1.0 /* a of materials with a strength surface */
+#define PIVOT 1e-6       /* least pivot of a fit divided by the sum of its weights [1] */
 
 /* A bond that may begin to soften, from particle i to j: its stretch [1], and the range of softening (onset and end)
  * that it would have in slow loading [1]. */
@@ -40,10 +45,10 @@ static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_
 
 /* Returns true if a bond may begin to soften, and then describes it in *c. bond: entry in the row (bonds of one
  * particle) of particle i in row block g (eight rows); limit: critical stretches and softening. Conditions: the bond
- * has not begun to soften; its stretch is between onset and end of softening (beyond the end it breaks), and was beyond
- * the onset in the last sweep; and the row block of its other particle is marked in b->soft.due, too. In the last sweep
- * both row blocks were marked: a bond that was not beyond the onset then would begin only where another bond has marked
- * the row blocks, so that the result would depend on their directions. */
+ * has not begun to soften; its stretch is beyond the onset of softening, and was in the last sweep; and the row block
+ * of its other particle is marked in b->soft.due, too. In the last sweep both row blocks were marked: a bond that was
+ * not beyond the onset then would begin only where another bond has marked the row blocks, so that the result would
+ * depend on their directions. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -54,7 +59,6 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
     c->stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, 0);
     c->range = bond_softening_range(p, limit, i, bond->nbr);
     return c->stretch > c->range.onset && c->range.onset < c->range.end &&
-           (c->stretch <= c->range.end || b->soft.settled || b->soft.whole) &&
            (b->soft.settled ||
             bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, limit->dt) > c->range.onset);
 }
@@ -190,16 +194,19 @@ static void measure_rates(struct bonds *b, const struct particles *p, real dt)
 }
 
 /* Returns true if the stress across the bond of candidate c (a bond that may begin to soften) is tensile enough for it
- * to soften. The stress follows from the stretch of the bond and from the dilatation at the bond, the mean of the
- * dilatations of its two particles. If the row of one particle has only a part of its bonds, as that of a material
- * point, the dilatation of the other particle is used. Both rows of a bond thus give the same answer. */
-static bool is_pulled(const struct bonds *b, const struct particles *p, const struct candidate *c)
+ * to soften. limit: softening by pair of materials. The stress follows from the stretch of the bond and from the
+ * dilatation at the bond, the mean of the dilatations of its two particles. If the row of one particle has only a part
+ * of its bonds, as that of a material point, the dilatation of the other particle is used. Both rows of a bond thus
+ * give the same answer. */
+static bool is_pulled(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                      const struct candidate *c)
 {
     const int64_t one = row_of_dilatation(b, p, c->i), two = row_of_dilatation(b, p, c->j);
     if (p->dim == 1 || (one < 0 && two < 0)) return true;
     const real *dilatation = b->soft.dilatation;
     const real sum = one < 0 ? 2 * dilatation[two] : two < 0 ? 2 * dilatation[one] : dilatation[one] + dilatation[two];
-    return 0.5 * sum + PULL * c->stretch > 0;
+    const bool surface = limit->softening[p->material[c->i] * limit->materials + p->material[c->j]].surface;
+    return 0.5 * sum + (surface ? PULL_SURFACE : PULL) * c->stretch > 0;
 }
 
 /* Recomputes c->range, the stretches of onset and end of softening of candidate c (a bond that may begin to soften),
@@ -232,9 +239,11 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     if (b->soft.settled || b->soft.whole) return;
     const real before = bond_stretch_at_earlier_time(p, b->inverse_length[q], c->i, c->j, dt);
     const real kept = bond_remaining_stiffness_fraction(b, row / LANES, q, c->stretch);
-    const real lost =
-        0.5 * before * c->stretch * (1 - kept) -
-        softening_normalised_dissipated_energy(b->soft.curve, range.onset, range.end, real_min(c->stretch, range.end));
+    const real closed = /* what will be counted for the bond from now on */
+        c->stretch > range.end
+            ? softening_energy_to_end(b->soft.curve, range.onset, range.end, before, c->stretch)
+            : softening_normalised_dissipated_energy(b->soft.curve, range.onset, range.end, c->stretch);
+    const real lost = 0.5 * before * c->stretch * (1 - kept) - closed;
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
@@ -249,7 +258,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
             const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
             struct candidate c;
             if (!is_candidate(&c, b, p, limit, g, &bond, b->particle[row])) continue;
-            if (!is_pulled(b, p, &c)) {
+            if (!is_pulled(b, p, limit, &c)) {
                 denied = true;
                 continue;
             }

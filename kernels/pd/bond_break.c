@@ -70,20 +70,16 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
-/* Returns half the energy [J] that bond q of row `row` has dissipated in all when it passes the end of its softening in
- * this step. row: number of the row (bonds of one particle). In the leap-frog step from the stretch s_0 to s_1, with
- * the damage d at its start, the bond loses the energy s_0 s_1 (1 - d)/2 times its stiffness, weight and length. dt:
- * time step [s]. */
+/* Returns half the energy [J] that bond q of row `row` (bonds of one particle) has dissipated in all when it passes the
+ * end of its softening in this step. dt: time step [s]. */
 static real half_energy_of_softening_to_end(const struct bonds *b, const struct particles *p, int64_t row, int64_t q,
                                             real dt)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
     const real before = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, dt),
                now = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, 0);
-    const real onset = b->soft.onset[q], end = b->soft.end[q], most = real_min(real_max(before, onset), end);
-    const real kept = before > 0 ? softening_remaining_stiffness_fraction(b->soft.curve, onset, end, most) : 1;
     return 0.5 * b->stiffness * b->w[q] / fabs(b->inverse_length[q]) *
-           (softening_normalised_dissipated_energy(b->soft.curve, onset, end, most) + 0.5 * kept * before * now);
+           softening_energy_to_end(b->soft.curve, b->soft.onset[q], b->soft.end[q], before, now);
 }
 
 /* Ends the softening of bond q of row `row` (bonds of one particle): adds `energy`, half of what the bond has
@@ -191,10 +187,11 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     row_changed(b, row);
 }
 
-/* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. If it is
- * beyond its onset of softening and has not begun to soften, marks its row block (bonds of eight particles) for
- * examination before the next computation of forces (bond_row_block_request_softening_check). limit: critical stretches
- * and softening. */
+/* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. A bond
+ * that can soften and has not begun to does not break here, as pressure stretches the bonds across it although nothing
+ * pulls at them (bond_begin.c): beyond its onset, its row block (bonds of eight particles) is marked for examination
+ * before the next computation of forces (bond_row_block_request_softening_check). limit: critical stretches and
+ * softening. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -202,8 +199,9 @@ static bool is_past(struct bonds *b, const struct particles *p, const struct bon
     if (!b->soft.curve) return stretch > bond_breaking_stretch(p, limit, i, j);
     if (bond_is_softening(b, row / LANES, q)) return stretch > b->soft.end[q];
     const struct softening_range range = bond_softening_range(p, limit, i, j);
-    if (stretch > range.onset && range.onset < range.end) bond_row_block_request_softening_check(b, row / LANES);
-    return stretch > range.end;
+    if (!(range.onset < range.end)) return stretch > range.end;
+    if (stretch > range.onset) bond_row_block_request_softening_check(b, row / LANES);
+    return false;
 }
 
 /* Breaks the bonds of row `row` (all bonds of one particle) whose stretch exceeds their breaking limit. limit: breaking

@@ -25,6 +25,17 @@ static inline real bond_stretch_at_earlier_time(const struct particles *p, real 
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
+/* Returns the energy that a softening bond has dissipated in all, divided by stiffness, weight and length of the bond
+ * (dimensionless), when it passes the end of its softening in the leap-frog step from the stretch `before` to `now`
+ * [1]: in this step it loses the energy before now (1 - d)/2 with the damage d at its start. c: softening curve; onset,
+ * end: stretches at which the bond begins to soften and breaks [1]. */
+static inline real softening_energy_to_end(const struct softening_curve *c, real onset, real end, real before, real now)
+{
+    const real most = real_min(real_max(before, onset), end);
+    const real kept = before > 0 ? softening_remaining_stiffness_fraction(c, onset, end, most) : 1;
+    return softening_normalised_dissipated_energy(c, onset, end, most) + 0.5 * kept * before * now;
+}
+
 /* When a bond breaks within a time step. lag: time from the moment at which the stretch exceeded the limit to the
  * present positions [s]; share: fraction of the force of the bond that acts in the velocity update of this step [1]. */
 struct bond_break_moment {

@@ -61,7 +61,7 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
 /* Prints the strengths of material m according to its strength surface (failure criterion in stress), and the radius
  * over which strains are averaged to evaluate the surface. Also prints the horizon that the surface requires in scene
  * s: with a larger horizon, bonds begin to soften before the stress reaches the surface. Prints the stresses in
- * tension, shear and uniaxial compression for which this happens. */
+ * tension and shear for which this happens. */
 static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);
@@ -70,10 +70,6 @@ static void print_surface(const struct scene *s, const struct material *m)
     const struct softening_strength own =
         softening_curve_normalised_strengths(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
     const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
-    const real nu = s->space == SPACE_PLANE_STRAIN ? m->poisson / (1 - m->poisson) : m->poisson;
-    /* bonds across uniaxial pressure are stretched by nu times its strain, and break at the end of softening */
-    const real own_compression = material_uniaxial_tension_modulus(m, s->space) *
-                                 softening_end_stretch(&curve, m->onset_stretch, m->critical_stretch) / nu;
     printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
            surface.tension, surface.biaxial, surface.shear);
     if (isfinite(surface.compression)) printf(", %.4g Pa in uniaxial compression", surface.compression);
@@ -87,10 +83,6 @@ static void print_surface(const struct scene *s, const struct material *m)
         printf("; in tension bonds soften at about %.4g Pa already, before the surface is reached", unit);
     if (surface.shear > own_shear)
         printf("; in shear bonds soften at about %.4g Pa already, before the surface is reached", own_shear);
-    if (surface.compression > own_compression)
-        printf(
-            "; in uniaxial compression bonds across it break at %.4g Pa at the latest, before the surface is reached",
-            own_compression);
     printf("\n");
 }
 

@@ -55,7 +55,8 @@ start mirrored "$work/square.yaml" -s 'boundary.1={mirror: {axis: y, at: 0}}' -s
 start adaptive "$work/strip.yaml" $surface -s method=adaptive; wait
 start points "$work/square.yaml" -s method=adaptive -s mpm.frame=current
 start strain "$work/square.yaml" -s 'space=plane strain' -s variables.load=25.7MPa; wait
-start pressed "$work/strip.yaml" $surface -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us; wait
+start pressed "$work/strip.yaml" $surface -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us
+start crushed "$work/strip.yaml" $surface -s variables.start='-10*strain' -s variables.rate='-48*strain/40 us' -s duration=12us -s 'accept=[contact]'; wait
 
 # The largest mean stress across the grips is the strength that the surface has in that state [MPa]: tension 40 within 3 %, equal biaxial
 # tension 27 +- 1.5, shear at a horizon of 0.34 E G_c/strength^2 44.4 +- 2; without the surface bonds have 57 in equal biaxial tension.
@@ -77,6 +78,12 @@ between "plane strain, biaxial" "$(strength strain 4e-6)" 26.6 28.2
 # Five times the strength in compression, a fifth of that of the surface, does nothing.
 is "compression: dissipated" "$(last pressed fracture)" 0
 between "compression: stress over strength" "$(compute "$(last pressed reaction.force_y) / 5e-6 / 40e6")" -5.2 -4.8
+
+# Pressed further, it crushes near 1000 MPa, though bonds across the pressure are stretched to many times their end of softening by then. Some
+# 10 % less at a horizon of 0.69 E G_c/strength^2: bonds on the surface then have more energy than they can dissipate, and end at once.
+between "compression: largest stress" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /reaction.force_y/) at = k } -$at > most { most = -$at }
+    END { print most / 5e-6 / 1e6 }' "$work/crushed/history.csv")" 850 1050
+between "compression: crushed" "$(last crushed fracture)" 1e-3 1
 
 # The balance of the strip that is torn apart closes with the square of the step: all of it starts to soften at once, which is the hardest.
 error() { figure "$work/$1" energy.balance_error; }
@@ -201,8 +208,6 @@ holds "check: horizon" grep -q 'with a horizon of 0.000139[0-9]* m or more the s
 holds "check: shear" grep -q 'in shear bonds soften at about 3.[0-9]*e+07 Pa already, before the surface is reached' "$work/said"
 # Bonds across uniaxial pressure reach the end of softening, sqrt(2) s_c, at E/nu times that, with s_c^2 = 4 pi G_c/(9 E horizon).
 horizon=$(sed -n 's/^ *horizon \([0-9.e-]*\) m, .*/\1/p' "$work/said")
-near "check: compression" "$(sed -n 's/.*bonds across it break at \([0-9.e+]*\) Pa at the latest.*/\1/p' "$work/said")" \
-    "$(compute "sqrt(2)*70e9*3*sqrt(4*3.14159265*10/(9*70e9*${horizon:-0}))")" 1e-3
 is "check: a plate wider than twice the radius" "$(grep -c 'averages strains' "$work/said")" 0
 "$cleave" check "$work/square.yaml" --no-trial -s materials.0.strength_radius=2.5mm >"$work/said" 2>&1
 holds "check: a wide radius" grep -q 'averages strains over 0.0025[0-9]* m, but body body is only 0.004 m thick: .* strength_radius below 0.002 m' "$work/said"

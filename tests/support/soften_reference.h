@@ -149,8 +149,7 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
             const int64_t q = i * p->n + j;
             if (!(w[q] > 0) || r->ended[q] || r->most[q] > 0 || !r->due[block[i]] || !r->due[block[j]]) continue;
             const struct reference_bond bond = reference_bond(p, i, j);
-            const real end = soften_reference_end(r->law, r->onset[q], r->critical[q]);
-            if (!(bond.stretch > r->onset[q] && bond.stretch <= end)) continue;
+            if (!(bond.stretch > r->onset[q])) continue;
             if (p->dim > 1 && !(0.5 * (dilatation[i] + dilatation[j]) + 1.5 * bond.stretch > 0)) {
                 denied[block[i]] = true;
                 continue;
@@ -165,11 +164,10 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
     r->due = denied;
 }
 
-/* Computes force and energy of all particles and stores them in row[n] (the stress remains 0). Ends bonds whose stretch
- * is beyond the end of the softening curve, marks the row blocks (eight particles stored together) of bonds beyond
- * their onset as due, and updates the largest stretches. A bond that ends although its largest stretch was not above
- * its onset before is brittle: its force ends at once, and its energy is that of its stretch. w, stiffness, block: as
- * for soften_reference_begin, which must have been called before. */
+/* Computes force and energy of all particles and stores them in row[n] (the stress remains 0). Ends bonds that have
+ * begun to soften and whose stretch is beyond the end of the softening curve, marks the row blocks (eight particles
+ * stored together) of bonds beyond their onset as due, and updates the largest stretches. w, stiffness, block: as for
+ * soften_reference_begin, which must have been called before. */
 static inline void soften_reference_step(struct soften_reference *r, const struct particles *p, const real *w,
                                          real stiffness, const int64_t *block, struct reference_row *row)
 {
@@ -182,9 +180,8 @@ static inline void soften_reference_step(struct soften_reference *r, const struc
             const real end = soften_reference_end(r->law, r->onset[q], r->critical[q]), s = bond.stretch;
             const real scale = stiffness * w[q] * bond.length;
             if (r->most[q] == 0 && s > r->onset[q]) r->due[block[i]] = true;
-            if (s > end) {
-                const bool softened = r->most[q] > r->onset[q];
-                r->broken += softened ? 0.5 * scale * 0.5 * r->critical[q] * r->critical[q] : 0.25 * scale * s * s;
+            if (r->most[q] > 0 && s > end) {
+                r->broken += 0.25 * scale * r->critical[q] * r->critical[q];
                 r->ended[q] = true;
                 continue;
             }
