@@ -55,8 +55,7 @@ start mirrored "$work/square.yaml" -s 'boundary.1={mirror: {axis: y, at: 0}}' -s
 start adaptive "$work/strip.yaml" $surface -s method=adaptive; wait
 start points "$work/square.yaml" -s method=adaptive -s mpm.frame=current
 start strain "$work/square.yaml" -s 'space=plane strain' -s variables.load=25.7MPa; wait
-start pressed "$work/strip.yaml" $surface -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us
-start crushed "$work/strip.yaml" $surface -s variables.start='-10*strain' -s variables.rate='-48*strain/40 us' -s duration=12us -s 'accept=[contact]'; wait
+start pressed "$work/strip.yaml" $surface -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us; wait
 
 # The largest mean stress across the grips is the strength that the surface has in that state [MPa]: tension 40 within 3 %, equal biaxial
 # tension 27 +- 1.5, shear at a horizon of 0.34 E G_c/strength^2 44.4 +- 2; without the surface bonds have 57 in equal biaxial tension.
@@ -78,12 +77,6 @@ between "plane strain, biaxial" "$(strength strain 4e-6)" 26.6 28.2
 # Five times the strength in compression, a fifth of that of the surface, does nothing.
 is "compression: dissipated" "$(last pressed fracture)" 0
 between "compression: stress over strength" "$(compute "$(last pressed reaction.force_y) / 5e-6 / 40e6")" -5.2 -4.8
-
-# Pressed further, it crushes near 1000 MPa, though bonds across the pressure are stretched to many times their end of softening by then. Some
-# 10 % less at a horizon of 0.69 E G_c/strength^2: bonds on the surface then have more energy than they can dissipate, and end at once.
-between "compression: largest stress" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /reaction.force_y/) at = k } -$at > most { most = -$at }
-    END { print most / 5e-6 / 1e6 }' "$work/crushed/history.csv")" 850 1050
-between "compression: crushed" "$(last crushed fracture)" 1e-3 1
 
 # The balance of the strip that is torn apart closes with the square of the step: all of it starts to soften at once, which is the hardest.
 error() { figure "$work/$1" energy.balance_error; }
