@@ -74,10 +74,9 @@ struct output {
     int64_t frame_copy_bytes;  /* size of frame_copy [byte] */
 };
 
-/* Configures HDF5 and signals: no exit handler of HDF5, no error messages of HDF5 on the terminal. SIGXFSZ and SIGPIPE
- * are ignored, so that a full disk causes an error code instead of the end of the process. Call this function once per
- * process, before any other call of HDF5. */
-void output_configure_hdf5(void);
+/* Configures signals: SIGXFSZ and SIGPIPE are ignored, so that a full disk causes an error code instead of the end of
+ * the process, and a crash removes unfinished files. Call this function once per process. */
+void output_configure(void);
 
 /* Opens the output o of a run: creates `folder` and its subfolder frames, locks the folder for this process and writes
  * scene.yaml. Removes temporary files of runs and, unless `mode` is OUTPUT_RESUME, the files of an older run. With

@@ -23,6 +23,11 @@ struct hdf {
     int cause;     /* errno of the failed call, 0 if unknown */
 };
 
+/* Prepares HDF5 for the calling thread: no exit handler of HDF5, no error messages of HDF5 on the terminal. Functions
+ * that open files call it first, so that commands without such files do not wait for HDF5, a third of the time of their
+ * start. */
+void hdf_prepare(void);
+
 /* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the tables
  * that hdf_write_rows_zero_padded writes with gzip. No time stamps are stored, so that equal content gives equal bytes.
  * A failure is stored in f->failed. */

@@ -46,7 +46,7 @@ static status call(int argc, char **argv)
 {
     const struct command *c;
     if (argc < 2) return usage_print(stderr), REFUSED;
-    output_configure_hdf5();
+    output_configure();
     TRY(simd_select_kernels());
     if (word_is_help_option(argv[1])) return usage_print(stdout), OK;
     if (!strcmp(argv[1], "--version")) return version_print(stdout), OK;

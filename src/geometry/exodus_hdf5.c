@@ -9,6 +9,7 @@
 status exodus_hdf5_open(struct exodus_file *f)
 {
     crash_message_set_file_in_use(f->path);
+    hdf_prepare();
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         f->hdf5 = H5Fopen(f->path, H5F_ACC_RDONLY, H5P_DEFAULT);

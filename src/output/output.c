@@ -2,7 +2,6 @@
 #include "output/output.h"
 
 #include <dirent.h>
-#include <hdf5.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,16 +17,8 @@
 #include "output/scene_text.h"
 #include "output/summary_read.h"
 
-/* Released memory that HDF5 may keep for reuse in each of its free lists [byte]. */
-enum { HDF5_KEPT = 4 << 20 };
-
-void output_configure_hdf5(void)
+void output_configure(void)
 {
-    /* HDF5 1.10 flushes its open files again at exit, and crashes on files that could not be written. */
-    H5dont_atexit();
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    /* The tables of a closed file, 0.6 MB, serve the next file; the kernel need not clear pages for each. */
-    H5set_free_list_limits(HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT);
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
     invariant_set_cleanup_callback(files_unfinished_remove);

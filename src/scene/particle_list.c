@@ -159,6 +159,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
     status s;
     input_file_register_as_read(path);
     crash_message_set_file_in_use(path);
+    hdf_prepare();
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);

@@ -210,7 +210,7 @@ static char folder[] = "/tmp/cleave_plane_strain_XXXXXX";
 static int enter(void **state)
 {
     (void)state;
-    output_configure_hdf5();
+    output_configure();
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 

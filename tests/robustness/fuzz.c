@@ -210,7 +210,7 @@ int main(int argc, char **argv)
     const size_t most = targets[target].most;
     const time_t end = time(NULL) + atol(argv[2]);
     state = strtoull(argv[3], NULL, 10) * 2 + 1;
-    output_configure_hdf5();
+    output_configure();
     team_set_thread_count(1);
     atexit(leave);
     read_words(argv[4]);

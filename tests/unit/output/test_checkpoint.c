@@ -381,7 +381,7 @@ static void full_disk_loses_nothing(void **state)
 static int start(void **state)
 {
     (void)state;
-    output_configure_hdf5();
+    output_configure();
     return 0;
 }
 

@@ -195,6 +195,6 @@ int main(int argc, char **argv)
     };
     (void)argc;
     if (!enter_folder_beside(argv[0], "test_frame_files.files")) return 1;
-    output_configure_hdf5();
+    output_configure();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -488,7 +488,7 @@ static void summary_has_the_figures(void **state)
 static int start(void **state)
 {
     (void)state;
-    output_configure_hdf5();
+    output_configure();
     return 0;
 }
 
