@@ -22,15 +22,16 @@ CFLAGS   += -std=c11 $(OPTIMISE) $(DEBUG) -ffp-contract=fast -fno-math-errno -fn
 LIBFLAGS  = $(eval LIBFLAGS := $(shell pkg-config --cflags $(LIBRARIES)))$(LIBFLAGS)
 SHARED    = $(eval SHARED := $(shell pkg-config --libs $(LIBRARIES)) -lm)$(SHARED)
 
-# HDF5 and TIFF as archives where these link: shared, HDF5 loads 30 other libraries (curl, Kerberos) and TIFF 9 (all that its files can be
-# packed with, one in C++), which takes two thirds of the time of a start.
+# Libraries of files as archives where these link: shared, HDF5 loads 30 other libraries (curl, Kerberos), TIFF 9 (all that its files can be
+# packed with, one in C++) and the others 2, which takes two thirds of the time of a start.
 archive   = $(shell file=$$(mktemp); echo 'int $(1)(void); int main(void) { return $(1)(); }' | \
             $(CC) -x c -o $$file - $(2) 2>/dev/null && echo '$(2)'; rm -f $$file)
-HDF5      = $(eval HDF5 := $(shell pkg-config --libs hdf5))$(HDF5)
+FILES    := hdf5 yaml-0.1 libpng
+FILED     = $(patsubst -lhdf5,-l:libhdf5.a,$(shell pkg-config --libs hdf5)) $(addprefix -l:lib,sz.a aec.a yaml.a png16.a z.a) -lm
 PACKERS  := webp Lerc jbig zstd lzma jpeg deflate z stdc++
-LIBS      = $(eval LIBS := $(or $(call archive,H5open,$(HDF5:-lhdf5=-l:libhdf5.a) -lsz -lz -lm),$(HDF5)) \
+LIBS      = $(eval LIBS := $(or $(call archive,H5open,$(FILED)),$(shell pkg-config --libs $(FILES))) \
             $(or $(call archive,TIFFGetVersion,-l:libtiff.a $(PACKERS:%=-l:lib%.a) -lm),$(shell pkg-config --libs libtiff-4)) \
-            $(shell pkg-config --libs $(filter-out hdf5 libtiff-4,$(LIBRARIES))) -lm)$(LIBS)
+            $(shell pkg-config --libs $(filter-out libtiff-4 $(FILES),$(LIBRARIES))) -lm)$(LIBS)
 
 # Kernels are compiled once for each set of vector instructions; the program takes one at start (src/simd/simd.c). The rest is
 # for any machine of its kind, or for ARCH (native, ...). Debuggers see their lines, not their variables (-g1), which of code
@@ -145,13 +146,15 @@ $(BUILD)/%.$(1).o: %.c Makefile
 endef
 $(foreach set,$(SETS),$(eval $(call SET,$(set))))
 
-# A test is linked with the parts of the engine that it calls: with all of them it would take twice as long, and 12 MB.
+# A test is linked with the parts of the engine that it calls: with all of them it would take twice as long, and 12 MB. Each starts once, so
+# that shared libraries and no lines for debuggers (DEBUG=-g keeps them), which halve the time of its link, cost less than they save.
 $(BUILD)/engine.a: $(ENGINE)
 	@rm -f $@
 	$(Q)ar rcsT $@ $^
 
 $(PROGRAMS): %: %.o $(BUILD)/engine.a
-	$(Q)$(CC) $(CFLAGS) $(QUICK) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lcmocka $(WRITERS) $(LIBS)
+	$(Q)$(CC) $(CFLAGS) $(QUICK) $(if $(filter -g1,$(DEBUG)),-Xlinker -S) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lcmocka $(WRITERS) $(LIBS)
+$(PROGRAMS): LIBS = $(SHARED)
 
 # Calls that a test lets fail, or in which it stops a run (tests/robustness/faults.c): its linker must be GNU's or like it, and calls of
 # libraries must not be taken for the program's.
