@@ -154,7 +154,7 @@ $(BUILD)/engine.a: $(ENGINE)
 
 $(PROGRAMS): %: %.o $(BUILD)/engine.a
 	$(Q)$(CC) $(CFLAGS) $(QUICK) $(if $(filter -g1,$(DEBUG)),-Xlinker -S) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lcmocka $(WRITERS) $(LIBS)
-$(PROGRAMS): LIBS = $(SHARED)
+$(filter-out %/test_numbers,$(PROGRAMS)): LIBS = $(SHARED)
 
 # Calls that a test lets fail, or in which it stops a run (tests/robustness/faults.c): its linker must be GNU's or like it, and calls of
 # libraries must not be taken for the program's.

@@ -4,8 +4,8 @@
 test_name=test_report
 . tests/support/summary.sh
 command -v python3 >/dev/null || { echo "python3 is missing: pages not tested"; exit 77; }
-python=python3
-python3 -c "import h5py" 2>/dev/null || ! /usr/bin/python3 -c "import h5py" 2>/dev/null || python=/usr/bin/python3
+for python in python3 /usr/bin/python3 none; do which=$($python -c 'import h5py, sys; print(sys.executable)' 2>/dev/null) && break; done
+python=${which:-python3}
 cd "$work" || exit 1
 
 # whole PAGE [FOLDER]: the page is complete, and says what the files of the run say.
