@@ -72,11 +72,26 @@ function readColumns() {
         let [low, high] = [Infinity, -Infinity];
         for (const v of values)
             if (Number.isFinite(v)) low = Math.min(low, v), high = Math.max(high, v);
-        return {name, unit: unit && unit !== "1" ? unit : "", values, low, high};
+        return {name, unit: unit && unit !== "1" ? unit : "", values, low, high, shift: 0};
     });
+    const kinetic = history_.columns.find((c) => c.name === "kinetic");
+    if (kinetic) kinetic.shift = flatteningEnergy(kinetic);
 }
 
-const largestOf = (c) => Math.max(Math.abs(c.low), Math.abs(c.high)), varies = (c) => c.high > c.low;
+// The largest magnitude of a column in pictures, where its shift is subtracted from its values.
+const largestOf = (c) => Math.max(Math.abs(c.low - c.shift), Math.abs(c.high - c.shift)), varies = (c) => c.high > c.low;
+
+// Returns the kinetic energy at the start [J] if it would flatten the curves of all other energies, as that of a heavy
+// hammer, else 0; by the rule of cleave plot.
+function flatteningEnergy(kinetic) {
+    const start = kinetic.values[0], changes = {...kinetic, shift: start};
+    const most = Math.max(...history_.columns.map((c) => (c === kinetic ? changes : c))
+                              .filter((c) => c.unit === "J").map(largestOf).filter(Number.isFinite));
+    return start > 10 * most && most > 1e-6 * start ? start : 0;
+}
+
+// The name of a column beside its curve, with what is subtracted from it.
+const curveName = (c) => labelOf(c) + (c.shift ? " - " + quantity(c.shift, c.unit, 4) : "");
 
 // Columns of the history by what matters: energies, forces, the length of the crack, then the others; of one unit the
 // largest values first, so that a column of zeros is last.
@@ -166,11 +181,11 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
     for (const c of panel.columns)
         for (let k = 0; k < c.values.length; k++)
             if (inside(k) && Number.isFinite(c.values[k]))
-                low = Math.min(low, c.values[k]), high = Math.max(high, c.values[k]);
+                low = Math.min(low, c.values[k] - c.shift), high = Math.max(high, c.values[k] - c.shift);
     if (!(high >= low)) low = 0, high = 1;
     const unit = unitFor(Math.max(Math.abs(low), Math.abs(high)), panel.unit),
           a = axesOf(area, zoom, padded(low, high));
-    const names = panel.columns.length === 1 ? labelOf(panel.columns[0]) : "";
+    const names = panel.columns.length === 1 ? curveName(panel.columns[0]) : "";
     drawAxes(context, a, xUnit, unit,
         lowest ? labelOf(over) + (xUnit.name ? " [" + xUnit.name + "]" : "") : "",
         (names + (unit.name ? " [" + unit.name + "]" : "")).trim());
@@ -186,7 +201,7 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
             if (!Number.isFinite(c.values[i]))
                 pen = false;
             else
-                context[pen ? "lineTo" : "moveTo"](a.x(over.values[i]), a.y(c.values[i])), pen = true;
+                context[pen ? "lineTo" : "moveTo"](a.x(over.values[i]), a.y(c.values[i] - c.shift)), pen = true;
         }
         context.stroke();
     });
@@ -199,7 +214,7 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
 function drawKey(context, panel, a) {
     let x = a.left + 44;
     panel.columns.forEach((c, k) => {
-        const name = labelOf(c);
+        const name = curveName(c);
         context.fillStyle = curveColours[k % curveColours.length];
         context.fillRect(x, a.top - 16, 14, 3);
         context.fillStyle = "#1d2330";

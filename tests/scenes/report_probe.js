@@ -96,6 +96,15 @@ async function probeFilm(seen) {
     }
 }
 
+// The kinetic energy as it would be beside a hammer of 1 kJ: its name in the key, and how it then compares with what it was.
+function besideHammer() {
+    const kinetic = history_.columns.find((c) => c.name === "kinetic"), light = kinetic.values;
+    const largest = kinetic.high, heavy = (v) => 1000 + v;
+    Object.assign(kinetic, {values: light.map(heavy), low: heavy(kinetic.low), high: heavy(kinetic.high)});
+    kinetic.shift = flatteningEnergy(kinetic);
+    return [curveName(kinetic), largestOf(kinetic) / largest];
+}
+
 async function probe() {
     const seen = {
         title: document.title,
@@ -114,6 +123,7 @@ async function probe() {
         const sum = () => byId("plot").toDataURL().length, before = sum();
         document.querySelector("#columns input:not(:checked)").click();
         seen.column_added = sum() !== before;
+        seen.heavy = besideHammer();
     }
     if (page.table) {
         seen.rows = document.querySelectorAll("#table tbody tr").length;
