@@ -11,9 +11,9 @@ enum { BAR_STEPS = 256, BAR_ACROSS = 2, BAR_HIGHEST = 360 };
 
 /* Positions beside or below the bar [pixel]. NUMBERS: width of tics and blanks beside the numbers of a vertical bar;
  * LABEL_HALF: half height of a line of its label; UNDER_LABEL: of the label of a bar below the panels, from its upper
- * edge; BAR_LOW: height of such a bar. */
+ * edge; BAR_LOW: height of such a bar; UNDER_BAR: least blank below a vertical bar. */
 enum { BEYOND_WIDE = 84 }; /* width of `0.14 % above` */
-enum { NUMBERS = 26, NUMBERS_NARROW = 20, LABEL_HALF = 12, UNDER_LABEL = 50, BAR_LOW = 12 };
+enum { NUMBERS = 26, NUMBERS_NARROW = 20, LABEL_HALF = 12, UNDER_LABEL = 50, BAR_LOW = 12, UNDER_BAR = 30 };
 
 static double letter_wide(void) { return picture_is_too_narrow_for_key() ? 7.4 : 9; }
 static int numbers_from(void) { return picture_is_too_narrow_for_key() ? NUMBERS_NARROW : NUMBERS; }
@@ -53,13 +53,22 @@ static double bar_tics(const struct bar_scale *s, int length)
     return fmax(s->tics, tic_distance(s->high - s->low, length, picture_is_too_narrow_for_key() ? 22 : 28));
 }
 
+/* Returns the length [pixel] of the label of a vertical colour bar with the scale s, without the unit. */
+static double bar_label_length(const struct bar_scale *s) { return letter_wide() * (double)strcspn(s->label, "["); }
+
+int colour_bar_least_height(const struct maps_shown *shown)
+{
+    const struct bar_scale s = bar_scale_of(shown->view, shown->map);
+    return (int)bar_label_length(&s) + UNDER_BAR;
+}
+
 /* Returns the length [pixel] of a vertical colour bar with the scale s: the height of the panels, but at most
  * BAR_HIGHEST. The bar is longer than low panels if its label, without the unit, needs this length and the picture has
  * the space. panels: height of all rows of panels [pixel]; room: height of the picture below the upper edge of the bar
  * [pixel]. */
 static int bar_length(const struct bar_scale *s, int panels, int room)
 {
-    const int label = (int)fmin(letter_wide() * (double)strcspn(s->label, "["), room - 40);
+    const int label = (int)fmin(bar_label_length(s), room - UNDER_BAR);
     return panels >= BAR_HIGHEST ? BAR_HIGHEST : panels > label ? panels : label;
 }
 

@@ -56,6 +56,7 @@ static struct layout margins_of(const struct maps_shown *m, bool under, const st
     l.title = l.left;
     l.entry = (int)(KEY_SQUARE + letter * (double)longest);
     l.bar_under = bar && under;
+    l.least = bar && !under ? colour_bar_least_height(m) : 0;
     l.key_beside = m->map == MAP_CATEGORY && !under;
     l.entries = l.key_beside ? 0 : m->key.n;
     if (l.key_beside) l.right = (int)fmin(l.entry + BAR_FROM, RIGHT_MOST);
@@ -110,7 +111,8 @@ static struct layout layout_of(int columns, int panels, double aspect, double he
     l.spare = more;
     strip_set(&l, l.width);
     l.fits = panels_fit(&l, more, height);
-    l.height = given.height ? given.height : l.above + l.below + between_y + l.rows * l.panel_height;
+    const int panels_end = between_y + l.rows * l.panel_height;
+    l.height = given.height ? given.height : l.above + (int)fmax(l.below + panels_end, l.least);
     return l;
 }
 

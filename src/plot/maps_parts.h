@@ -33,6 +33,7 @@ struct layout {
     int spare;                     /* blank beside panels that fill the height before the width [pixel] */
     bool bar_under, key_beside; /* the colour bar is below the panels, else on the right; the key is on the right, else
                                    below */
+    int least;                  /* least height below the upper margin, for a colour bar on the right [pixel] */
     int axes;                   /* height of tics and label below the panels [pixel] */
     int entries, entry;         /* number of entries of the key below the panels; width of an entry [pixel] */
     int key_columns;            /* number of entries in a row of the key */
@@ -73,6 +74,10 @@ double tic_distance_on_horizontal_axis(double low, double high, double axis_widt
 /* Returns the width [pixel] that a colour bar with its numbers and its label takes on the right of panels with the
  * content `shown`. panels_height: height of all rows of panels [pixel]. */
 int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_height);
+
+/* Returns the height [pixel] that a picture with the content `shown` needs below the upper edge of a colour bar on the
+ * right, so that the bar is as long as its label. */
+int colour_bar_least_height(const struct maps_shown *shown);
 
 /* Collects the entries of the key (legend) of a picture in *key: kinds of particles, fragments or named values, as the
  * kind of map requires, and rigid bodies if `has_rigid_bodies` is true. map: quantity that the colours show; view: view

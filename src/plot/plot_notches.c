@@ -110,11 +110,14 @@ static bool face_at(const struct faces *f, int side, double s, double *x)
 /* Returns the length [pixel] of which LINE_HALF and GAP_SEEN are shares, in an image of the given size [pixel]. */
 static double line_scale(int width, int height) { return fmin(width, FLAT * height); }
 
+/* Returns half the width [pixel] of a line in an image of the given size [pixel]. */
+static double line_half(int width, int height) { return fmax(LINE_HALF * line_scale(width, height), LINE_LEAST); }
+
 /* Paints the pixels of pixel[height][width] within half a line width of the line between the points a[2] and b[2]
  * [pixel] in the colour c. */
 static void line_paint(struct colour *pixel, int width, int height, const double *a, const double *b, struct colour c)
 {
-    const double half = fmax(LINE_HALF * line_scale(width, height), LINE_LEAST);
+    const double half = line_half(width, height);
     int low[2], high[2];
     const int size[2] = {width, height};
     for (int k = 0; k < 2; k++) {
@@ -129,19 +132,22 @@ static void line_paint(struct colour *pixel, int width, int height, const double
 }
 
 /* Paints both faces of the deformed pre-crack f as lines in `colour` into the image pixel[height][width], which shows
- * the rectangle of the view v. Also fills the gap between the faces where it is too narrow to be seen. */
+ * the rectangle of the view v. Also fills the gap between the faces where it is too narrow to be seen. The round ends of
+ * the lines end where the faces do. */
 static void faces_paint(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
                         struct colour colour)
 {
     const double per_metre = width / (v->to[0] - v->from[0]);
     const int steps = (int)fmin(ceil(f->length * per_metre), 2.0 * (width + height)) + 1;
+    const double round = fmin(line_half(width, height) / per_metre, 0.5 * (f->end - f->begin));
     double last[2][2];
     bool was[2] = {false, false};
     for (int k = 0; k <= steps; k++) {
+        const double s = f->begin + round + (f->end - f->begin - 2 * round) * k / steps;
         double x[2][2];
         bool is[2];
         for (int side = 0; side < 2; side++) {
-            is[side] = face_at(f, side, f->begin + (f->end - f->begin) * k / steps, x[side]);
+            is[side] = face_at(f, side, s, x[side]);
             for (int a = 0; a < 2 && is[side]; a++)
                 x[side][a] = (x[side][a] - v->from[a]) * (a ? height : width) / (v->to[a] - v->from[a]);
         }

@@ -51,8 +51,7 @@ static double interval_begin(const struct scalar_result_study *f, int k)
 
 /* Sends three data blocks of the figure f, a number in summary.json of the runs of the study s, to gnuplot's stream
  * `to`. Their names are $r, $m and $e followed by the number `panel`. $r: spacing and figure of every run. $m: spacing,
- * mean and ends of the 95 % interval of every spacing level. $e: spacing 0, the extrapolated figure, and mean and ends
- * of the interval of the finest level. */
+ * mean and ends of the 95 % interval of every spacing level. $e: spacing 0 and the extrapolated figure. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_index_of_result(&s->table, f->name);
@@ -65,9 +64,7 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
     for (int k = 0; k < f->c.levels; k++)
         fprintf(to, "%.8g %.10g %.10g %.10g\n", f->c.level[k].spacing / metre, f->c.level[k].mean / factor,
                 interval_begin(f, k) / factor, (f->c.level[k].mean + f->c.uncertainty[k]) / factor);
-    fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated / factor,
-            f->c.level[0].mean / factor, interval_begin(f, 0) / factor,
-            (f->c.level[0].mean + f->c.uncertainty[0]) / factor);
+    fprintf(to, "EOD\n$e%d << EOD\n0 %.10g\nEOD\n", panel, f->c.extrapolated / factor);
 }
 
 /* Returns true if the picture shows a curve from the means of a figure (a scalar result) to the extrapolated value at
@@ -96,10 +93,9 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
         fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' notitle, ", panel, curve_colour[1]);
     }
     fprintf(to,
-            "$e%d using 1:3:4:5 with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' notitle, "
             "$r%d using 1:2 with points pt 7 ps 0.5 lc rgb '%s' notitle, "
             "$m%d using 1:2:3:4 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' notitle\n",
-            panel, panel, curve_colour[5], panel, curve_colour[0]);
+            panel, curve_colour[5], panel, curve_colour[0]);
 }
 
 /* Sends the distances between tics (labelled marks) of a panel that shows the figure f (a scalar result) to gnuplot,
@@ -196,8 +192,7 @@ static void draw_figures_key(FILE *to, const struct figures_layout *l, bool extr
                 1 - l->title / l->height);
     fprintf(to,
             "$none << EOD\nNaN NaN NaN\nEOD\nplot [0:1] [0:1] $none with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' "
-            "title 'means, 95 %% intervals', $none with points pt 7 ps 0.5 lc rgb '%s' title 'runs', "
-            "$none with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' title 'finest mean'",
+            "title 'means, 95 %% intervals', $none with points pt 7 ps 0.5 lc rgb '%s' title 'runs'",
             curve_colour[0], curve_colour[5]);
     if (extrapolated)
         fprintf(to, ", $none with points pt 6 ps 1.3 lw 2 lc rgb '%s' title 'extrapolated'", curve_colour[1]);
@@ -217,9 +212,9 @@ static status draw_figures(const struct convergence_study *s, const struct scala
     const struct figures_layout l = figures_layout_make(shown, &g);
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
-            "set multiplot\nset xrange [%.6g:*]\nset samples 200\nset pointintervalbox 0\n"
-            "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [%s]'\n",
-            -0.05 * coarsest, metre.name);
+            "set multiplot\nset xrange [%.6g:%.6g]\nset samples 200\nset pointintervalbox 0\n"
+            "set offsets 0, 0, graph 0.1, graph 0.1\nset xlabel 'spacing [%s]'\n",
+            -0.05 * coarsest, 1.1 * coarsest, metre.name);
     for (int k = 0; k < shown; k++) {
         figure_place(g.to, &l, k);
         send_tics_of_panel(g.to, s, &figure[k], coarsest, l.cell_wide - l.left - l.right,

@@ -81,6 +81,11 @@ drawn "the ends of the colours" "set yrange \[-1:3\]"
 drawn "numbers at the colours that differ also in a narrow range" "set y2tics out [0-9.]* format '%.9g'"
 drawn "what is beyond them" "set label '[0-9.]* % above' at screen"
 drawn "the title, and that displacements are not as they are" "'It''s a strip, displacements x 50'"
+# Beside a low panel the bar is as long as its label, which has 16 letters of 8 pixels, and begins 84 pixels below the upper edge.
+"$cleave" plot results/strip --field von_mises --times last --crop 0:20mm,4mm:5mm -o low.png >out 2>err
+high=$(sed -n 's/.*pngcairo size 1000,\([0-9]*\) .*/\1/p' drawn)
+at=$(sed -n "s/^set label 'von Mises stress' at screen [0-9.]*,\([0-9.]*\) .*/\1/p" drawn)
+between "the label of a low colour bar begins below what is above the bar" "$(compute "(1 - $at) * $high - 64 - 84")" 0 40
 "$cleave" plot results/strip --field speed --times last --size 90mmx70mm -o size.pdf >out 2>err
 drawn "a PDF of 90 x 70 mm" "pdfcairo size 3.541[0-9]*in,2.75in"
 "$cleave" plot results/strip --field speed --times last --magnify 3e4 --title '' $small -o untitled.png >out 2>err
@@ -299,8 +304,11 @@ END
     set -- $("$margins" finer/pictures/convergence.png)
     between "the key of a convergence study is whole: blank pixels beside it" "$2" 2 150
     # Pictures of studies have the size that is asked for, too.
+    : >all
     "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --size 85mmx60mm -o finer >out 2>err
     is "converge --size: $(cat err)" $? 0
+    holds "at spacing 0 it has what is extrapolated and nothing else" grep -a -A 1 '^$e0 << EOD' all
+    holds "an interval has none" sh -c "! grep -a -q '[$]e.*yerrorbars' all"
     "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of energy.kinetic --size 85mmx60mm -o sized >out 2>err
     is "sweep --size: $(cat err)" $? 0
     for picture in finer/pictures/convergence.png sized/pictures/particles.spacing.png; do

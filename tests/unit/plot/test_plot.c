@@ -390,7 +390,8 @@ static void slits_are_lines_of_the_body(void **state)
     real far = 2500, end[2][DIM_MAX] = {{far - 20e-3, 0.45e-3}, {far, 0.45e-3}};
     struct crack slit = {.n = 2, .corner = end};
     struct scene scene = {.dim = 2, .cracks = 1, .crack = &slit};
-    struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
+    enum { FINE = 960 }; /* a line is more than 3 pixels wide */
+    struct colour *pixel = NEW("test.pixel", FINE * FINE, struct colour);
     for (int open = 0; open < 2; open++) {
         struct output_frame f = block_make(24, 20, 1, 2);
         struct plotted_particles c;
@@ -414,6 +415,8 @@ static void slits_are_lines_of_the_body(void **state)
             raster_paint_particles(pixel, size, size, &v, &c, MAP_DAMAGE);
             assert_true(abs(columns_with_line(pixel, size) - size * 12 / 30) <= 2);
         }
+        raster_paint_particles(pixel, FINE, FINE, &v, &c, MAP_DAMAGE);
+        assert_true(abs(columns_with_line(pixel, FINE) - FINE * 12 / 30) <= 1); /* nothing beyond the edge */
         plotted_particles_free(&c), frame_free(&f);
     }
     memory_free(pixel);
