@@ -9,7 +9,8 @@
  * to none. The tip is at the farthest particle of the crack from the start, at the mean of several equally far ones
  * that touch each other; of equally far ones in separate groups, as on two branches, one group is chosen
  * (fracture/places.h). Particles beside the last 2.5 spacings of the pre-crack do not count as growth. A crack that
- * started away from all others and is reached by another becomes part of it. In 3D every edge of a pre-crack inside the
+ * started away from all others and is reached by another becomes part of it, unless both have grown by more than
+ * three spacings, run in the same direction and touch behind both tips. In 3D every edge of a pre-crack inside the
  * body is one front, whose start is the whole edge. */
 #ifndef CLEAVE_TIPS
 #define CLEAVE_TIPS
@@ -31,6 +32,7 @@ enum { TIPS_MAX = 64 };
 struct crack_tip {
     bool from_crack; /* starts at the end of a pre-crack */
     int body;
+    int number;           /* of the crack, from 1 in the order in which cracks begin; a new one when it joins another */
     real origin[DIM_MAX]; /* start [m] */
     real along[DIM_MAX];  /* unit direction of the pre-crack at the start; without a pre-crack the x axis */
     real edge[DIM_MAX];   /* 3D: half the edge of the front, origin -+ edge are its ends; else 0 [m] */
@@ -51,6 +53,7 @@ struct crack_tip {
  * at `samples` times. The arrays are owned. */
 struct crack_tips {
     int dim, n;
+    int begun; /* largest number of a crack so far */
     struct crack_tip tip[TIPS_MAX];
     real spacing, window; /* spacing of the particles [m], window of the speed [s] */
     int64_t count;        /* number of particles */

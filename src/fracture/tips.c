@@ -8,6 +8,7 @@
 #include "tips_parts.h"
 
 #define JOIN_JUMP 3.0 /* growth in a sample above which it is due to joining another crack [spacings] */
+#define GROWN 3.0     /* growth above which a crack is more than a cluster of damage beside another one [spacings] */
 
 void tips_free(struct crack_tips *t)
 {
@@ -89,15 +90,38 @@ static int tips_root_of(const struct flood *f, int tip)
     return tip;
 }
 
-/* Merges the cracks number a and b of f, which touch. Two cracks that both start at ends of pre-cracks stay separate.
- * Otherwise a crack that starts at no pre-crack is merged into one that does, or, if neither starts at a pre-crack, the
- * later crack into the earlier one. */
-static void flood_join(struct flood *f, int a, int b)
+/* Returns true if particle i is behind the tip of `crack` as it was in the previous sample, by more than TIP_TOUCH
+ * spacings. */
+static bool is_behind(const struct flood *f, const struct crack_tip *crack, int32_t i)
 {
-    a = tips_root_of(f, a), b = tips_root_of(f, b);
-    bool a_fixed = f->t->tip[a].from_crack, b_fixed = f->t->tip[b].from_crack;
-    if (a == b || (a_fixed && b_fixed)) return;
-    int keep = a_fixed || (!b_fixed && a < b) ? a : b;
+    real X[DIM_MAX], offset[DIM_MAX];
+    particle_reference_position(f->search.p, i, X);
+    return segment_distance_and_offset_to_point(crack->origin, crack->edge, X, f->t->dim, offset) <
+           crack->growth - TIP_TOUCH * f->t->spacing;
+}
+
+/* Returns true if the cracks a and b of f, which touch at the particles i of a and j of b, are two that run side by
+ * side, as those that leave a hole in the same direction: up to the previous sample both have grown by more than GROWN
+ * spacings, and they touch behind both tips. */
+static bool are_side_by_side(const struct flood *f, const struct crack_tip *a, const struct crack_tip *b, int32_t i,
+                             int32_t j)
+{
+    real both = 0;
+    for (int d = 0; d < f->t->dim; d++) both += (a->place[d] - a->origin[d]) * (b->place[d] - b->origin[d]);
+    return both > 0 && real_min(a->growth, b->growth) > GROWN * f->t->spacing && is_behind(f, a, i) &&
+           is_behind(f, b, j);
+}
+
+/* Merges the cracks of the particles i and j of f, which touch. Two cracks that both start at ends of pre-cracks, or
+ * that run side by side, stay separate. Otherwise a crack that starts at no pre-crack is merged into one that does, or,
+ * if neither starts at a pre-crack, the later crack into the earlier one. */
+static void flood_join(struct flood *f, int32_t i, int32_t j)
+{
+    const struct crack_tip *tip = f->t->tip;
+    const int a = tips_root_of(f, f->t->label[i] - 1), b = tips_root_of(f, f->t->label[j] - 1);
+    const bool a_fixed = tip[a].from_crack, b_fixed = tip[b].from_crack;
+    if (a == b || (a_fixed && b_fixed) || are_side_by_side(f, &tip[a], &tip[b], i, j)) return;
+    const int keep = a_fixed || (!b_fixed && a < b) ? a : b;
     f->into[keep == a ? b : a] = keep;
     f->grown_by[keep] = true;
 }
@@ -120,7 +144,7 @@ static void flood_run(struct flood *f)
             if (can_belong(f->t, p, j))
                 flood_label(f, j, tip);
             else if (f->t->label[j] != 0 && f->t->label[j] != TIP_BEFORE)
-                flood_join(f, tip, f->t->label[j] - 1);
+                flood_join(f, i, j);
         }
     }
     f->queued = 0;
@@ -273,9 +297,9 @@ static void flood_all(struct flood *f)
 
 /* Updates position, growth and times of `tip` from r, the extent of its crack at time `time` [s]. A growth below the
  * previous one does not change them. t: all cracks, for the spacing; took_in: true if another crack has been merged
- * into this one. A jump in growth is then added to tip->joined, so that it does not count for the speed. */
-static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const struct crack_tips *t, real time,
-                     bool took_in)
+ * into this one. A jump in growth is then added to tip->joined, so that it does not count for the speed, and the crack
+ * has a new number. */
+static void tip_move(struct crack_tip *tip, const struct tip_reach *r, struct crack_tips *t, real time, bool took_in)
 {
     real gain = r->farthest - tip->growth;
     tip->particles = r->particles;
@@ -285,7 +309,7 @@ static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const str
     tip->ends = r->ends;
     if (gain <= TIP_EQUAL * t->spacing) return;
     tip->growth = r->farthest;
-    if (took_in && gain > JOIN_JUMP * t->spacing) tip->joined += gain;
+    if (took_in && gain > JOIN_JUMP * t->spacing) tip->joined += gain, tip->number = ++t->begun;
     if (isnan(tip->start_time) && tip->growth >= (1 - TIP_EQUAL) * t->spacing) tip->start_time = time;
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
@@ -410,6 +434,7 @@ status tips_save_or_load(struct crack_tips *t, struct archive *a)
 {
     int64_t samples = t->samples;
     ARCHIVE_VALUE(a, "tips/n", t->n);
+    ARCHIVE_VALUE(a, "tips/begun", t->begun);
     ARCHIVE_VALUE(a, "tips/tip", t->tip);
     ARCHIVE_VALUE(a, "tips/samples", samples);
     if (!a->saving) {

@@ -86,6 +86,7 @@ struct crack_tip *tip_add_without_growth(struct crack_tips *t, int body_number, 
     INVARIANT(t->n < TIPS_MAX);
     struct crack_tip *tip = &t->tip[t->n++];
     *tip = (struct crack_tip){.body = body_number,
+                              .number = ++t->begun,
                               .first_time = NAN,
                               .start_time = NAN,
                               .arrest_time = NAN,

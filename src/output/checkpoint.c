@@ -17,7 +17,7 @@
 #include "output/output_hdf5.h"
 
 enum { SCENE_LONGEST = 256 << 20 }; /* largest text of a scene in a checkpoint [byte]: far more than any scene has */
-enum { CHECKPOINT_VERSION = 19 };   /* version of the format; other versions are refused */
+enum { CHECKPOINT_VERSION = 20 };   /* version of the format; other versions are refused */
 static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint.previous.h5",
                   damaged_name[] = "checkpoint.damaged.h5";
 

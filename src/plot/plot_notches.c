@@ -132,8 +132,8 @@ static void line_paint(struct colour *pixel, int width, int height, const double
 }
 
 /* Paints both faces of the deformed pre-crack f as lines in `colour` into the image pixel[height][width], which shows
- * the rectangle of the view v. Also fills the gap between the faces where it is too narrow to be seen. The round ends of
- * the lines end where the faces do. */
+ * the rectangle of the view v. Also fills the gap between the faces where it is too narrow to be seen. The round ends
+ * of the lines end where the faces do. */
 static void faces_paint(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
                         struct colour colour)
 {

@@ -79,7 +79,8 @@ function readColumns() {
 }
 
 // The largest magnitude of a column in pictures, where its shift is subtracted from its values.
-const largestOf = (c) => Math.max(Math.abs(c.low - c.shift), Math.abs(c.high - c.shift)), varies = (c) => c.high > c.low;
+const largestOf = (c) => Math.max(Math.abs(c.low - c.shift), Math.abs(c.high - c.shift));
+const varies = (c) => c.high > c.low;
 
 // Returns the kinetic energy at the start [J] if it would flatten the curves of all other energies, as that of a heavy
 // hammer, else 0; by the rule of cleave plot.

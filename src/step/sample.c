@@ -24,7 +24,7 @@
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 25 }; /* number of columns that all histories have */
+enum { RECORD_FIXED = 26 }; /* number of columns that all histories have */
 
 /* History columns of all runs: name and unit; gaps are energies (run/ledger.h). */
 static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
@@ -42,7 +42,8 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           {"tip_y", "m"},
                                                           {"tip_z", "m"},
                                                           [20] = {"mpm_share", ""},
-                                                          {"inactive_share", ""}};
+                                                          {"inactive_share", ""},
+                                                          [25] = {"crack_number", ""}};
 
 /* Returns the mean fraction of the bodies that was at rest in the steps since the previous call [1]; 0 if there was no
  * step. clock: step counter; report: sums over the steps. The next call begins a new mean. */
@@ -97,7 +98,8 @@ static void fill_record(struct run *e)
                                       dim > 1 ? place[1] : NAN,
                                       dim > 2 ? place[2] : NAN,
                                       [20] = 1 - pd / n,
-                                      inactive_since_sample(&e->clock, e->report)};
+                                      inactive_since_sample(&e->clock, e->report),
+                                      [25] = tip ? tip->number : 0};
     memcpy(r, fixed, sizeof fixed);
     for (int k = 0; k < ENERGIES; k++) r[ledger[k].column] = l->energy.of[k];
     r[ledger[LEDGER_WORK].column] = l->external_work;

@@ -230,11 +230,11 @@ static status draw_figures(const struct convergence_study *s, const struct scala
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
 /* Path of the longest crack tip of a run, one entry for each of n samples at which it has grown. x, y: positions [m];
- * grown: growth [m]; tip[k]: index of the tip that was the longest at sample k, 0 to tips - 1. It is reconstructed
- * because the history does not identify tips. */
+ * grown: growth [m]; crack: number of its crack; tip[k]: index of the tip that was the longest at sample k, 0 to
+ * tips - 1. It is reconstructed because the history does not identify the branches of a crack. */
 struct longest {
     int64_t n;
-    double *x, *y, *grown;
+    double *x, *y, *grown, *crack;
     int *tip, tips;
 };
 
@@ -244,17 +244,17 @@ struct extent {
 };
 
 /* Returns the index of the crack tip to which position i of *l belongs, or a new index (l->tips) if it belongs to none
- * of the tips so far. The history contains only the position of the longest crack, which is not always the same crack.
- * Among the tips that can have moved to this position, it is the one whose last position is nearest: since position k,
- * a tip can have moved by at most 2 (l->grown[i] - l->grown[k]) + FLICKER * spacing. At most TIPS_MOST tips are
- * distinguished. spacing: lattice spacing of the run [m]. */
+ * of the tips so far. The history contains only the position of the longest crack, which is not always the same branch.
+ * Among the tips of the same crack that can have moved to this position, it is the one whose last position is nearest:
+ * since position k, a tip can have moved by at most 2 (l->grown[i] - l->grown[k]) + FLICKER * spacing. At most
+ * TIPS_MOST tips are distinguished. spacing: lattice spacing of the run [m]. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};
     double nearest = INFINITY;
     int best = l->tips;
     for (int64_t k = i - 1; k >= 0; k--) {
-        if (seen[l->tip[k]]) continue;
+        if (seen[l->tip[k]] || l->crack[k] != l->crack[i]) continue;
         seen[l->tip[k]] = true;
         const double off = hypot(l->x[i] - l->x[k], l->y[i] - l->y[k]);
         if (off > 2 * (l->grown[i] - l->grown[k]) + FLICKER * spacing || off > nearest) continue;
@@ -267,15 +267,17 @@ static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 static void longest_find(struct longest *l, const struct history *h, double spacing)
 {
     const int x = history_find_column(h, "tip_x"), y = history_find_column(h, "tip_y");
-    const int length = history_find_column(h, "crack_length");
+    const int length = history_find_column(h, "crack_length"), number = history_find_column(h, "crack_number");
     *l = (struct longest){.x = NEW("study.x", h->rows, double),
                           .y = NEW("study.y", h->rows, double),
                           .grown = NEW("study.grown", h->rows, double),
+                          .crack = NEW("study.crack", h->rows, double),
                           .tip = NEW("study.tip", h->rows, int)};
     for (int64_t i = 0; i < h->rows; i++) {
         const double grown = history_value_at(h, i, length), last = l->n > 0 ? l->grown[l->n - 1] : 0;
         if (!(grown > last) || !isfinite(history_value_at(h, i, x)) || !isfinite(history_value_at(h, i, y))) continue;
         l->x[l->n] = history_value_at(h, i, x), l->y[l->n] = history_value_at(h, i, y), l->grown[l->n] = grown;
+        l->crack[l->n] = number < 0 ? 0 : history_value_at(h, i, number);
         l->tip[l->n] = tip_drawn(l, l->n, spacing);
         if (l->tip[l->n] == l->tips) l->tips++;
         l->n++;
@@ -287,6 +289,7 @@ static void longest_free(struct longest *l)
     memory_free(l->x);
     memory_free(l->y);
     memory_free(l->grown);
+    memory_free(l->crack);
     memory_free(l->tip);
 }
 

@@ -96,7 +96,8 @@ async function probeFilm(seen) {
     }
 }
 
-// The kinetic energy as it would be beside a hammer of 1 kJ: its name in the key, and how it then compares with what it was.
+// The kinetic energy as it would be beside a hammer of 1 kJ: its name in the key, and how large its curve is against
+// what it was.
 function besideHammer() {
     const kinetic = history_.columns.find((c) => c.name === "kinetic"), light = kinetic.values;
     const largest = kinetic.high, heavy = (v) => 1000 + v;

@@ -249,6 +249,37 @@ static void tip_joins_a_crack_ahead(void **state)
     notched_free(&b, &t);
 }
 
+/* Checks that two cracks that start beside one another and have grown in the same direction stay two when damage
+ * between their starts connects them, each with its own start, and that the tip of another crack takes them in. */
+static void tips_that_touch_beside_are_two(void **state)
+{
+    (void)state;
+    struct body b;
+    struct crack_tips t;
+    notched_make(&b, &t, 3);
+    hurt(&b, 20.5, 8.5, 0), hurt(&b, 20.5, 12.5, 0);
+    tips_update_from_damage(&t, &b.p, &b.c, 0);
+    for (int k = 1; k <= 6; k++) {
+        hurt(&b, 20.5 + k, 8.5, 0), hurt(&b, 20.5 + k, 12.5, 0);
+        tips_update_from_damage(&t, &b.p, &b.c, k);
+    }
+    hurt(&b, 20.5, 9.5, 0), hurt(&b, 20.5, 10.5, 0), hurt(&b, 20.5, 11.5, 0);
+    tips_update_from_damage(&t, &b.p, &b.c, 7);
+    assert_int_equal(t.n, 3);
+    for (int k = 1; k < 3; k++) {
+        assert_int_equal(t.tip[k].number, k + 1);
+        assert_near(t.tip[k].growth, 6, ROUND_OFF);
+        assert_near(t.tip[k].place[1], t.tip[k].origin[1], 0);
+    }
+
+    /* The tip of the pre-crack's crack comes to the damage that connects them, and takes in what it meets. */
+    for (int k = 1; k <= 10; k++) hurt(&b, 9.5 + k, 10.5, 0);
+    tips_update_from_damage(&t, &b.p, &b.c, 8);
+    assert_int_equal(t.n, 2);
+    assert_true(t.tip[0].number > 3);
+    notched_free(&b, &t);
+}
+
 /* Checks that a crack that only joins others after its first spacing has no mean speed. */
 static void tip_that_only_joins(void **state)
 {
@@ -396,6 +427,7 @@ int main(void)
         cmocka_unit_test(places_of_groups),
         cmocka_unit_test(tip_growth_leaves_out),
         cmocka_unit_test(tip_joins_a_crack_ahead),
+        cmocka_unit_test(tips_that_touch_beside_are_two),
         cmocka_unit_test(tip_that_only_joins),
         cmocka_unit_test(tip_of_a_front),
         cmocka_unit_test(tips_area_in_the_plane),
