@@ -105,6 +105,10 @@ int64_t tips_count_ends_with_largest_growth(const struct crack_tips *t);
 bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
                                const struct mirror_plane *mirror, int mirror_count);
 
+/* Moves the tips of t that grow along a plane of symmetry and have stayed beside it into the plane, where the middle of
+ * the tip and its mirror image is. mirror: `mirror_count` planes of symmetry. */
+void tips_place_on_mirror_planes(struct crack_tips *t, const struct mirror_plane *mirror, int mirror_count);
+
 /* Symmetry (planes mirror[mirrors]) and cross-section of the body, on which the area of a crack depends. */
 struct tip_surroundings {
     const struct mirror_plane *mirror; /* [mirrors] planes of symmetry */

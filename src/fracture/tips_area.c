@@ -102,6 +102,17 @@ bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_ti
     return on;
 }
 
+void tips_place_on_mirror_planes(struct crack_tips *t, const struct mirror_plane *mirror, int mirror_count)
+{
+    for (int k = 0; k < t->n; k++)
+        for (int m = 0; m < mirror_count; m++) {
+            real *at = &t->tip[k].place[mirror[m].axis];
+            if (fabs(*at - mirror[m].at) < 0.5 * TIP_TOUCH * t->spacing &&
+                tip_grows_on_mirror_plane(t, &t->tip[k], &mirror[m], 1))
+                *at = mirror[m].at;
+        }
+}
+
 struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
                                         const struct tip_surroundings *s)
 {

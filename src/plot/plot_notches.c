@@ -22,6 +22,7 @@ static const double BESIDE = 1.05, RUBBLE = 0.65;
 struct faces {
     double from[2], along[2], length, section;
     double begin, end; /* part of the length along which there are particles [m] */
+    bool in_mirror;    /* in a plane of symmetry: the body has one of the faces */
     int sections;
     double *u[2], *weight[2];
 };
@@ -107,6 +108,20 @@ static bool face_at(const struct faces *f, int side, double s, double *x)
     return true;
 }
 
+/* Completes the points x[2][2] [m] of the two faces of the pre-crack f, of which is[side] says whether there are
+ * particles beside them. Without particles on one side there is no point, unless the pre-crack is in a plane of
+ * symmetry: then both points are that of the other side, moved into the body by `inside` [m]. */
+static void faces_complete(const struct faces *f, double x[2][2], bool is[2], double inside)
+{
+    const int own = is[0] ? 0 : 1;
+    if (is[0] == is[1]) return;
+    is[0] = is[1] = f->in_mirror;
+    for (int a = 0; a < 2; a++) {
+        x[own][a] += inside * (own ? -1 : 1) * (a ? f->along[0] : -f->along[1]);
+        x[!own][a] = x[own][a];
+    }
+}
+
 /* Returns the length [pixel] of which LINE_HALF and GAP_SEEN are shares, in an image of the given size [pixel]. */
 static double line_scale(int width, int height) { return fmin(width, FLAT * height); }
 
@@ -146,12 +161,11 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
         const double s = f->begin + round + (f->end - f->begin - 2 * round) * k / steps;
         double x[2][2];
         bool is[2];
-        for (int side = 0; side < 2; side++) {
-            is[side] = face_at(f, side, s, x[side]);
+        for (int side = 0; side < 2; side++) is[side] = face_at(f, side, s, x[side]);
+        faces_complete(f, x, is, round);
+        for (int side = 0; side < 2; side++)
             for (int a = 0; a < 2 && is[side]; a++)
                 x[side][a] = (x[side][a] - v->from[a]) * (a ? height : width) / (v->to[a] - v->from[a]);
-        }
-        if (!is[0] || !is[1]) is[0] = is[1] = false; /* beside the body */
         for (int side = 0; side < 2; side++) {
             if (is[side] && was[side]) line_paint(pixel, width, height, last[side], x[side], colour);
             last[side][0] = x[side][0], last[side][1] = x[side][1], was[side] = is[side];
@@ -178,6 +192,18 @@ static void faces_make(struct faces *f, const struct crack *crack, double sectio
     }
 }
 
+/* Returns true if both ends of `crack` are within half a spacing of a plane of symmetry of c. */
+static bool crack_is_in_mirror(const struct crack *crack, const struct plotted_particles *c)
+{
+    bool in = false;
+    for (int m = 0; m < c->mirrors; m++) {
+        const int axis = c->mirror[m].axis;
+        in |= fabs(crack->corner[0][axis] - c->mirror[m].at) < 0.5 * c->spacing &&
+              fabs(crack->corner[1][axis] - c->mirror[m].at) < 0.5 * c->spacing;
+    }
+    return in;
+}
+
 void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
                                const struct plotted_particles *c, enum map map)
 {
@@ -188,6 +214,7 @@ void notches_paint_crack_faces(struct colour *pixel, int width, int height, cons
                                           v->notch[k].corner[1][1] - v->notch[k].corner[0][1]) > 0))
             continue;
         faces_make(&f, &v->notch[k], 2 * c->spacing);
+        f.in_mirror = crack_is_in_mirror(&v->notch[k], c);
         faces_move_between_particles(&f, c);
         for (int64_t i = 0; i < c->n; i++) face_add_motion(&f, c, i);
         faces_paint(pixel, width, height, v, &f, map == MAP_DAMAGE ? FACE : GAP);

@@ -221,6 +221,7 @@ static void sample_state(struct run *e)
         diagnostics_update_angular_momentum(e->diagnostics, &e->part,
                                             e->frame->mesh.points > 0 ? &e->frame->mesh : NULL, e->scene->bodies);
     tips_update_from_damage(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
+    tips_place_on_mirror_planes(&e->fracture->tips, e->source.mirror, e->source.mirrors);
     struct observed_run o = observed_run_view_of(e);
     probes_begin_sample_before_step(&e->probing->probes, &o);
 }
