@@ -319,13 +319,15 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Writes the largest sampled force of the curve a, and the displacement there, to text[capacity], for the key. h:
- * history with the values; newton, metre: units of force and displacement. */
+/* Writes the largest sampled force of the curve a, and the displacement there, to text[capacity], for the key, with the
+ * direction of this component: summary.json has the length of the vector. h: history with the values; newton, metre:
+ * units of force and displacement. */
 static void write_peak(char *text, size_t capacity, const struct history *h, const struct reaction *a,
                        struct unit newton, struct unit metre)
 {
-    snprintf(text, capacity, "sampled: %.4g %s at %.4g %s", component_at(h, a->peak, &a->force) / newton.factor,
-             newton.name, component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
+    snprintf(text, capacity, "sampled along %s%c: %.4g %s at %.4g %s", a->force.sign < 0 ? "−" : "",
+             'x' + a->force.axis, component_at(h, a->peak, &a->force) / newton.factor, newton.name,
+             component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
 }
 
 /* Returns the number of letters of the longest entry in the key of the curves r: a name or a peak. h, newton, metre: as

@@ -128,7 +128,7 @@ END
 : >all
 "$cleave" plot twice $small -o twice/ >out 2>err
 holds "two curves that coincide are one: $(cat err)" grep -a -q "title 'probe, up'" all
-is "their peak and the other's" "$(grep -a -o "title 'sampled: [0-9.]* N at 20 µm'" all | tr '\n' ' ')" "title 'sampled: 900 N at 20 µm' title 'sampled: 700 N at 20 µm' "
+is "their peak and the other's" "$(grep -a -o "title 'sampled along [^ ]*: [0-9.]* N at 20 µm'" all | tr '\n' ' ')" "title 'sampled along x: 900 N at 20 µm' title 'sampled along −x: 700 N at 20 µm' "
 
 # Signed components along which a body is driven: a loop goes round the origin; the part that moves without force ends the axis.
 mkdir signed
