@@ -94,6 +94,10 @@ status manual_print(FILE *out);
  * to path[capacity]. Returns false if neither has one. */
 bool schema_find_file_path(char *path, size_t capacity);
 
+/* Finds the folder `inputs` of manual and scenes, in the installation or else in the source tree of the program, and
+ * writes its path to path[capacity]. Returns false if neither has one. */
+bool documents_find_folder_path(char *path, size_t capacity);
+
 /* Prints to `out` the names of the kinds of scenes that the command `cleave new` can create, separated by blanks. */
 void new_scene_kinds_print(FILE *out);
 

@@ -4,6 +4,7 @@
 
 #include "base/edit_distance.h"
 #include "commands.h"
+#include "output/output_files.h"
 #include "scene/scene.h"
 #include "scene/words.h"
 
@@ -58,12 +59,23 @@ static const char *topic_answer(const char *word)
     return NULL;
 }
 
+/* Prints the answer to `word` and, if it names a file in the folder `inputs`, which is not in the present folder, where
+ * this folder is. */
+static void print_answer(const char *word, const char *answer)
+{
+    char folder[4096];
+    printf("%s: %s\n", word, answer);
+    if (strstr(answer, "inputs/") && !path_is_file("inputs/README.md") &&
+        documents_find_folder_path(folder, sizeof folder))
+        printf("inputs/ is %s\n", folder);
+}
+
 /* Prints where the manual treats `word`, if it is in the table `topics`, and the description of the key of this name.
  * Returns REFUSED if the word is neither a topic nor a key. */
 static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);
-    if (answer) printf("%s: %s\n", word, answer);
+    if (answer) print_answer(word, answer);
     if (answer && scene_help_can_explain_word(word)) putchar('\n');
     return answer && !scene_help_can_explain_word(word) ? OK : scene_print_help_on_keys(stdout, word);
 }

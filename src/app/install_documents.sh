@@ -8,7 +8,8 @@ for file in LICENSE CITATION.cff CHANGELOG.md README.md .github/CONTRIBUTING.md 
     src/README.md tests/README.md; do
     install -D -m 644 "$file" "$to/$file"
 done
-for file in inputs/*.* inputs/new/*.*; do install -D -m 644 "$file" "$to/$file"; done
+for file in inputs/*.* inputs/new/*.* bench/claims.csv bench/accuracy/cost_accuracy.csv bench/results/*.* \
+    tests/robustness/mutants/list.txt; do install -D -m 644 "$file" "$to/$file"; done
 # The schema for editors lies beside the documents of an installed program, not in a folder of builds.
 sed -i '1s|=\.\./build/|=../../../cleave/|' "$to"/inputs/*.yaml
 sed -i '1s|=\.\./\.\./build/|=../../../../cleave/|' "$to"/inputs/new/*.yaml

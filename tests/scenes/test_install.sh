@@ -36,14 +36,15 @@ documents=$prefix/share/doc/cleave
 for file in LICENSE CITATION.cff CHANGELOG.md README.md inputs/README.md inputs/blade.stl inputs/new/bar.yaml; do
     holds "$file is installed" test -s "$documents/$file"
 done
-# Each link of README and manual leads to a file that is installed.
-(cd "$documents" && for page in README.md inputs/*.md; do
+# Each link of a page leads to a file that is installed.
+(cd "$documents" && find . -name '*.md' | while read -r page; do
     { grep -o '](\([^)]*\))' "$page" | sed 's/^](//; s/)$//'; grep -o 'src="[^"]*"' "$page" | sed 's/src="//; s/"$//'; } |
         sed 's/#.*//' | grep -v '^https:' | sort -u | while read -r link; do
         [ -z "$link" ] || [ -e "$(dirname "$page")/$link" ] || echo "$page: $link"
     done
 done) >"$work/list"
 is "links of installed documents that lead nowhere" "$(cat "$work/list")" ""
+is "cleave help says where the manual is" "$(cd "$work" && "$prefix/bin/cleave" help loads | sed -n 2p)" "inputs/ is $documents/inputs"
 holds "an installed scene is sound" "$prefix/bin/cleave" check --no-trial "$documents/inputs/plate_crack.yaml" >/dev/null 2>&1
 for file in src/python/cleave/*.py src/python/cleave/py.typed; do
     holds "$file is installed" test -n "$(find "$prefix/lib" -path "*/cleave/$(basename "$file")")"
