@@ -4,28 +4,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Beginnings of the names of element types, compared in this order. plane: true for 2D and surface elements. */
+/* Beginnings of the names of element types, compared in this order. dim: 1 for bars, as which Gmsh writes the elements
+ * of curves, 2 for 2D and surface elements, else 3. */
 static const struct family {
     const char *name;
-    bool plane;
-} families[] = {{"C3D", false}, {"CPS", true}, {"CPEG", true}, {"CPE", true}, {"CGAX", true},
-                {"CAX", true},  {"C2D", true}, {"M3D", true},  {"R3D", true}, {"SFM3D", true},
-                {"STRI", true}, {"SC", false}, {"DS", true},   {"S", true}};
+    int dim;
+} families[] = {{"C3D", 3}, {"CPS", 2},   {"CPEG", 2}, {"CPE", 2}, {"CGAX", 2}, {"CAX", 2}, {"C2D", 2}, {"M3D", 2},
+                {"R3D", 2}, {"SFM3D", 2}, {"STRI", 2}, {"SC", 3},  {"DS", 2},   {"S", 2},   {"T2D", 1}, {"T3D", 1}};
 
 /* Beginnings of the names of types that have no shape of their own: points, bars, beams, springs, joints and the like.
  */
 static const char *const left_out[] = {
-    "MASS", "ROTARYI", "HEATCAP", "SPRING", "DASHPOT", "JOINT", "CONN",  "GAP",   "ITS",  "DCOUP", "DRAG", "PSI",
-    "ASI",  "T2D",     "T3D",     "B2",     "B3",      "PIPE",  "ELBOW", "FRAME", "SAX",  "MAX",   "RAX",  "R2D",
-    "RB",   "SFMAX",   "COH",     "CIN",    "F2D",     "F3D",   "FAX",   "DC1D",  "AC1D", "ACIN",  "LS"};
+    "MASS", "ROTARYI", "HEATCAP", "SPRING", "DASHPOT", "JOINT", "CONN",  "GAP",  "ITS",  "DCOUP", "DRAG",
+    "PSI",  "ASI",     "B2",      "B3",     "PIPE",    "ELBOW", "FRAME", "SAX",  "MAX",  "RAX",   "R2D",
+    "RB",   "SFMAX",   "COH",     "CIN",    "F2D",     "F3D",   "FAX",   "DC1D", "AC1D", "ACIN",  "LS"};
 
-/* Shapes with number of nodes that are read; plane or not, number of nodes, kind of element. */
+/* Shapes with number of nodes that are read; dimension, number of nodes, kind of element. */
 static const struct abaqus_shape shapes[] = {
-    {true, 3, ELEMENT_TRIANGLE},      {true, 6, ELEMENT_TRIANGLE},    {true, 4, ELEMENT_QUAD},
-    {true, 8, ELEMENT_QUAD},          {true, 9, ELEMENT_QUAD},        {false, 4, ELEMENT_TETRAHEDRON},
-    {false, 10, ELEMENT_TETRAHEDRON}, {false, 5, ELEMENT_PYRAMID},    {false, 13, ELEMENT_PYRAMID},
-    {false, 6, ELEMENT_PRISM},        {false, 15, ELEMENT_PRISM},     {false, 8, ELEMENT_HEXAHEDRON},
-    {false, 20, ELEMENT_HEXAHEDRON},  {false, 27, ELEMENT_HEXAHEDRON}};
+    {1, 2, ELEMENT_LINE},         {1, 3, ELEMENT_LINE},       {2, 3, ELEMENT_TRIANGLE},    {2, 6, ELEMENT_TRIANGLE},
+    {2, 4, ELEMENT_QUAD},         {2, 8, ELEMENT_QUAD},       {2, 9, ELEMENT_QUAD},        {3, 4, ELEMENT_TETRAHEDRON},
+    {3, 10, ELEMENT_TETRAHEDRON}, {3, 5, ELEMENT_PYRAMID},    {3, 13, ELEMENT_PYRAMID},    {3, 6, ELEMENT_PRISM},
+    {3, 15, ELEMENT_PRISM},       {3, 8, ELEMENT_HEXAHEDRON}, {3, 20, ELEMENT_HEXAHEDRON}, {3, 27, ELEMENT_HEXAHEDRON}};
 
 /* Letters that may follow the number of nodes: reduced integration, hybrid, temperature and so on; 5: of shells. */
 #define VARIANTS "DEHIMPRSTVW5"
@@ -42,7 +41,7 @@ status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct sour
         char *end;
         const long nodes = strtol(number + length, &end, 10);
         for (size_t k = 0; k < COUNT_OF(shapes) && end[strspn(end, VARIANTS)] == '\0'; k++)
-            if (shapes[k].plane == families[f].plane && shapes[k].nodes == nodes) {
+            if (shapes[k].dim == families[f].dim && shapes[k].nodes == nodes) {
                 *shape = &shapes[k];
                 return OK;
             }

@@ -4,16 +4,16 @@
 
 #include "elements.h"
 
-/* Shape of an element type of Abaqus. plane: true for 2D and surface elements; nodes: number of nodes of an element in
- * the file; kind: shape without middle nodes. */
+/* Shape of an element type of Abaqus. dim: 1 for bars, 2 for 2D and surface elements, else 3; nodes: number of nodes of
+ * an element in the file; kind: shape without middle nodes. */
 struct abaqus_shape {
-    bool plane;
+    int dim;
     int nodes;
     enum element_kind kind;
 };
 
 /* Finds the shape of the element type `type`, such as C3D10M or CPS4R, in capitals; *shape receives a pointer to a
- * constant. Stores NULL in *shape for types that are left out: points, lines, and connectors between elements. Returns
+ * constant. Stores NULL in *shape for types that are left out: points, beams, and connectors between elements. Returns
  * REFUSED, with file and line, for any other type. */
 status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct source *file, const char *type);
 

@@ -31,10 +31,11 @@ void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_colu
 {
     fprintf(gnuplot,
             "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
-            "with rgbalpha notitle%s\n",
+            "with rgbimage notitle%s\n",
             pixel_columns, pixel_rows, pixel_size[0], pixel_size[1], lower_left_corner[0] + 0.5 * pixel_size[0],
             lower_left_corner[1] + 0.5 * pixel_size[1], further_elements);
-    fwrite(pixel, sizeof *pixel, (size_t)pixel_columns * (size_t)pixel_rows, gnuplot);
+    for (int64_t q = 0; q < (int64_t)pixel_columns * pixel_rows; q++)
+        fwrite((uint8_t[]){pixel[q].red, pixel[q].green, pixel[q].blue}, 1, 3, gnuplot);
 }
 
 double tic_numbers_width(double low, double high, double tics, const char *format)

@@ -143,6 +143,7 @@ class Broken:
     reference = np.arange(6.0)[:, None] * 1e-3 * [1, 0, 0]
     positions = reference + np.array([0, 0, 0, 1, 1, 2])[:, None] * 1e-3 * [1, 0, 0]
     __len__ = lambda self: 6
+    moved = lambda self, magnify: self.reference + magnify * (self.positions - self.reference)
     unit = lambda self, name: ""
     __getitem__ = lambda self, name: np.arange(6.0)
 curve, alone = draw_frame(Broken(), "damage").lines

@@ -72,7 +72,7 @@ async function probeFilm(seen) {
         seen.pre_crack = Math.max(...Array.from({length: 50}, (_, k) => Math.min(...near(0.004 + k * 1e-4))));
     }
     byId("play").click();
-    await wait(1500);
+    for (let k = 0; k < 100 && view.frame < seen.frames - 1; k++) await wait(100);
     seen.played_to = view.frame;
     seen.painted = painted();
     send("field", "change", "von_mises");

@@ -133,10 +133,10 @@ refused "a width in pixels or mm" results/strip --size 52mm
 refused "a width in pixels or mm" results/strip --size 85mmx300
 refused "crop and --magnify" --scene strip.yaml --magnify 3
 # Half a body: the face of a pre-crack in the plane of symmetry is drawn, and the crack that grows in it has no angle.
-"$cleave" run strip.yaml -q -o half -s duration=8us -s output.frames=1 -s 'bodies=[{shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}]' \
-    -s 'cracks=[{from: [0, 0], to: [5 mm, 0]}]' -s 'boundary=[{traction: [0, 20 MPa], face: y+}, {mirror: {axis: y, at: 0}}]' >out 2>err
+"$cleave" run strip.yaml -q -o half -s duration=16us -s output.frames=1 -s 'bodies=[{shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}]' \
+    -s 'cracks=[{from: [0, 0], to: [5 mm, 0]}]' -s 'boundary=[{traction: [0, 3 MPa], face: y+}, {mirror: {axis: y, at: 0}}]' >out 2>err
 "$cleave" plot half --field damage --times last $small -o half.png >out 2>err
-holds "the face of a pre-crack in a plane of symmetry: $(cat err)" env LC_ALL=C grep -a -q -P '\x7a\x10\x20\xff' drawn
+holds "the face of a pre-crack in a plane of symmetry: $(cat err)" env LC_ALL=C grep -a -q -P '(\x7a\x10\x20){3}' drawn
 between "the crack grows" "$(figure half crack.length_end)" 1e-3 15e-3
 is "in the plane" "$(figure half crack.angle_deg)" 0
 # What happens in the run is drawn: damage where bonds break, else plastic strain or stress, also with a slit that does

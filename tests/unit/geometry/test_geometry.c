@@ -308,7 +308,7 @@ static const char flat[] =
     "4, 0., 1.\n5, 1., 1.\n6, 2., 1.D0\n*Element, type=CPS4R, elset = Two\n10, 1, 2, 5, 4\n11, 2,\n"
     " 3, 6, 5\n*NSET, NSET=left\n1, 4\n*NSET, NSET=Both\n1\n*Elset, elset=RIGHT, generate\n11, 11, 1\n"
     "*elset, elset=both\nTwo,\n*Material, name=steel\n*Elastic\n210e9, .3\n"
-    "*Element, type=T3D2\n90, 1, 2\n*Step\n*Static\n0.1, 1.\n*Include, input=loads.inc\n*End Step\n";
+    "*Element, type=T3D2, elset=rod\n90, 1, 4\n*Step\n*Static\n0.1, 1.\n*Include, input=loads.inc\n*End Step\n";
 static const char parts[] =
     "*Part, name=A\n*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*Element, type=C3D4\n"
     "1, 1, 2, 3, 4\n*Nset, nset=tip\n4\n*End Part\n*Part, name=B\n*Node\n1, 0, 0, 0\n2, 0, 1, 0\n"
@@ -327,11 +327,11 @@ static void abaqus_decks(void **state)
     assert_int_equal(g.whole.faces, 6);
     assert_close(geometry_find_named_part(&g, "right")->hull.volume, 1, 1e-12);
     assert_close(geometry_find_named_part(&g, "both")->hull.volume, 2, 1e-12);
-    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "left")->hull, (real[]){0.3, 0.5}, NULL), 0.3,
-                 1e-12);
+    const struct geometry_set *edge[] = {geometry_find_named_part(&g, "left"), geometry_find_named_part(&g, "rod")};
+    for (int k = 0; k < 2; k++) assert_close(hull_signed_distance(&edge[k]->hull, (real[]){0.3, 0.5}, NULL), 0.3, 1e-12);
     geometry_free(&g);
     write_words("nodes.dat", "** a comment\n1, 0., 0.\n2, 1., 0.\n3, 2., 0\n4, 0., 1.\n5, 1., 1.\n6, 2., 1.D0\n");
-    write_words("whole.inc", "*Node, input=nodes.dat\n*Element, type=T3D2, input=nodes.dat\n"
+    write_words("whole.inc", "*Node, input=nodes.dat\n*Element, type=B31, input=nodes.dat\n"
                              "*Element, type=CPS4R\n10, 1, 2, 5, 4\n11, 2, 3, 6, 5\n");
     write_words("d.inp", "*Heading\n*Include, input=whole.inc\n");
     assert_ok(geometry_read(&g, "d.inp", 2, 1, NAN));
@@ -423,7 +423,7 @@ static void bad_abaqus(void **state)
                {"2, 1., 0.", "1, 1., 0.", "node 1 is given twice"},
                {"10, 1, 2, 5, 4", "10, 1, 2, 5, 44", "element 10 has node 44"},
                {" 3, 6, 5\n", "", "an element should have the 4 nodes of its type, but lists only 1"},
-               {"CPS4R", "B31", "no elements that can fill a body, but others such as T3D2"},
+               {"CPS4R", "B31", "no elements that can fill a body, but others such as B31"},
                {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; write a deck that lists all nodes"},
                {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", ":15: *NSET: x: "},
                {"*node, nset=all", "*node, input=d.inp", "d.inp:1: a keyword is among the data lines of *NODE"},
