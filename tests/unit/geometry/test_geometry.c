@@ -327,8 +327,8 @@ static void abaqus_decks(void **state)
     assert_int_equal(g.whole.faces, 6);
     assert_close(geometry_find_named_part(&g, "right")->hull.volume, 1, 1e-12);
     assert_close(geometry_find_named_part(&g, "both")->hull.volume, 2, 1e-12);
-    const struct geometry_set *edge[] = {geometry_find_named_part(&g, "left"), geometry_find_named_part(&g, "rod")};
-    for (int k = 0; k < 2; k++) assert_close(hull_signed_distance(&edge[k]->hull, (real[]){0.3, 0.5}, NULL), 0.3, 1e-12);
+    const struct geometry_set *e[] = {geometry_find_named_part(&g, "left"), geometry_find_named_part(&g, "rod")};
+    for (int k = 0; k < 2; k++) assert_close(hull_signed_distance(&e[k]->hull, (real[]){0.3, 0.5}, NULL), 0.3, 1e-12);
     geometry_free(&g);
     write_words("nodes.dat", "** a comment\n1, 0., 0.\n2, 1., 0.\n3, 2., 0\n4, 0., 1.\n5, 1., 1.\n6, 2., 1.D0\n");
     write_words("whole.inc", "*Node, input=nodes.dat\n*Element, type=B31, input=nodes.dat\n"
