@@ -374,9 +374,11 @@ static void compare_time(const struct pair *p)
                           compare_figure_of(p->folder[1], figure[k].key));
     double a = compare_figure_of(p->folder[0], "loop_seconds"), b = compare_figure_of(p->folder[1], "loop_seconds");
     if (!(a > 0 && b > 0)) return;
-    printf("  A/B = %.4g, A %s the share t_r = 1 - A/B = %.4g of the time of B%s\n", a / b,
-           a > b ? "takes longer, by" : "saves", 1 - a / b,
-           fabs(1 - a / b) < EQUAL_TIMES ? "; times of equal runs differ as much" : "");
+    const char *equal = fabs(1 - a / b) < EQUAL_TIMES ? "; times of equal runs differ as much" : "";
+    if (a > b)
+        printf("  A/B = %.4g, A takes %.3g %% longer than B%s\n", a / b, 100 * (a / b - 1), equal);
+    else
+        printf("  A/B = %.4g, A saves the share t_r = 1 - A/B = %.4g of the time of B%s\n", a / b, 1 - a / b, equal);
 }
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
