@@ -210,6 +210,10 @@ int study_index_of_result(const struct study_table *t, const char *name);
  * cannot, with the most similar name in the message. */
 status result_name_check_is_known(const struct scene *s, const char *name);
 
+/* Checks before the runs of the study s that each figure (number in summary.json) name[names] can be in the summary of
+ * at least one run. Returns REFUSED if not, with the most similar name in the message, or if a scene is invalid. */
+status study_check_result_names(const struct study *s, const char *const *name, int names);
+
 /* Returns true if the figure (number in summary.json) called `name` describes the computation or the discretisation
  * (run time, number of particles) instead of the body. */
 bool study_result_is_technical(const char *name);

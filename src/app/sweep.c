@@ -151,6 +151,7 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     s->options = a->words;
     TRY(study_add_combinations(s, a->key, a->keys));
     TRY(study_determine_case_states(s, a->collect));
+    TRY(study_check_result_names(s, a->of, a->asked));
     study_print_equal_scene_count(s, stderr);
     if (a->list) return sweep_list(s, a);
     TRY(study_check_output_files_replaceable(s, a->key, a->keys));

@@ -6,6 +6,7 @@
 
 #include "base/edit_distance.h"
 #include "output/renamed_results.h"
+#include "scene/scene_read.h"
 #include "study/study.h"
 
 /* Capacities of the last part of the name of a figure (a number in summary.json), and of its whole name [byte]. */
@@ -195,7 +196,7 @@ status result_name_check_is_known(const struct scene *s, const char *name)
     numbers_hidden(hidden, sizeof hidden, name);
     const char *dot = strrchr(hidden, '.'), *leaf = dot ? dot + 1 : hidden;
     snprintf(group, sizeof group, "%.*s", dot ? (int)(dot - hidden) : 0, hidden);
-    bool known = strncmp(hidden, "levels.cells.", 13) == 0;
+    bool known = strncmp(hidden, "levels.cells.", 13) == 0 || strncmp(hidden, "laps.", 5) == 0;
     for (size_t k = 0; k < COUNT_OF(groups); k++) {
         const bool there = leaf_is_known(groups[k].leaves, groups[k].group, leaf, &n);
         known |= there && strcmp(groups[k].group, group) == 0;
@@ -214,4 +215,19 @@ status result_name_check_is_known(const struct scene *s, const char *name)
     return status_set(
         REFUSED, "%.80s: summary.json has no such figure; %s%s%s (join names by points, such as crack.angle_deg)", name,
         similar ? "did you mean " : "see inputs/results.md", similar ? n.name : "", similar ? "?" : "");
+}
+
+status study_check_result_names(const struct study *s, const char *const *name, int names)
+{
+    for (int k = 0; k < names; k++) {
+        status known = REFUSED;
+        for (int c = 0; c < s->n && known == REFUSED; c++) {
+            struct scene scene;
+            TRY(scene_read(&scene, s->scene, s->at[c].override, s->at[c].overrides));
+            known = result_name_check_is_known(&scene, name[k]);
+            scene_free(&scene);
+        }
+        TRY(known);
+    }
+    return OK;
 }

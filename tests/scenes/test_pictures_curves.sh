@@ -39,9 +39,10 @@ holds "the line of an experiment is on the side of the crack: $(cat err)" grep -
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.start_time --of energy.kinetic -o varied >out 2>err
 for title in "crack: start time .[µnm]s." "energy: kinetic .[mµn]J."; do holds "a figure of a sweep: $title: $(cat err)" grep -a -q "set title '$title'" all; done
 is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
-"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.strat_time -o varied >out 2>err
+"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.strat_time -o unvaried >out 2>err
 is "sweep --of an unknown figure: exit status" $? 2
-holds "it names the nearest" grep -q "sweep.csv has no such figure; did you mean crack\." err
+holds "it names the nearest" grep -q "summary.json has no such figure; did you mean crack\." err
+absent "an unknown figure is refused before any run" "$(ls -d unvaried 2>/dev/null)"
 
 # Numbers of a key without a unit are in SI, which the axis says, and so does the page.
 : >all
