@@ -10,7 +10,8 @@ enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* times, positions at whi
 #define UNLIKE 30  /* factor between the densities of a rigid body and of materials in other units */
 #define EARLY 0.01 /* end of a function of time divided by the time step, below which the run does not see it */
 #define STIFF 1e9  /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
-#define TOUGHNESS_LEAST 5e4  /* [Pa m^0.5] from STIFF on; waxes and salts that cleave have 8e4 */
+#define TOUGHNESS_LEAST 5e4 /* [Pa m^0.5] from STIFF on; waxes have 8e4 */
+#define ATOMS_LEAST 5e-12   /* [m] from STIFF on: energy release rate over Young's modulus; cleaving salts have 8e-12 */
 #define HARDENING_LEAST 1e-6 /* hardening modulus over Young's modulus below which stress hardly grows [1] */
 
 enum { RULES = ACCEPT_TIMES + 1 }; /* number of quantities that are checked */
@@ -47,7 +48,7 @@ static const struct {
     [ACCEPT_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "", "yield_stress (Pa) and young (Pa)"},
     [ACCEPT_PASSAGES] = {0, 2000, "the number of times that waves cross the bodies in the duration is", "",
                          "duration (s), lengths (m) and young (Pa)"},
-    [ACCEPT_THICKNESS] = {0, 10, "in plane stress its thickness over the longest edge of its bodies is", "",
+    [ACCEPT_THICKNESS] = {0, 2, "in plane stress its thickness over the longest edge of its bodies is", "",
                           "thickness and lengths (m)"},
     [ACCEPT_ENERGY] = {0.03, 1e6, "its energy release rate is", " J/m^2", "energy_release_rate (J/m^2)"},
     [ACCEPT_HEAT] = {50, 2e4, "its specific heat is", " J/(kg K)", "specific_heat (J/(kg K))"},
@@ -128,17 +129,20 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
 }
 
 /* Adds a warning to *to if material m of scene s is stiff and has a toughness (E G_c)^(1/2) below that of any solid but
- * foams. The usual reason is an energy release rate in kJ/m^2. name: of the material in messages. */
+ * foams: below TOUGHNESS_LEAST, or with G_c/E below ATOMS_LEAST, as G_c is at least twice the surface energy, which is
+ * about E times a hundredth of the distance between atoms. The usual reason is an energy release rate in kJ/m^2. name:
+ * of the material in messages. */
 static void units_of_toughness(const struct scene *s, const char *name, const struct material *m, struct warnings *to)
 {
     const real toughness = sqrt(m->young * m->energy_release_rate);
+    const real least = real_max(TOUGHNESS_LEAST, m->young * sqrt(ATOMS_LEAST));
     const bool known = m->energy_release_rate >= rule[ACCEPT_ENERGY].least && !scene_silences_warning(s, ACCEPT_ENERGY);
-    if (!known || m->young < STIFF || toughness >= TOUGHNESS_LEAST) return;
+    if (!known || m->young < STIFF || toughness >= least) return;
     warnings_add_if_new(
         to,
         "%s: its toughness of %.3g MPa m^0.5 (%.3g J/m^2, %.3g Pa) is below %.3g (glass: 0.75): check the units of "
         "energy_release_rate (J/m^2) and young; if this is intended, add accept: [energy]",
-        name, 1e-6 * toughness, m->energy_release_rate, m->young, 1e-6 * TOUGHNESS_LEAST);
+        name, 1e-6 * toughness, m->energy_release_rate, m->young, 1e-6 * least);
 }
 
 /* Adds warnings to *to about implausible wave speeds, densities, energy release rates, specific heats, yield stresses
@@ -399,21 +403,28 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     if (stress >= enough) units_of_growth(s, p, largest, to);
 }
 
-/* Adds warnings to *to about tractions and pressures that are implausible relative to the smallest Young's modulus of
- * the materials. */
+/* Adds a warning to *to if the largest traction or pressure of the boundaries is implausible relative to the smallest
+ * Young's modulus of the materials. The warning counts the other boundaries of which this is true. */
 static void units_of_tractions(const struct scene *s, struct warnings *to)
 {
-    char subject[NAME_MAX_LENGTH + 16], note[80];
-    real young = INFINITY;
+    char subject[NAME_MAX_LENGTH + 16], note[120];
+    real young = INFINITY, largest = 0;
+    int others = -1; /* implausible loads but the largest */
     for (int m = 0; m < s->materials; m++) young = real_min(young, s->material[m].young);
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *a = &s->boundary[b];
         if (a->kind != BOUNDARY_TRACTION && a->kind != BOUNDARY_PRESSURE) continue;
-        const real most = a->kind == BOUNDARY_PRESSURE ? fabs(a->value[0]) : sqrt(dot(a->value, a->value, s->dim));
+        const real load = a->kind == BOUNDARY_PRESSURE ? fabs(a->value[0]) : sqrt(dot(a->value, a->value, s->dim));
+        others += load > rule[ACCEPT_STRAIN].most * young;
+        if (load <= largest) continue;
+        largest = load;
         snprintf(subject, sizeof subject, "boundary %s", a->name);
-        snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", most, young);
-        units_judge(s, ACCEPT_STRAIN, subject, most / young, note, to);
     }
+    if (others < 0) return;
+    const int used = snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa", largest, young);
+    snprintf(note + used, sizeof note - (size_t)used, others > 0 ? "; also of %d other boundar%s)" : ")", others,
+             others == 1 ? "y" : "ies");
+    units_judge(s, ACCEPT_STRAIN, subject, largest / young, note, to);
 }
 
 /* ---- steps and particles ----------------------------------------------------------------------------------------- */
@@ -436,25 +447,6 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
         units_judge(s, ACCEPT_STEPS, "time", (real)clock->steps, note, to);
 }
 
-bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin)
-{
-    bool meets = true;
-    for (int d = 0; d < dim; d++) {
-        real from = INFINITY, to = -INFINITY;
-        for (int k = 0; k < c->n; k++) from = real_min(from, c->corner[k][d]), to = real_max(to, c->corner[k][d]);
-        meets = meets && from <= box_high[d] + margin && to >= box_low[d] - margin;
-    }
-    return meets;
-}
-
-real engine_particle_count_between_positions(const struct scene *s, real low, real high, int axis)
-{
-    real n = round((high - low) / s->spacing) + 1;
-    for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == axis) n *= 2;
-    return n;
-}
-
 /* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has few particles along an axis. s: scene;
  * name: name of the body. */
 static void units_of_body(const struct scene *s, const char *name, const real *low, const real *high,
@@ -468,19 +460,6 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     }
     snprintf(subject, sizeof subject, "body %s", name);
     units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
-}
-
-bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
-                                         real *box_low, real *box_high)
-{
-    for (int d = 0; d < s->dim; d++) {
-        box_low[d] = INFINITY, box_high[d] = -INFINITY;
-        for (int64_t i = 0; i < p->n; i++) {
-            if (s->body[p->body[i]].joined != body_number) continue;
-            box_low[d] = real_min(box_low[d], p->X[d][i]), box_high[d] = real_max(box_high[d], p->X[d][i]);
-        }
-    }
-    return box_high[0] >= box_low[0];
 }
 
 /* Adds warnings to *to about bodies of s with a pre-crack if they have few particles along an axis. Joined bodies count

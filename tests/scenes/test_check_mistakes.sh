@@ -172,9 +172,13 @@ says "a run that is too short for its crack" "$short, but the nearest end of a c
 silent "a run long enough" '^warning: duration' "$glass" -s duration=5us
 silent "a short run in which all of the body moves" "$short" "$glass" -s duration=2us -s 'initial=[{velocity: [0, 0.1 m/s], region: {box: {from: [0, 0], to: [50 mm, 20 mm]}}}]'
 tough='^warning: material material: its toughness of'
-says "an energy release rate in kJ" "$tough 0.0495 MPa m^0.5 (0.034 J/m^2, 7.2e+10 Pa) is below 0.05" "$glass" -s material.energy_release_rate=0.034
+says "an energy release rate in kJ" "$tough 0.0495 MPa m^0.5 (0.034 J/m^2, 7.2e+10 Pa) is below 0.161 (glass: 0.75)" "$glass" -s material.energy_release_rate=0.034
+says "an energy release rate in kJ, of tougher glass" "$tough 0.0986 MPa m^0.5 .* is below 0.161" "$glass" -s material.energy_release_rate=0.135
 silent "an energy release rate in kJ that is meant" "$tough" "$glass" -s material.energy_release_rate=0.034 -s accept=[energy]
 
+says "two loads too large for a modulus without a unit" '^warning: boundary up: its load over Young.s modulus is 1.67e+05 (1.2e+07 Pa over 72 Pa; also of 1 other boundary)' \
+    "$glass" -s material.young=72
+silent "a modulus in GPa" 'also of' "$glass"
 says "friction in percent" 'contact.friction: 30 is above 3; dry solids have 0.1 to 1.5' "$glass" -s contact.friction=30
 says "gravity in mm/s^2 by 10" 'gravity: 9.81e+04 m/s^2 is 1e+04 times that of the Earth' "$glass" -s 'gravity=[0, -98100]'
 says "a crack wider than the body" 'crack 1: its width of 5 m is larger than the bodies, 0.05 m' "$glass" -s 'cracks=[{from: [0, 0], to: [24.9 mm, 0], width: 5}]'

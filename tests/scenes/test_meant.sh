@@ -69,10 +69,10 @@ silent "a duration in ms that is meant" "$units" "$glass" -s duration=40ms -s 'a
 # rho c v of 1 mm/s is 1.4e4 Pa, E u/L of the 20 nm that it goes over 50 mm 2.88e4 Pa, 0.0004 of the strength of 72 MPa; 1 um makes 1.44 MPa,
 # 0.02 of it, 1 m 20,000 times the strength.
 says "a modulus in MPa for GPa under 6 MPa" '^warning: boundary boundary0: its load over Young.s modulus is 0.0857 .*, above 0.05' "$glass" -s 'variables.E=70 MPa' \
-    -s boundary.0.traction='[0, 6 MPa]'
+    -s boundary.0.traction='[0, 6 MPa]' -s boundary.1.traction='[0, -6 MPa]'
 says "a traction in GPa" '^warning: boundary boundary0: its load over Young.s modulus is 0.139 ' "$glass" -s boundary.0.traction='[0, 10 GPa]'
 says "a duration of 20 ms" '^warning: time: the number of times that waves cross .* is 2.35e+03 .*, above 2e+03' "$glass" -s duration=20ms
-says "a thickness in m" '^warning: space: in plane stress its thickness over the longest edge of its bodies is 40 (2 m over 0.05 m), above 10: ' "$glass" -s 'thickness=2 m'
+says "a thickness in m" '^warning: space: in plane stress its thickness over the longest edge of its bodies is 40 (2 m over 0.05 m), above 2: ' "$glass" -s 'thickness=2 m'
 silent "a thickness in m that is meant" "$units" "$glass" -s 'thickness=2 m' -s 'accept=[thickness]'
 silent "a thickness in plane strain" "$units" "$glass" -s 'thickness=2 m' -s 'space=plane strain'
 says "an energy of nothing" '^warning: material material: its energy release rate is 0.01 J/m^2, below 0.03: ' "$glass" -s material.critical_stretch= \
