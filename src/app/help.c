@@ -1,4 +1,5 @@
 /* Implements `cleave help`: finds the page and prints it. */
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -41,6 +42,9 @@ static const struct {
     {"load|loads|support|supports|boundary_condition|boundary_conditions", "inputs/loads.md; the key `boundary`"},
     {"body|bodies|solid|solids|shape|geometry", "inputs/bodies.md; from files: inputs/files.md"},
     {"mesh|image|images|stl|surface", "inputs/files.md"},
+    {"gmsh|msh|abaqus|inp|ansys|ls_dyna|lsdyna|nastran|cad|exodus|cubit",
+     "inputs/files.md: meshes of Gmsh and Abaqus as shapes of bodies, Exodus II files as lists of particles; `cleave "
+     "export --help`"},
     {"particle_list|lists", "inputs/lists.md"},
     {"material|materials|plasticity", "inputs/materials.md"},
     {"study|studies|parameter_study|convergence|error_bar|error_bars|uncertainty",
@@ -108,13 +112,26 @@ static status help_misspelt(const char *word)
 }
 
 /* Joins the words argv[1..argc-1] after `help` by underscores, as in names of keys: fracture energy becomes
- * fracture_energy. Stores the text in joined[capacity] and returns it, or NULL if there are no words. */
+ * fracture_energy, and so does fracture-energy. Stores the text in joined[capacity] and returns it, or NULL if there
+ * are no words. */
 static const char *help_word(int argc, char **argv, char *joined, size_t capacity)
 {
     size_t used = 0;
     for (int k = 1; k < argc && used < capacity; k++)
         used += (size_t)snprintf(joined + used, capacity - used, "%s%s", k > 1 ? "_" : "", argv[k]);
+    for (char *c = joined; argc > 1 && *joined != '-' && *c; c++)
+        if (*c == '-') *c = '_';
     return argc > 1 ? joined : NULL;
+}
+
+/* Converts `word` to small letters if help knows it only so: Johnson_Cook to johnson_cook. */
+static void help_word_to_small_letters(char *word)
+{
+    char small[256];
+    snprintf(small, sizeof small, "%s", word);
+    for (char *c = small; *c; c++) *c = (char)tolower((unsigned char)*c);
+    if (scene_help_can_explain_word(word) || topic_answer(word)) return;
+    if (scene_help_can_explain_word(small) || topic_answer(small)) strcpy(word, small);
 }
 
 status command_help_main(int argc, char **argv)
@@ -122,6 +139,7 @@ status command_help_main(int argc, char **argv)
     char joined[256];
     const bool completion = argc > 1 && !strcmp(argv[1], "--completion");
     const char *word = completion ? argv[1] : help_word(argc, argv, joined, sizeof joined);
+    if (word == joined) help_word_to_small_letters(joined);
     if (!word || !strcmp(word, "scene") || !strcmp(word, "all") || !strcmp(word, "--all")) return help_scene();
     if (!strcmp(word, "--completion")) return completion_print_shell_script(stdout, argc == 3 ? argv[2] : "");
     if (!strcmp(word, "--schema")) return scene_print_json_schema(stdout);

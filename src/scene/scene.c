@@ -56,6 +56,7 @@ status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
 
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root)
 {
+    TRY(foreign_file_refuse(r, text, length));
     TRY(tree_parse_yaml(r, text, length, -1, root));
     if (!*root) return fault_at_location(r, -1, 1, 1, "empty; begin with keys such as space and duration");
     TRY(tree_rename_old_keys(r, *root));

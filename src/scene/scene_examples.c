@@ -31,12 +31,13 @@ static void write_example_number(const struct key *k, char *text, size_t capacit
         snprintf(text, capacity, "%s", k->type == KEY_INT ? "20" : unit_rows[k->unit].example);
 }
 
-/* Writes a list of dim numbers, an example of a value of key k, to text[capacity]. All but the first are 0 where the
- * key allows 0. */
-static void write_example_vector(const struct key *k, int dim, char *text, size_t capacity)
+void key_write_example_vector(const struct key *k, int dim, const char *first, char *text, size_t capacity)
 {
     char number[48];
-    write_example_number(k, number, sizeof number);
+    if (first)
+        snprintf(number, sizeof number, "%s", first);
+    else
+        write_example_number(k, number, sizeof number);
     size_t used = (size_t)snprintf(text, capacity, "[%s", number);
     for (int d = 1; d < dim && used < capacity; d++)
         used += (size_t)snprintf(text + used, capacity - used, ", %s", k->range.given ? number : "0");
@@ -53,7 +54,8 @@ static const struct key *key_for_example(const char *group_path, const char *wan
     for (int k = 0; k < keys_count; k++) {
         if (!key_is_directly_below(&keys[k], group_path)) continue;
         const char *fallback = keys[k].fallback + (*keys[k].fallback == '(');
-        if (strncmp(fallback, "required", 8) == 0 && keys[k].type != KEY_MATERIAL) return &keys[k];
+        const bool required = strncmp(fallback, "required", 8) == 0 && strncmp(fallback + 8, " with ", 6) != 0;
+        if (required && keys[k].type != KEY_MATERIAL) return &keys[k];
         if (!plain && has_plain_example(&keys[k])) plain = &keys[k];
         if (!first) first = &keys[k];
     }
@@ -87,9 +89,9 @@ void key_write_example(const struct key *k, int dim, const char *wanted, char *t
         snprintf(text, capacity, "%s{%s: %.150s}%s", is_list ? "[" : "", child ? key_last_part(child) : "..", value,
                  is_list ? "]" : "");
     } else if (is_vector(k))
-        write_example_vector(k, dim, text, capacity);
+        key_write_example_vector(k, dim, NULL, text, capacity);
     else if (k->type == KEY_SERIES)
-        write_example_vector(k, 1, text, capacity);
+        key_write_example_vector(k, 1, NULL, text, capacity);
     else if (k->type == KEY_REAL || k->type == KEY_INT)
         write_example_number(k, text, capacity);
     else if (k->type == KEY_FLAG || k->type == KEY_CHOICE)

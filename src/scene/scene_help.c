@@ -233,6 +233,20 @@ static int help_word_of_keys(FILE *out, const char *word)
     return printed;
 }
 
+/* Prints to `out` that `word` is a unit of scenes, or, if it is the name of another known unit, its value in units of
+ * scenes. Prints nothing and returns false for other words. */
+static bool help_unit(FILE *out, const char *word)
+{
+    struct quantity q;
+    const char *meant = unit_meant_by_word(word);
+    const bool known = *word && quantity_read_unit_symbol(&q, word) == strlen(word);
+    if (known)
+        fprintf(out, "%s: a unit, written behind a number; `cleave help units` lists all units\n", word);
+    else if (meant)
+        fprintf(out, "%s: not a unit of scenes (%s); `cleave help units` lists the units\n", word, meant);
+    return known || meant;
+}
+
 status scene_print_help_on_keys(FILE *out, const char *key)
 {
     char path[128] = "";
@@ -241,7 +255,7 @@ status scene_print_help_on_keys(FILE *out, const char *key)
     const char *now = key_current_name_of_former_key(path);
     if (now) fprintf(out, "%s has been renamed to %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += key_is_at_or_below_path(&keys[k], path);
-    if (found == 0) return help_word_of_keys(out, path) > 0 ? OK : help_unknown(path);
+    if (found == 0) return help_word_of_keys(out, path) > 0 || help_unit(out, path) ? OK : help_unknown(path);
     if (!key)
         fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"
                      "Units are written behind it: 0.5 mm, 190 GPa, 7800 kg/m^3.\n\n");

@@ -326,6 +326,11 @@ const char *key_group_of_items(const struct key *k);
  * shows; if `wanted` is NULL or no key below k, the example shows a required key. */
 void key_write_example(const struct key *k, int dim, const char *wanted, char *text, size_t capacity);
 
+/* Writes an example of a vector of dim numbers, a value of key k, for messages to text[capacity], such as [0.5 mm, 0].
+ * The components after the first are 0, or equal to the first if k has a range. first: text of the first component;
+ * NULL for an example of a number of key k. */
+void key_write_example_vector(const struct key *k, int dim, const char *first, char *text, size_t capacity);
+
 /* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of a scene); NULL
  * if there is none. */
 const struct key *key_find(const char *group_path, const char *last_part);
@@ -348,6 +353,10 @@ bool foreign_word_advice(const char *foreign_word, const char *group, char *text
 /* Returns advice, a static text, about the invalid value `foreign_value` of the key at `key_path`, if it is a word of
  * another program; else NULL. */
 const char *foreign_value_advice(const char *key_path, const char *foreign_value);
+
+/* Returns REFUSED, with a message, if text[length], the file read by r, is the input of Abaqus, LS-DYNA or LAMMPS, a
+ * mesh of Gmsh or an STL file; OK if it may be a scene. Defined in scene_foreign_file.c. */
+status foreign_file_refuse(struct reader *r, const char *text, size_t length);
 
 /* Returns the keys that are equivalent to `foreign_word`, a word of another program, separated by spaces ("" if there
  * are none); NULL for unknown words. */

@@ -258,7 +258,7 @@ static const char *trap(const char *c, size_t length)
     const char *digits = c + (*c == '+' || *c == '-');
     const char *rest = c + length;
     if (*rest == '_') return "digits cannot be grouped by _; write 1000 or 1e3";
-    if (*rest == ',') return "the decimal sign is a point; write 1.5";
+    if (*rest == ',') return "the decimal sign is a point; write "; /* then the number */
     if (*rest == ':') return "base 60 is not read; write a decimal number";
     if ((*rest == 'x' || *rest == 'X' || *rest == 'o' || *rest == 'b') && length <= 2 && *digits == '0')
         return "hexadecimal, octal and binary numbers are not read; write a decimal number";
@@ -396,13 +396,13 @@ bool number_read(real *value, const char *text, enum unit unit, bool allow_infin
     size_t length = number_length(text);
     if (length == 0) return complain(c, "is not a number", unit);
     if (length > NUMBER_LONGEST) return complain(c, "has too many digits", unit);
-    const char *other = trap(text, length);
+    const char *other = trap(text, length), *decimals = text[length] == ',' ? text + length + 1 : NULL;
     if (other) {
-        snprintf(message, capacity, "is not a number here: %s", other);
+        snprintf(message, capacity, "is not a number here: %s%.*s%s%.30s", other, decimals ? (int)length : 0, text,
+                 decimals ? "." : "", decimals ? decimals : "");
         return false;
     }
-    const char *rest = text + length;
-    rest += divisor_read(rest, &divisor);
+    const char *rest = text + length + divisor_read(text + length, &divisor);
     while (*rest == ' ') rest++;
     const int clock = clock_seconds(rest, unit);
     const real radians = unit == UNIT_ANGLE ? angle_radians(rest) : 1;

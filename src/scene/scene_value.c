@@ -47,8 +47,9 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
     }
     bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
     if (!number_evaluate_text(r, value, n->text, k->unit, infinite, what, sizeof what)) {
+        const char *advice = foreign_value_advice(k->path, n->text);
         advise_length_in_spacings(r, k, n->text, what, sizeof what);
-        return fault(r, n, "%s %s", node_text(r, n), what);
+        return fault(r, n, "%s %s%s%s", node_text(r, n), what, advice ? "; " : "", advice ? advice : "");
     }
     return check_range(r, k, n, *value);
 }
@@ -202,10 +203,14 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
     const char *space = space_name_for_message(r);
     if (n->kind != NODE_LIST) {
-        char example[200];
-        key_write_example(k, r->dim, NULL, example, sizeof example);
-        return fault(r, n, "%s is not a list; give %d components in %s, such as %s", node_text(r, n), r->dim, space,
-                     example);
+        char example[200], what[256];
+        real number;
+        const bool plain = n->kind == NODE_SCALAR && strlen(n->text) < 40 && strchr(n->text, ' ') &&
+                           number_evaluate_text(r, &number, n->text, k->unit, false, what, sizeof what);
+        const char *advice = foreign_value_advice(k->path, n->text);
+        key_write_example_vector(k, r->dim, plain ? n->text : NULL, example, sizeof example);
+        return fault(r, n, "%s is not a list; give %d components in %s, such as %s%s%s", node_text(r, n), r->dim, space,
+                     example, advice ? "; " : "", advice ? advice : "");
     }
     if (n->n != r->dim) return fault(r, n, "has %d components; give %d in %s", n->n, r->dim, space);
     for (const struct yaml_node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));

@@ -117,6 +117,25 @@ done <<'END'
 4|duration: 1 usec|4:1|has an unknown unit (us?)
 6|material: {young: 190 psi, density: 7800}|6:12|(1 psi is 6.895e3 Pa)
 10|particles: {spacing: 1,5 mm}|10:24|the decimal sign is a point
+3|thickness: 0,25 mm|3:1|the decimal sign is a point; write 0.25 mm
+6|material: {young: 190 GPa, density: 7800, hardness: 1 GPa}|6:43|has no hardness; nearest: `yield_stress`
+6|material: {young: 190 GPa, density: 7800, jh2: {}}|6:43|nearest: bonds that begin to soften at a strength surface
+6|material: {young: 190 GPa, density: 7800, Johnson-Holmquist: {}}|6:43|has no Johnson-Holmquist
+6|material: {young: 190 GPa, density: 7800, melting_temperature: 1356}|6:43|temperatures are keys of `johnson_cook`
+6|material: {young: 190 GPa, density: 7800, KI: 30}|6:43|here it is `toughness`
+6|material: {young: 190 GPa, density: 7800, tensile_strength: inf}|6:43|leave the key out for bonds that break without softening
+8|  - box: {min: [0, 0]}|8:11|min: unknown key; a box is given by its lower and its upper corner, as {from: [0, 0], to: [20 mm, 10 mm]}
+2|space: 2D|2:1|give line, plane stress, plane strain or solid; a thin plate is plane stress, a cross-section of a thick body plane
+2|space: 3D|2:1|three dimensions are solid
+2|space: axisymmetric|2:1|has no axial symmetry; nearest: solid
+5|method: adaptive^model: pmb|6:1|give bond, ospd or mospd; the bond-based model (peri/pmb of LAMMPS) is bond
+5|method: adaptive^model: lps|6:1|the ordinary state-based model (peri/lps of LAMMPS) is ospd
+5|method: adaptive^steps: 100|6:1|is not a mapping such as {number: 100}; 100 load steps are steps: {number: 100}; the number of time steps follows
+16|    traction: -12 MPa|16:5|give 2 components in space plane stress, such as [-12 MPa, 0]; a load along the normal is `pressure`
+1|*HEADING|1:1|this is an input file of Abaqus or LS-DYNA, not a scene
+1|# peri^^units si^atom_style peri|3:1|this is an input script of LAMMPS, not a scene
+1|$MeshFormat|1:1|this is a mesh of Gmsh, not a scene
+1|solid part|1:1|this is an STL file, not a scene
 8|  - circle: {radius: 1}|8:5|here it is `disc`
 5|method: adaptive^contact: {mu: 0.3}|6:11|here it is `friction`
 11|mpm: {kernel: gimp}|11:7|here it is `shape`
@@ -476,6 +495,11 @@ velocity|initial.velocity
 velocity|boundary.velocity
 nu|material.poisson
 Young-modulus|material.young
+Johnson-Cook|material.johnson_cook
+psi|psi: not a unit of scenes (1 psi is 6.895e3 Pa);
+MPa|MPa: a unit, written behind a number;
+gmsh|gmsh: inputs/files.md: meshes of Gmsh and Abaqus as shapes of bodies,
+abaqus|abaqus: inputs/files.md: meshes of Gmsh and Abaqus as shapes of bodies,
 END
 "$cleave" run good.yaml -o kept --resume >out 2>err
 is "--resume of a finished run" "$? $(grep -c '^the run in kept is finished: no step is left' err)" "0 1"

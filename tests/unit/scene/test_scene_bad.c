@@ -75,7 +75,7 @@ static const struct {
     {"190 GPa", "190 gpa", "7:3: young: 190 gpa has an unknown unit (GPa?); give a stress, such as 190 GPa"},
     {"190 GPa", "190_000",
      "7:3: young: 190_000 is not a number here: digits cannot be grouped by _; write 1000 or 1e3"},
-    {"190 GPa", "1,9", "7:3: young: 1,9 is not a number here: the decimal sign is a point; write 1.5"},
+    {"190 GPa", "1,9", "7:3: young: 1,9 is not a number here: the decimal sign is a point; write 1.9"},
     {"190 GPa", "0x1F",
      "7:3: young: 0x1F is not a number here: hexadecimal, octal and binary numbers are not read; "
      "write a decimal number"},
@@ -112,7 +112,9 @@ static const struct {
      "8:3: yield_hardening: -1 GPa is out of range; give a stress from 0 on, such as 190 GPa"},
     {"poisson: 1/3", "young: 2 GPa", "8:3: young: is given twice, first in line 7; remove one of the two"},
     {"method: adaptive", "method: fem", "5:1: method: fem is unknown; give pd, mpm, adaptive or auto"},
-    {"method: adaptive", "model: lps", "5:1: model: lps is unknown; give bond, ospd or mospd"},
+    {"method: adaptive", "model: lps",
+     "5:1: model: lps is unknown; give bond, ospd or mospd; the ordinary state-based model (peri/lps of LAMMPS) is "
+     "ospd"},
     {"method: adaptive", "solver: newton",
      "5:1: solver: newton is unknown; give explicit, relaxation, cg or static; Cleave has no implicit dynamics; "
      "static, with load steps, follows equilibria"},
