@@ -136,9 +136,9 @@ KERNEL(int64_t, bond_forces,
 
 /* Starts the softening of all bonds of b whose stretch exceeds their onset (the stretch at which softening begins), if
  * the stress across the bond allows it (pd/bond_begin.c). p: particles; limit: onsets and breaking stretches. Examines
- * the row blocks (the bonds of eight particles) in which the last force computation has found such a bond. The result
- * is the same for both particles of a bond. A bond beyond its onset already loses some energy at once, which is added
- * to the fracture energy. Called by bond_forces. */
+ * the blocks of eight rows (the bonds of eight particles) in which the last force computation has found such a bond.
+ * The result is the same for both particles of a bond. A bond beyond its onset already loses some energy at once, which
+ * is added to the fracture energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Starts the softening of all bonds of b whose stretch at the present positions of p exceeds their onset (the stretch
@@ -149,8 +149,8 @@ KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, con
 /* Increases the damage of bonds of b that have begun to soften to that of the present positions of p, where this sets
  * energy free (pd/state_soften.c), and breaks bonds at the end of their softening; for state-based models. The
  * pressures, springs and rotations in b->state must be those of the present positions. limit: onsets and breaking
- * stretches; *changed: set to true if the damage of a bond has changed; the states of those row blocks (bonds of eight
- * particles) that have b->soft.begun set must then be computed again. Row blocks with bonds beyond their onset of
+ * stretches; *changed: set to true if the damage of a bond has changed; the states of those blocks of eight rows (bonds
+ * of eight particles) that have b->soft.begun set must then be computed again. Blocks with bonds beyond their onset of
  * softening that have not begun are marked in b->soft.due for bonds_begin_to_soften. Returns the number of bonds
  * broken, each counted once for each of its particles. */
 KERNEL(int64_t, state_soften,
@@ -177,10 +177,10 @@ KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p
  * bonds in p->end_pull and p->end_moment. */
 typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
-/* Breaks the bonds of row block number `row_block` of b (all bonds of eight particles) whose stretch exceeds `limit`,
- * and adds their energy to the fracture energy of their rows. The forces p->f on these particles must be up to date; of
- * the force of a broken bond only the share remains in p->f that acts until the bond breaks within the step
- * (pd/bond_last.h). The computation is slow, bond by bond: only for row blocks in which a bond may break. Returns the
+/* Breaks the bonds of block number `row_block` of eight rows of b (all bonds of eight particles) whose stretch exceeds
+ * `limit`, and adds their energy to the fracture energy of their rows. The forces p->f on these particles must be up to
+ * date; of the force of a broken bond only the share remains in p->f that acts until the bond breaks within the step
+ * (pd/bond_last.h). The computation is slow, bond by bond: only for blocks in which a bond may break. Returns the
  * number of bonds broken in these rows. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
@@ -191,8 +191,8 @@ KERNEL(int64_t, bond_break_row_block,
  * positions. The caller changes the weight of the bond in the row of its other particle likewise. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns an upper bound [1], up to round-off, of the largest stretch of the bonds in row block number `row_block` of b
- * (bonds of eight particles of p), by which row blocks far from breaking are skipped. */
+/* Returns an upper bound [1], up to round-off, of the largest stretch of the bonds in block number `row_block` of eight
+ * rows of b (bonds of eight particles of p), by which blocks far from breaking are skipped. */
 KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
 
 /* Breaks the bond with index q in the arrays of b, in row number `row` (all bonds of one particle of p), at the present

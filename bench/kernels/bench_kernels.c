@@ -238,9 +238,9 @@ static void time_all(struct kernel_bench *b, bool quick)
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the mean number of bytes that kernels read from memory per column of a row block. A row block holds the bonds
- * of eight particles, and one of its columns a bond of each. Columns of row blocks whose bonds follow a common stencil
- * of the lattice count 0, since the stencil remains in cache. */
+/* Returns the mean number of bytes that kernels read from memory per column of a block of eight rows. A block holds the
+ * bonds of eight particles, and one of its columns a bond of each. Columns of blocks whose bonds follow a common
+ * stencil of the lattice count 0, since the stencil remains in cache. */
 static double column_bytes(const struct bonds *b)
 {
     double sum = 0;

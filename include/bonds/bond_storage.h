@@ -2,37 +2,36 @@
  * read bonds through the iterator of bonds.h.
  *
  * Rows exist only for peridynamic particles (whole family) and bonded material points (their peridynamic neighbours),
- * in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows form a row block;
- * a row block stores its bonds column by column, lane l of a column being a bond of row l, and shorter rows are padded
- * (SELL-C layout with C = 8, Kreutzer et al. 2014). Kinds of columns (enum column_kind of kernels/pd/bond_column.h),
- * and the data that a hot loop reads of each:
+ * in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows form a block,
+ * which stores its bonds column by column, lane l of a column being a bond of row l; shorter rows are padded (SELL-C
+ * layout with C = 8, Kreutzer et al. 2014). Kinds of columns (enum column_kind of kernels/pd/bond_column.h), and the
+ * data that a hot loop reads of each:
  *
- *     row block   kind      the eight bonds                                          nbr  1/r  w   common  stencil
+ *     block       kind      the eight bonds                                          nbr  1/r  w   common  stencil
  *     stores      FREE      any neighbours, or consecutive ones from first on         x    x   x    first
  *     stores      SHELL     consecutive, lengths of shell k up to round-off                  x     x
  *     stores      ALIKE     as SHELL, intact ones of one weight: four bytes per bond               x
- *     implicit    STENCIL   as in other row blocks, each lane with its own weight                          x
+ *     implicit    STENCIL   as in other blocks, each lane with its own weight                              x
  *     implicit    WHOLE     as STENCIL, all lanes present, one weight                                      x
  *     implicit    UNIT      as WHOLE, with weight 1                                                        x
  *
- * In row blocks that store columns, `nbr`, `inverse_length` and `w` are complete, and `common` is derived from them by
- * bond_column_update_common_properties. All kinds give equal bits. Where the rows of a row block have neighbours at
- * equal index distances (a lattice), a column has one distance, and its eight neighbours are consecutive.
+ * In blocks of eight rows that store columns, `nbr`, `inverse_length` and `w` are complete, and `common` is derived
+ * from them by bond_column_update_common_properties. All kinds give equal bits. Where the rows of a block have
+ * neighbours at equal index distances (a lattice), a column has one distance, and its eight neighbours are consecutive.
  *
- * Most row blocks of a lattice have equal bonds at equal index distances. They follow one stencil, read from the
- * nearest cache, and store nothing of their own (they are implicit) until one of their bonds is written. Address space
- * is reserved for all columns, but only written columns take memory.
+ * Most blocks of eight rows of a lattice have equal bonds at equal index distances. They follow one stencil, read from
+ * the nearest cache, and store nothing of their own (they are implicit) until one of their bonds is written. Address
+ * space is reserved for all columns, but only written columns take memory.
  *
- * When rows are rebuilt, unchanged row blocks keep their columns; others are placed in the holes of removed row blocks,
- * or behind all stored columns.
+ * When rows are rebuilt, unchanged blocks of eight rows keep their columns; others are placed in the holes of removed
+ * blocks, or behind all stored columns.
  *
  * Invariants (bonds_describe_first_inconsistency, called by builds with -DCLEAVE_ASSERT whenever rows are made):
  *     rows ascend by particle, and row_of is the inverse of `particle`;
- *     an implicit row block follows a stencil, has as many columns as its stencil, and no broken bond;
- *     a bond with w != 0 has inverse_length > 0, and its neighbour, if it has a row, is within `reach` row blocks;
- *     a lane without a bond (inverse_length 0) has w = 0;
- *     first >= 0 means that the neighbours of the lanes with a bond are first + lane;
- *     common has the intact lanes, and first, of the stored columns. */
+ *     an implicit block of eight rows follows a stencil, has as many columns as its stencil, and no broken bond;
+ *     a bond with w != 0 has inverse_length > 0, and its neighbour, if it has a row, is within `reach` blocks of eight
+ * rows; a lane without a bond (inverse_length 0) has w = 0; first >= 0 means that the neighbours of the lanes with a
+ * bond are first + lane; common has the intact lanes, and first, of the stored columns. */
 #ifndef CLEAVE_BOND_STORAGE
 #define CLEAVE_BOND_STORAGE
 
@@ -52,16 +51,16 @@ struct bond_plasticity {
  * member `end` of this bond is then the stretch above which the bond is examined. */
 #define SOFTENING_NEVER 1e30f
 
-/* State of a row block (the bonds of eight particles) before the next sweep over the bonds. */
+/* State of a block of eight rows (the bonds of eight particles) before the next sweep over the bonds. */
 enum softening_due {
-    DUE_NOT,       /* no bond of the row block may begin to soften */
+    DUE_NOT,       /* no bond of the block of eight rows may begin to soften */
     DUE_NEW,       /* a bond may begin to soften and is to be examined */
     DUE_AGAIN,     /* a bond was examined and may not soften yet; it is examined again if bond_limit.retries */
-    DUE_DENIED = 4 /* bit that is set while row blocks are examined; becomes DUE_AGAIN afterwards */
+    DUE_DENIED = 4 /* bit that is set while blocks of eight rows are examined; becomes DUE_AGAIN afterwards */
 };
 /* Softening of bonds (data/softening.h): k is the largest stretch of a bond so far, s_0 and s_f are the stretches at
- * which it begins to soften and breaks, d is its softening, 0 to 1. A row block, the bonds of eight particles, stores
- * the arrays [columns 8] once one of its bonds has begun to soften. */
+ * which it begins to soften and breaks, d is its softening, 0 to 1. A block of eight rows, the bonds of eight
+ * particles, stores the arrays [columns 8] once one of its bonds has begun to soften. */
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
     float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of each bond [1] */
@@ -71,20 +70,20 @@ struct softened {
     /* [columns 8] load steps: k of the last equilibrium, 0 for a bond that had not begun [1]. NULL: explicit steps.
      * With it, forces are those of the stored k, whatever the stretch: bonds are springs of their secant stiffness */
     float *settled;
-    uint8_t *begun;   /* [row blocks] 1: the arrays are valid */
-    uint8_t *due;     /* [row blocks] enum softening_due */
+    uint8_t *begun;   /* [row_blocks] 1: the arrays are valid */
+    uint8_t *due;     /* [row_blocks] enum softening_due */
     bool any_due;     /* an entry of `due` is not DUE_NOT */
     bool at_points;   /* true: bonds that end at material points have begun to soften */
-    uint8_t *needed;  /* [row blocks 8] working memory: 1: the dilatation of the row is needed */
-    real *dilatation; /* [row blocks 8] working memory: trace of the strain of the family [1] */
-    /* [row blocks 8] mean strain rate of the bonds of a particle while their stretch grows from half the onset to the
+    uint8_t *needed;  /* [row_blocks 8] working memory: 1: the dilatation of the row is needed */
+    real *dilatation; /* [row_blocks 8] working memory: trace of the strain of the family [1] */
+    /* [row_blocks 8] mean strain rate of the bonds of a particle while their stretch grows from half the onset to the
      * onset, 0 or less: outside this range [1/s]; time since half the onset was exceeded [s]. NULL: no strength depends
      * on the rate */
     real *rate, *beyond;
     bool rates_kept;           /* true: rates are to be measured in the next step */
     const struct image *image; /* [images] origins of the mirror images, borrowed from the loads */
     real least_ratio;          /* s_f of a bond is at least the trigger of its row times this [1] */
-    uint8_t *near; /* [row blocks] 1: the stretch of a bond has exceeded `gate` since the strength surfaces were
+    uint8_t *near; /* [row_blocks] 1: the stretch of a bond has exceeded `gate` since the strength surfaces were
                       evaluated last (bonds_strength.c); NULL: no material has a strength surface */
     real gate;     /* stretch from which on the strength surface may be near [1] */
 };
@@ -124,21 +123,21 @@ struct clamped {
 
 /* State of the family of each particle (all its neighbours) in state-based models, from which bond forces follow:
  * weighted volume Q, pressure P, spring g and, in models with particle rotations, rotation R. V is the volume of the
- * particle. Material points with bonds have the members end_* of struct particles instead of P, g and R. Row blocks
- * hold the bonds of eight particles. */
+ * particle. Material points with bonds have the members end_* of struct particles instead of P, g and R. Blocks of
+ * eight rows hold the bonds of eight particles. */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
     const struct state_modulus *modulus; /* [materials] elastic moduli, borrowed; NULL: bond-based model */
     bool local;                          /* Q is summed over the present family, not over a full one */
-    real *weighted;                      /* [row blocks 8] weighted volume Q [m^2] */
+    real *weighted;                      /* [row_blocks 8] weighted volume Q [m^2] */
     real share;                          /* V/Q of a full family, where moduli refer to it; 0: V/Q of each family [m] */
-    uint8_t *past;                       /* [row blocks] 1: a bond may have exceeded its limit in the last sweep */
-    uint8_t *pressed;                    /* [row blocks] 1: a bond is within its core (kernels/pd/bond_core.h) */
+    uint8_t *past;                       /* [row_blocks] 1: a bond may have exceeded its limit in the last sweep */
+    uint8_t *pressed;                    /* [row_blocks] 1: a bond is within its core (kernels/pd/bond_core.h) */
     real *pressure, *spring;             /* [n_all] pressure P [N/m^2] and spring g [N/m] */
     /* [n_all] rotation R with spring g (kernels/pd/rotation.h), only in models with rotations. 2D: g (R - 1), row major
      * [N/m]; 3D: sqrt(2 g) times the quaternion of R, its scalar last [(N/m)^1/2] */
     real *rotation[ROTATION];
-    real *before[STATE_NUMBERS]; /* [n_all] P, g and R before bonds broke, in row blocks that are `past` */
+    real *before[STATE_NUMBERS]; /* [n_all] P, g and R before bonds broke, in blocks of eight rows that are `past` */
     struct state_image *image;   /* [n_all - n] origins of the mirror images */
 };
 
@@ -161,11 +160,12 @@ struct bond_column {
     uint8_t shell; /* k: consecutive neighbours, with the lengths of shell_length[k] up to the round-off of positions;
                       0: other lengths, or not consecutive */
     uint8_t alike; /* true: shell > 0, and intact bonds have one weight */
-    uint8_t begun; /* bit l: the bond of lane l has begun to soften; valid if the row block has (softened.begun) */
+    uint8_t begun; /* bit l: the bond of lane l has begun to soften; valid if the block of eight rows has
+                      (softened.begun) */
 };
 
-/* One column of a stencil: eight bonds, one of each of eight consecutive particles, that many row blocks (the bonds of
- * eight particles) have in common. */
+/* One column of a stencil: eight bonds, one of each of eight consecutive particles, that many blocks of eight rows (the
+ * bonds of eight particles) have in common. */
 struct stencil_column {
     int32_t offset;                  /* index of the neighbours less index of the particles of the rows */
     uint8_t intact, shell;           /* as in struct bond_column */
@@ -176,11 +176,10 @@ struct stencil_column {
     real xi[DIM_MAX], w_xi[DIM_MAX]; /* X_j - X_i, and w times X_j - X_i [m] */
 };
 
-/* Bonds that row blocks of eight consecutive particles share: equal neighbours at equal distances with equal weights,
- * no bond broken. Most row blocks of a lattice follow one of few stencils, whose columns stay in the nearest cache.
- * Columns of such row blocks are written only when a bond is accessed by index
- * (bond_row_block_write_columns_from_stencil).
- */
+/* Bonds that blocks of eight rows, of eight consecutive particles, share: equal neighbours at equal distances with
+ * equal weights, no bond broken. Most blocks of a lattice follow one of few stencils, whose columns stay in the nearest
+ * cache. Columns of such blocks are written only when a bond is accessed by index
+ * (bond_row_block_write_columns_from_stencil). */
 struct stencil {
     int columns;                   /* number of columns, i.e. of bonds of a row */
     bool whole;                    /* all lanes have all bonds, with one weight */
@@ -192,69 +191,70 @@ struct stencil {
 struct stencils; /* all stencils (bonds_stencils.c) */
 struct site_map; /* particle at each site of a lattice (bonds_site_map.c) */
 
-/* Free columns of a removed row block (the bonds of eight particles), to be used when rows are rebuilt: `columns`
- * columns, the first of which is number `column`. */
+/* Free columns of a removed block of eight rows (the bonds of eight particles), to be used when rows are rebuilt:
+ * `columns` columns, the first of which is number `column`. */
 struct bond_hole {
     int64_t column;
     int32_t columns;
 };
 
-/* List of n free ranges of columns (eight bonds each), whose row blocks (the bonds of eight particles) were removed:
- * hole[n]. */
+/* List of n free ranges of columns (eight bonds each), whose blocks of eight rows (the bonds of eight particles) were
+ * removed: hole[n]. */
 struct bond_holes {
     int64_t n;
     struct bond_hole *hole;
 };
 
 /* The bonds of all particles. All arrays are owned. rows: particles with bonds; row_blocks: groups of eight rows stored
- * together, columns: groups of eight bonds, one of each row of a row block. [columns 8]: one entry per bond, [row
- * blocks 8]: per row. */
+ * together, columns: groups of eight bonds, one of each row of a block of eight rows. [columns 8]: one entry per bond,
+ * [row_blocks 8]: per row. */
 struct bonds {
-    int64_t rows, row_blocks, columns; /* numbers of rows, of row blocks and of stored columns */
+    int64_t rows, row_blocks, columns; /* numbers of rows, of blocks of eight rows and of stored columns */
     int64_t used, room;                /* number of columns that are or were in use; capacity of the arrays [columns] */
     int64_t n;         /* number of bonds, broken ones included (a bond between two particles with rows counts twice) */
-    int32_t reach;     /* largest difference between the row blocks of both particles of a bond */
-    int32_t *particle; /* [row blocks 8] index of the particle of a row; padding rows repeat the last particle */
+    int32_t reach;     /* largest difference between the blocks of eight rows of both particles of a bond */
+    int32_t *particle; /* [row_blocks 8] index of the particle of a row; padding rows repeat the last particle */
     int32_t *row_of;   /* [n_all] row of a particle, -1: none */
     int32_t *no_rows;  /* [n_all] all -1: spare array for the next row_of; NULL: none */
-    int64_t *column;   /* [row blocks] index of the first column of a row block */
-    int32_t *column_count; /* [row blocks] number of columns */
-    uint8_t *whole;        /* [row blocks 8] 1: row of a peridynamic particle, with the whole family */
-    int32_t *made;         /* [row blocks] number of bonds in the rows of the row block, broken ones included */
-    uint8_t *aligned;      /* [row blocks] 1: the eight particles have consecutive indices */
-    int32_t *first;        /* [columns] neighbour of the first row if the eight neighbours are consecutive, else -1 */
-    int32_t *nbr;          /* [columns 8] index of the neighbour j */
-    real *inverse_length;  /* [columns 8] 1/|X_j - X_i| [1/m]; negative: broken, so that the stretch is below -1 and
-                              exceeds  no limit; 0: no bond (padding) */
+    int64_t *column;   /* [row_blocks] index of the first column of a block of eight rows */
+    int32_t *column_count; /* [row_blocks] number of columns */
+    uint8_t *whole;        /* [row_blocks 8] 1: row of a peridynamic particle, with the whole family */
+    int32_t *made;    /* [row_blocks] number of bonds in the rows of the block of eight rows, broken ones included */
+    uint8_t *aligned; /* [row_blocks] 1: the eight particles have consecutive indices */
+    int32_t *first;   /* [columns] neighbour of the first row if the eight neighbours are consecutive, else -1 */
+    int32_t *nbr;     /* [columns 8] index of the neighbour j */
+    real *inverse_length; /* [columns 8] 1/|X_j - X_i| [1/m]; negative: broken, so that the stretch is below -1 and
+                             exceeds  no limit; 0: no bond (padding) */
     real *w; /* [columns 8] symmetric weight [1]: volume factor beta x surface factor x V_i V_j c_ij/stiffness; 0:
                 broken, cut or no bond */
     struct bond_column *common;       /* [columns] */
     struct bond_length *shell_length; /* [BOND_SHELLS] */
-    const struct stencil **stencil;   /* [row blocks] stencil that a row block follows, NULL: none */
-    uint8_t *implicit;                /* [row blocks] 1: the columns are not written */
-    uint8_t *changed; /* [row blocks] 1: weights have changed since the row block was made; it follows no stencil */
-    struct bond_holes holes;              /* free columns of removed row blocks */
-    struct stencils *stencils;            /* all stencils that row blocks may follow */
+    const struct stencil **stencil;   /* [row_blocks] stencil that a block of eight rows follows, NULL: none */
+    uint8_t *implicit;                /* [row_blocks] 1: the columns are not written */
+    uint8_t *changed; /* [row_blocks] 1: weights have changed since the block of eight rows was made; it follows no
+                         stencil */
+    struct bond_holes holes;              /* free columns of removed blocks of eight rows */
+    struct stencils *stencils;            /* all stencils that blocks of eight rows may follow */
     struct site_map *site_map;            /* particle at each lattice site; NULL: there are no material points */
     real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
     int32_t *pair;                        /* [columns 8] pair of materials, index in `yield`; NULL: no bond yields */
     struct bond_yield yield;              /* yield stretches and hardening by pair of materials */
-    real *trigger;            /* [row blocks 8] lower bound of the stretches at which bonds of the row break [1] */
-    float *family_volume;     /* [row blocks 8] sum of V_j over all initial neighbours of the particle [m^3] */
-    float *broken_volume;     /* [row blocks 8] sum of V_j over the broken bonds [m^3] */
-    real *fracture_energy;    /* [row blocks 8] half of the energy of each broken bond [J] */
-    real *plastic_work;       /* [row blocks 8] half of the plastic work of the broken bonds [J] */
-    int32_t *broken;          /* [row blocks 8] number of bonds broken by load since the start */
+    real *trigger;            /* [row_blocks 8] lower bound of the stretches at which bonds of the row break [1] */
+    float *family_volume;     /* [row_blocks 8] sum of V_j over all initial neighbours of the particle [m^3] */
+    float *broken_volume;     /* [row_blocks 8] sum of V_j over the broken bonds [m^3] */
+    real *fracture_energy;    /* [row_blocks 8] half of the energy of each broken bond [J] */
+    real *plastic_work;       /* [row_blocks 8] half of the plastic work of the broken bonds [J] */
+    int32_t *broken;          /* [row_blocks 8] number of bonds broken by load since the start */
     struct state state;       /* state-based models */
     struct clamped clamped;   /* bonds to images in clamped planes */
     struct softened soft;     /* softening */
-    struct active_set active; /* row blocks that a wave has reached, which are computed */
+    struct active_set active; /* blocks of eight rows that a wave has reached, which are computed */
     real core;      /* stiffness of the repulsive cores (kernels/pd/bond_core.h) divided by that of the bonds [1] */
     real stiffness; /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
-/* Returns true if row block `row_block` of b (the stored bonds of eight particles) has eight rows, all of them of
- * peridynamic particles, so that each row stores the bonds to all neighbours of its particle. */
+/* Returns true if block `row_block` of eight rows of b (the stored bonds of eight particles) has eight rows, all of
+ * them of peridynamic particles, so that each row stores the bonds to all neighbours of its particle. */
 static inline bool bond_row_block_has_eight_pd_particles(const struct bonds *b, int64_t row_block)
 {
     return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
@@ -295,10 +295,10 @@ static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bon
 }
 
 /* Softening state of an entry of the bond arrays that contains no bond, because the particle has fewer bonds than
- * others of its row block (eight particles stored together): never softens. */
+ * others of its block of eight rows (the bonds of eight particles): never softens. */
 static const struct bond_softness bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
 
-/* Returns true if at least one bond of row block `row_block` of b (the bonds of eight particles) has begun to
+/* Returns true if at least one bond of block `row_block` of eight rows of b (the bonds of eight particles) has begun to
  * soften. */
 static inline bool bond_row_block_has_begun_softening(const struct bonds *b, int64_t row_block)
 {
@@ -306,24 +306,25 @@ static inline bool bond_row_block_has_begun_softening(const struct bonds *b, int
 }
 
 /* Returns true if the bond with index `bond` in the arrays of b has begun to soften, or will begin to as soon as its
- * stretch exceeds the onset stored for it. row_block: row block (the bonds of eight particles) that contains the
- * bond. */
+ * stretch exceeds the onset stored for it. row_block: block of eight rows (the bonds of eight particles) that contains
+ * the bond. */
 static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     return bond_row_block_has_begun_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
-/* Returns the weight [1] that the bond with index `bond` in the arrays of b had before it softened. row_block: row
- * block (the bonds of eight particles) that contains the bond; present_weight: present weight of the bond [1]. Only for
- * state-based models. */
+/* Returns the weight [1] that the bond with index `bond` in the arrays of b had before it softened. row_block: block of
+ * eight rows (the bonds of eight particles) that contains the bond; present_weight: present weight of the bond [1].
+ * Only for state-based models. */
 static inline real bond_weight_before_softening(const struct bonds *b, int64_t row_block, int64_t bond,
                                                 real present_weight)
 {
     return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : present_weight;
 }
 
-/* Requests an examination of row block `row_block` of b (the bonds of eight particles) before forces are computed next,
- * because one of its bonds may begin to soften (kernels/pd/bond_begin.c). May be called by several threads at once. */
+/* Requests an examination of block `row_block` of eight rows of b (the bonds of eight particles) before forces are
+ * computed next, because one of its bonds may begin to soften (kernels/pd/bond_begin.c). May be called by several
+ * threads at once. */
 static inline void bond_row_block_request_softening_check(struct bonds *b, int64_t row_block)
 {
     if (b->soft.due[row_block] == DUE_NOT) b->soft.due[row_block] = DUE_NEW;
@@ -331,8 +332,8 @@ static inline void bond_row_block_request_softening_check(struct bonds *b, int64
 }
 
 /* Returns the share 1 - d of its stiffness that the bond with index `bond` in the arrays of b keeps at the stretch
- * `stretch` [1], where d is its softening, 0 to 1. row_block: row block (the bonds of eight particles) that contains
- * the bond. Returns 1 in state-based models, whose bond weights already contain this factor. */
+ * `stretch` [1], where d is its softening, 0 to 1. row_block: block of eight rows (the bonds of eight particles) that
+ * contains the bond. Returns 1 in state-based models, whose bond weights already contain this factor. */
 static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int64_t row_block, int64_t bond,
                                                      real stretch)
 {
@@ -342,9 +343,9 @@ static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int6
 }
 
 /* Returns half the energy [J] that the softening of the bond with index `bond` in the arrays of b has dissipated so
- * far; the other particle of the bond has the other half. row_block: row block (the bonds of eight particles) that
- * contains the bond. Returns 0 if the bond is broken, and in state-based models, which add this energy to the fracture
- * energy at once. */
+ * far; the other particle of the bond has the other half. row_block: block of eight rows (the bonds of eight particles)
+ * that contains the bond. Returns 0 if the bond is broken, and in state-based models, which add this energy to the
+ * fracture energy at once. */
 static inline real bond_half_softening_energy(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     if (b->soft.whole || !bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;
@@ -365,30 +366,30 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
 }
 
 /* Recomputes b->common[column_number], the properties that the eight bonds of a column (one bond of each particle of a
- * row block) have in common, from their stored weights and lengths. Required after a change of the weight of a bond or
- * of the sign of its inverse length; usually called through bond_column_update_after_bond_change. */
+ * block of eight rows) have in common, from their stored weights and lengths. Required after a change of the weight of
+ * a bond or of the sign of its inverse length; usually called through bond_column_update_after_bond_change. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
 
 /* Recomputes the common properties of the column of b that contains bond number `bond` after its weight or the sign of
- * its inverse length has changed. A column has one bond of each of eight particles, which form a row block. row_number:
- * row of the bond, i.e. the bonds of one particle; its row block no longer follows a stencil, the pattern that row
+ * its inverse length has changed. A column has one bond of each of eight particles, which form a block of eight rows.
+ * row_number: row of the bond, i.e. the bonds of one particle; its block no longer follows a stencil, the pattern that
  * blocks share. */
 void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
 
-/* Initialises the stored softening state of all bonds of row block `row_block` of b (the bonds of eight particles of
- * p), none of which has begun to soften. limit: critical stretches and softening by pair of materials. */
+/* Initialises the stored softening state of all bonds of block `row_block` of eight rows of b (the bonds of eight
+ * particles of p), none of which has begun to soften. limit: critical stretches and softening by pair of materials. */
 void bond_row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                          int64_t row_block);
 
-/* Writes the columns of row block `row_block` of b (the bonds of eight particles), which stored none and followed a
- * stencil (a pattern of bonds shared by many row blocks of a lattice), so that its bonds can be changed. Does nothing
- * if the columns are already written. May be called by several threads at once. */
+/* Writes the columns of block `row_block` of eight rows of b (the bonds of eight particles), which stored none and
+ * followed a stencil (a pattern of bonds shared by many blocks of a lattice), so that its bonds can be changed. Does
+ * nothing if the columns are already written. May be called by several threads at once. */
 void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
 
 /* Returns the index, in the bond arrays of b (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane
- * `lane` (0 to 7) of row block `row_block` (the bonds of eight particles), so that the caller may write to this entry.
- * If the row block only follows a stencil (a pattern of bonds shared by many row blocks), its bonds are written to the
- * arrays first. After a change of w or of the sign of inverse_length the caller calls
+ * `lane` (0 to 7) of block `row_block` of eight rows (the bonds of eight particles), so that the caller may write to
+ * this entry. If the block only follows a stencil (a pattern of bonds shared by many blocks), its bonds are written to
+ * the arrays first. After a change of w or of the sign of inverse_length the caller calls
  * bond_column_update_after_bond_change. */
 static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {

@@ -148,8 +148,8 @@ real bonds_row_softening_damage(const struct bonds *b, const struct particles *p
  * soften. */
 real bonds_fracture_energy(const struct bonds *b);
 
-/* Returns eight bits: bit l is set if particle l (0 to 7) of the eight particles whose bonds row block `row_block` of b
- * stores has an intact bond. */
+/* Returns eight bits: bit l is set if particle l (0 to 7) of the eight particles whose bonds block `row_block` of eight
+ * rows of b stores has an intact bond. */
 static inline unsigned bond_row_block_lanes_with_intact_bonds(const struct bonds *b, int64_t row_block)
 {
     const struct stencil *stencil = b->stencil[row_block];
@@ -174,20 +174,20 @@ static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
  * particle without bonds). */
 void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
 
-/* Returns the number of bonds of the eight particles of row block `row_block` of b together, broken bonds included. A
- * bond between two of these particles counts twice. */
+/* Returns the number of bonds of the eight particles of block `row_block` of eight rows of b together, broken bonds
+ * included. A bond between two of these particles counts twice. */
 static inline int32_t bond_row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
-/* Returns the number of columns of row block `row_block` of b, which stores the bonds of eight particles. Column k
- * holds at most one bond of each of these particles, so that none has more bonds than there are columns. */
+/* Returns the number of columns of block `row_block` of eight rows of b, which stores the bonds of eight particles.
+ * Column k holds at most one bond of each of these particles, so that none has more bonds than there are columns. */
 static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t row_block)
 {
     return b->column_count[row_block];
 }
 
-/* Returns the index of the particle to which bond number `column` of the first of the eight particles of row block
- * `row_block` of b leads, if the bonds number `column` of all eight particles lead to consecutive particles; else
- * -1. */
+/* Returns the index of the particle to which bond number `column` of the first of the eight particles of block
+ * `row_block` of eight rows of b leads, if the bonds number `column` of all eight particles lead to consecutive
+ * particles; else -1. */
 static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, int64_t row_block, int64_t column)
 {
     const struct stencil *stencil = b->stencil[row_block];
@@ -195,17 +195,17 @@ static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, 
                    : b->first[b->column[row_block] + column];
 }
 
-/* The eight bonds of one column of a row block (the bonds of eight particles), one bond of each particle. first:
- * neighbour of lane 0 if the eight neighbours are consecutive, else -1; nbr: neighbours; inverse_length: 1/r [1/m]; w:
- * weights [1]. */
+/* The eight bonds of one column of a block of eight rows (the bonds of eight particles), one bond of each particle.
+ * first: neighbour of lane 0 if the eight neighbours are consecutive, else -1; nbr: neighbours; inverse_length: 1/r
+ * [1/m]; w: weights [1]. */
 struct column_copy {
     int32_t first, nbr[LANES];
     real inverse_length[LANES], w[LANES];
 };
 
-/* Reads neighbours, inverse lengths and weights of column number `column` of row block `row_block` (bond number
- * `column` of each of eight particles) into *copy. If the row block stores no columns of its own, the data come from
- * its stencil, a pattern of bonds that many row blocks share. Does not change b. */
+/* Reads neighbours, inverse lengths and weights of column number `column` of block `row_block` of eight rows (bond
+ * number `column` of each of eight particles) into *copy. If the block stores no columns of its own, the data come from
+ * its stencil, a pattern of bonds that many blocks share. Does not change b. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t column);
 
 /* A bond of a particle as stored. nbr: particle or image to which the bond leads; inverse_length: 1/r [1/m], negative
@@ -217,9 +217,9 @@ struct bond {
     real inverse_length, w;
 };
 
-/* Returns bond number `bond_number` (from 0) of the particle in lane `lane` (0 to 7) of row block `row_block` (the
- * bonds of eight particles) of b. If this particle has no such bond, the member inverse_length of the result is 0. Does
- * not change b. */
+/* Returns bond number `bond_number` (from 0) of the particle in lane `lane` (0 to 7) of block `row_block` of eight rows
+ * (the bonds of eight particles) of b. If this particle has no such bond, the member inverse_length of the result is 0.
+ * Does not change b. */
 static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {
     const int64_t q = (b->column[row_block] + bond_number) * LANES + lane;

@@ -56,8 +56,8 @@ int site_map_list_neighbours_of_particle(const struct site_map *map, const struc
  * `particle` of p; false if all pre-cracks are too far away. */
 bool particle_is_near_precrack(const struct bond_source *source, const struct particles *p, int64_t particle);
 
-/* Returns true if a bond of row block `row_block` of b (the bonds of eight particles of p) may lead to a mirror image;
- * false if certainly none does. In most row blocks only the last bonds are read. */
+/* Returns true if a bond of block `row_block` of eight rows of b (the bonds of eight particles of p) may lead to a
+ * mirror image; false if certainly none does. In most blocks only the last bonds are read. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block);
 
 #endif

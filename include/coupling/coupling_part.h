@@ -91,8 +91,8 @@ void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *war
 
 /* Prepares the conversion of material points of run e in a step: marks points (FLAG_NEAR) that are near other bodies,
  * or beside crack faces that approach each other, in each load step or once in APPROACH_STEPS time steps. Also updates
- * the list of active row blocks (the bonds of eight particles each), whose particles may move. Returns true if the
- * faces of cracks and voids were examined in this step, so that points beside them may be marked. */
+ * the list of active blocks of eight rows (the bonds of eight particles each), whose particles may move. Returns true
+ * if the faces of cracks and voids were examined in this step, so that points beside them may be marked. */
 bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
 /* Converts the marked material points of run e to peridynamic particles, and updates all that depends on it: bonds,

@@ -4,7 +4,7 @@
  * last computed, these forces are 0, and no load moves them: its forces would be 0 again. It becomes active when a
  * particle within its reach moves, and stays active.
  *
- * A block is the unit of the hot loops: a row block of eight rows of bonds, or eight nodes of a mesh along x.
+ * A block is the unit of the hot loops: eight rows of bonds, or eight nodes of a mesh along x.
  *
  *     level 0        inactive: neither forces nor motion
  *           1        active: its forces are computed, it moves

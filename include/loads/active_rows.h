@@ -1,21 +1,21 @@
-/* The active set of row blocks of bonds (data/active_set.h). */
+/* The active set of blocks of eight rows of bonds (data/active_set.h). */
 #ifndef CLEAVE_ACTIVE_ROWS
 #define CLEAVE_ACTIVE_ROWS
 
 #include "bonds/bonds.h"
 #include "loads/loads.h"
 
-/* Updates which row blocks are active after a step. A row block is a group of eight particles whose bonds are stored
- * together; bond forces are computed for active row blocks only. The forces of all active ones must have been computed
- * in this step. Activates the neighbours of row blocks whose particles have changed position; if rows were rebuilt,
- * determines anew which row blocks are active. b: bonds, with the list of active row blocks, which changes; loads: row
+/* Updates which blocks of eight rows are active after a step. A block is a group of eight particles whose bonds are
+ * stored together; bond forces are computed for active blocks only. The forces of all active ones must have been
+ * computed in this step. Activates the neighbours of blocks whose particles have changed position; if rows were
+ * rebuilt, determines anew which blocks are active. b: bonds, with the list of active blocks, which changes; loads:
  * blocks of particles on which loads or contact act remain active. */
 void active_rows_update_after_step(struct bonds *b, const struct particles *p, const struct loads *loads);
 
-/* Activates the row blocks (groups of eight particles whose bonds are stored together) that contain any of the
- * particles in particle_list[particle_count] (indices), because forces other than those of bonds (loads, contact) may
- * act on these particles from the next step on. The bond forces in these row blocks must be 0 so far. b: bonds, with
- * the list of active row blocks, which changes; loads: boundary conditions and contact marks of the run. */
+/* Activates the blocks of eight rows (groups of eight particles whose bonds are stored together) that contain any of
+ * the particles in particle_list[particle_count] (indices), because forces other than those of bonds (loads, contact)
+ * may act on these particles from the next step on. The bond forces in these blocks must be 0 so far. b: bonds, with
+ * the list of active blocks, which changes; loads: boundary conditions and contact marks of the run. */
 void active_rows_activate_rows_of_particles(struct bonds *b, const struct particles *p, const struct loads *loads,
                                             const int32_t *particle_list, int64_t particle_count);
 

@@ -1,6 +1,6 @@
-/* Bonds that begin to soften. A sweep marks row blocks (the bonds of eight particles) with a bond beyond its onset as
- * due; before the next sweep the bonds between due row blocks are examined, while all positions are of one time. Both
- * rows of a bond then decide alike. A bond begins one step late, at the stretch s_1 after s_0: a leap-frog step in
+/* Bonds that begin to soften. A sweep marks blocks of eight rows (the bonds of eight particles) with a bond beyond its
+ * onset as due; before the next sweep the bonds between due blocks are examined, while all positions are of one time.
+ * Both rows of a bond then decide alike. A bond begins one step late, at the stretch s_1 after s_0: a leap-frog step in
  * which it falls from stiffness 1 to 1 - d takes s_0 s_1 d/2 of its energy, over stiffness, weight and length. What the
  * closed form of its dissipation lacks of this counts as fracture energy.
  *
@@ -38,17 +38,17 @@ struct candidate {
     int32_t i, j;
 };
 
-/* Returns the entry of b->soft.due of row block g (bonds of eight particles stored together): whether one of its bonds
- * is beyond its onset of softening and must be examined (enum softening_due). The load is atomic, since other threads
- * may set DUE_DENIED at the same time. */
+/* Returns the entry of b->soft.due of block g of eight rows (bonds of eight particles stored together): whether one of
+ * its bonds is beyond its onset of softening and must be examined (enum softening_due). The load is atomic, since other
+ * threads may set DUE_DENIED at the same time. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
 /* Returns true if a bond may begin to soften, and then describes it in *c. bond: entry in the row (bonds of one
- * particle) of particle i in row block g (eight rows); limit: critical stretches and softening. Conditions: the bond
- * has not begun to soften; its stretch is beyond the onset of softening, and was in the last sweep; and the row block
- * of its other particle is marked in b->soft.due, too. In the last sweep both row blocks were marked: a bond that was
- * not beyond the onset then would begin only where another bond has marked the row blocks, so that the result would
- * depend on their directions. */
+ * particle) of particle i in block g of eight rows (the bonds of eight particles); limit: critical stretches and
+ * softening. Conditions: the bond has not begun to soften; its stretch is beyond the onset of softening, and was in the
+ * last sweep; and the block of its other particle is marked in b->soft.due, too. In the last sweep both blocks were
+ * marked: a bond that was not beyond the onset then would begin only where another bond has marked the blocks, so that
+ * the result would depend on their directions. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -72,8 +72,9 @@ static int64_t row_of_dilatation(const struct bonds *b, const struct particles *
     return row >= 0 && b->whole[row] ? row : -1;
 }
 
-/* Marks in b->soft.needed the rows whose dilatation is needed to examine those bonds of row block g (bonds of eight
- * particles) that may begin to soften. Several threads may mark one row. limit: critical stretches and softening. */
+/* Marks in b->soft.needed the rows whose dilatation is needed to examine those bonds of block g of eight rows (bonds of
+ * eight particles) that may begin to soften. Several threads may mark one row. limit: critical stretches and
+ * softening. */
 static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
@@ -180,7 +181,8 @@ static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t
 }
 
 /* Updates the strain rates of all rows (bonds of one particle) that were beyond half their onset of softening in the
- * last step, and of those in row blocks (eight rows) that soften or have a bond beyond its onset. dt: time step [s]. */
+ * last step, and of those in blocks of eight rows (the bonds of eight particles) that soften or have a bond beyond its
+ * onset. dt: time step [s]. */
 static void measure_rates(struct bonds *b, const struct particles *p, real dt)
 {
     bool any = false;
@@ -247,8 +249,8 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
-/* Examines the bonds of row block g (bonds of eight particles) that are beyond their onset of softening and have not
- * begun to soften. Starts the softening of those across which the stress is tensile enough. Sets DUE_DENIED in
+/* Examines the bonds of block g of eight rows (bonds of eight particles) that are beyond their onset of softening and
+ * have not begun to soften. Starts the softening of those across which the stress is tensile enough. Sets DUE_DENIED in
  * b->soft.due[g] if the stress does not allow a bond to soften. limit: critical stretches, softening and time step. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
@@ -270,9 +272,9 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }
 
-/* Returns true if, in the last computation of forces, a bond of a row block that was not yet marked in b->soft.due went
- * beyond its onset of softening. Then the bonds of all marked row blocks must be examined, so that both rows of a bond
- * are examined in one step. A row block has the bonds of eight particles. */
+/* Returns true if, in the last computation of forces, a bond of a block of eight rows that was not yet marked in
+ * b->soft.due went beyond its onset of softening. Then the bonds of all marked blocks must be examined, so that both
+ * rows of a bond are examined in one step. A block has the bonds of eight particles. */
 static bool any_new(const struct bonds *b)
 {
     bool found = false;

@@ -189,9 +189,9 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
 
 /* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. A bond
  * that can soften and has not begun to does not break here, as pressure stretches the bonds across it although nothing
- * pulls at them (bond_begin.c): beyond its onset, its row block (bonds of eight particles) is marked for examination
- * before the next computation of forces (bond_row_block_request_softening_check). limit: critical stretches and
- * softening. */
+ * pulls at them (bond_begin.c): beyond its onset, its block of eight rows (bonds of eight particles) is marked for
+ * examination before the next computation of forces (bond_row_block_request_softening_check). limit: critical stretches
+ * and softening. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -248,7 +248,7 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
     return column_max_of_intact_bonds(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
 }
 
-/* Returns for each of the eight rows of row block g (bonds of eight particles) the largest squared elongation
+/* Returns for each of the eight rows of block g of eight rows (bonds of eight particles) the largest squared elongation
  * |y|^2/|xi|^2 of its bonds [1]. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
@@ -261,8 +261,8 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
     return largest;
 }
 
-/* Returns the mask of those rows of row block g (bonds of eight particles) that have a bond with a stretch above the
- * row's entry of `least` [1], up to round-off. */
+/* Returns the mask of those rows of block g of eight rows (bonds of eight particles) that have a bond with a stretch
+ * above the row's entry of `least` [1], up to round-off. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {
@@ -279,9 +279,9 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
     return sqrt(most) * (1 + ROUND_OFF) - 1 + LIMIT_MARGIN;
 }
 
-/* Returns the mask of those rows of row block g (bonds of eight particles) in which a bond may exceed its breaking
- * limit. Compares the largest stretch of a row with the limit stored for the row where strength is random or bonds
- * soften, else with the smallest critical stretch of all pairs of materials in `limit`. */
+/* Returns the mask of those rows of block g of eight rows (bonds of eight particles) in which a bond may exceed its
+ * breaking limit. Compares the largest stretch of a row with the limit stored for the row where strength is random or
+ * bonds soften, else with the smallest critical stretch of all pairs of materials in `limit`. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const bool stored = p->strength || b->soft.curve;

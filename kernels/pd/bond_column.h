@@ -1,5 +1,6 @@
-/* Access to the eight bonds of a column of a row block: one bond of each of eight particles. Bonds of a lattice have
- * data in common; each kind of column reads as few bytes as its bonds allow, and all kinds give equal bits. */
+/* Access to the eight bonds of a column of a block of eight rows: one bond of each of eight particles. Bonds of a
+ * lattice have data in common; each kind of column reads as few bytes as its bonds allow, and all kinds give equal
+ * bits. */
 #ifndef CLEAVE_KERNELS_BOND_COLUMN
 #define CLEAVE_KERNELS_BOND_COLUMN
 
@@ -10,14 +11,14 @@ enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead
 
 /* Kinds of columns, by what their eight bonds have in common (table in bonds/bond_storage.h). FREE: nothing. SHELL:
  * consecutive neighbours, and lengths of one lattice shell. ALIKE: also one weight. STENCIL: all data but the weights
- * equal those of other row blocks. WHOLE: the weights do, too. UNIT: also all weights are 1, as inside a body; this
- * saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
+ * equal those of other blocks of eight rows. WHOLE: the weights do, too. UNIT: also all weights are 1, as inside a
+ * body; this saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
-/* A view of one column, i.e. of eight bonds that are stored together, one of each of eight particles (a row block of
- * b). number: index of the column among all columns, so that its bonds have the indices number * LANES + l in the bond
- * arrays, for the particles l = 0 .. 7; kind: what the eight bonds have in common, a compile-time constant wherever a
- * column is used. */
+/* A view of one column, i.e. of eight bonds that are stored together, one of each of eight particles (a block of eight
+ * rows of b). number: index of the column among all columns, so that its bonds have the indices number * LANES + l in
+ * the bond arrays, for the particles l = 0 .. 7; kind: what the eight bonds have in common, a compile-time constant
+ * wherever a column is used. */
 struct column {
     const struct bonds *b;
     int64_t number;
@@ -40,8 +41,8 @@ static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int
 }
 
 /* Returns a view of a column (one bond of each of eight consecutive particles) whose bonds b does not store, but which
- * follow from `stencil`, a bond pattern that many row blocks of a lattice share. column_in_stencil: number of the
- * column in the stencil; first_particle: first of the eight particles; column_number: index of the column among all
+ * follow from `stencil`, a bond pattern that many blocks of eight rows of a lattice share. column_in_stencil: number of
+ * the column in the stencil; first_particle: first of the eight particles; column_number: index of the column among all
  * columns; kind: COLUMN_STENCIL, WHOLE or UNIT. */
 static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t column_number,
                                                        const struct stencil *stencil, int64_t column_in_stencil,
@@ -56,9 +57,9 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
                            kind};
 }
 
-/* Calls VISIT(column) for every column with an intact bond in row block number ROW_BLOCK of the bonds B. A row block
- * stores the bonds of eight particles, a column one bond of each. The call is compiled once for each kind of column,
- * with the kind as a constant. */
+/* Calls VISIT(column) for every column with an intact bond in block number ROW_BLOCK of eight rows of the bonds B. A
+ * block stores the bonds of eight particles, a column one bond of each. The call is compiled once for each kind of
+ * column, with the kind as a constant. */
 #define FOR_COLUMNS(B, ROW_BLOCK, VISIT)                                                                               \
     do {                                                                                                               \
         const struct stencil *stencil_ = (B)->stencil[ROW_BLOCK];                                                      \
@@ -85,8 +86,8 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
                 VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                         \
     } while (0)
 
-/* Calls VISIT(column) for every column of a row block (the bonds of eight particles) as FOR_COLUMNS does, or
- * VISIT_BRITTLE(column) if MODEL is PD_BOND_SOFT and no bond of the row block has begun to soften. */
+/* Calls VISIT(column) for every column of a block of eight rows (the bonds of eight particles) as FOR_COLUMNS does, or
+ * VISIT_BRITTLE(column) if MODEL is PD_BOND_SOFT and no bond of the block has begun to soften. */
 #define FOR_COLUMNS_BY_LAW(B, ROW_BLOCK, MODEL, VISIT, VISIT_BRITTLE)                                                  \
     do {                                                                                                               \
         if ((MODEL) != PD_BOND_SOFT || bond_row_block_has_begun_softening(B, ROW_BLOCK))                               \
@@ -177,9 +178,9 @@ static ALWAYS_INLINE lanes column_min_of_intact_bonds(const struct column column
     return column.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact_bits(column), a, other);
 }
 
-/* Stores `value`, one value for each of the eight particles of a row block, in the particle array `to`. row: indices of
- * these particles; rows: number of particles, less than 8 in the last row block; aligned: true if the indices are
- * consecutive, so that all eight values are stored at once. */
+/* Stores `value`, one value for each of the eight particles of a block of eight rows, in the particle array `to`. row:
+ * indices of these particles; rows: number of particles, less than 8 in the last block; aligned: true if the indices
+ * are consecutive, so that all eight values are stored at once. */
 static ALWAYS_INLINE void bond_row_block_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
     if (aligned)

@@ -9,8 +9,8 @@
  * a = 3 (CORE_STIFFNESS), reduced where the time step requires it: bonds with cores have sqrt(1 + a) times the
  * frequency of bonds alone, so a <= (critical step/step)^2 - 1: 3 at 0.5 of the critical step (bonds that may break),
  * 0.56 at 0.8. With a = 3 the halves of a plate that collide at half the wave speed each keep their order (measured);
- * faster collisions may not. Rare: the hot loops find the most compressed bond of a row block, and visit the row block
- * again only if it is in its core. */
+ * faster collisions may not. Rare: the hot loops find the most compressed bond of a block of eight rows, and visit the
+ * block again only if it is in its core. */
 #ifndef CLEAVE_KERNELS_BOND_CORE
 #define CLEAVE_KERNELS_BOND_CORE
 
@@ -47,8 +47,8 @@ static inline struct core bond_repulsive_core_of(const struct bonds *b, const st
     return c;
 }
 
-/* Adds the forces [N] of the repulsive cores of all bonds in row block `row_block` of b (the bonds of eight particles)
- * to the forces p->f on these particles. */
+/* Adds the forces [N] of the repulsive cores of all bonds in block `row_block` of eight rows of b (the bonds of eight
+ * particles) to the forces p->f on these particles. */
 RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
@@ -61,9 +61,9 @@ RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct
     }
 }
 
-/* Returns half the energy [J] of the repulsive cores of the bonds of row block `row_block` (the bonds of eight
- * particles of p); the other particle of each bond has the other half. row_energy: NULL, or [b->rows], to whose entries
- * the energy of each row (the bonds of one particle) is added [J]. */
+/* Returns half the energy [J] of the repulsive cores of the bonds of block `row_block` of eight rows (the bonds of
+ * eight particles of p); the other particle of each bond has the other half. row_energy: NULL, or [b->rows], to whose
+ * entries the energy of each row (the bonds of one particle) is added [J]. */
 RARE real bond_row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block,
                                                real *row_energy)
 {

@@ -3,10 +3,10 @@
  *
  *     s = |x_j - x_i| / |X_j - X_i| - 1,   f_i = sum_j stiffness w_ij law(s) (x_j - x_i)/|x_j - x_i|
  *
- * A row holds all bonds of one particle. Eight rows (a row block) are computed at a time, column by column; each row is
- * written by its own lane only, so the result does not depend on the number of threads. Both rows of a bond compute its
- * stretch from equal numbers with equal operations (a difference and its negative), so they break it in one step
- * without communication. */
+ * A row holds all bonds of one particle. Eight rows (a block) are computed at a time, column by column;
+ * each row is written by its own lane only, so the result does not depend on the number of threads. Both rows of a bond
+ * compute its stretch from equal numbers with equal operations (a difference and its negative), so they break it in one
+ * step without communication. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -19,18 +19,18 @@
 
 #define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
-/* Sums over the bonds of a row block (bonds of eight particles, stored column by column). x0, x1, x2: positions of the
- * eight particles [m]; f0, f1, f2: forces on them, divided by the stiffness; stretch, press: largest and smallest
- * stretch of their bonds [1]. Where bonds soften, `stretch` is the largest excess over the end of softening, of bonds
- * beyond `trigger`, the least limit of each row. */
+/* Sums over the bonds of a block of eight rows (bonds of eight particles, stored column by column). x0, x1, x2:
+ * positions of the eight particles [m]; f0, f1, f2: forces on them, divided by the stiffness; stretch, press: largest
+ * and smallest stretch of their bonds [1]. Where bonds soften, `stretch` is the largest excess over the end of
+ * softening, of bonds beyond `trigger`, the least limit of each row. */
 struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger;
 };
 
-/* Adds the forces of eight bonds, column s of a row block (one bond of each of eight particles), to the sums of these
- * particles, sum, updates largest and smallest stretch, and returns the new sums. The force divided by the length is
- * computed from the stretch. As a difference of inverse lengths it would be cheaper, but a body in free fall would have
- * three times the round-off. model: bond law, a compile-time constant. */
+/* Adds the forces of eight bonds, column s of a block of eight rows (one bond of each of eight particles), to the sums
+ * of these particles, sum, updates largest and smallest stretch, and returns the new sums. The force divided by the
+ * length is computed from the stretch. As a difference of inverse lengths it would be cheaper, but a body in free fall
+ * would have three times the round-off. model: bond law, a compile-time constant. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
@@ -55,9 +55,9 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Computes the forces of the bonds on the eight particles of row block g into p->f, without the repulsive cores of
- * bonds (bond_core.h). Returns true if a bond may exceed its breaking limit. *pressed: receives true if a bond is
- * compressed into its core, else false. model: bond law, a compile-time constant. */
+/* Computes the forces of the bonds on the eight particles of block g of eight rows into p->f, without the repulsive
+ * cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit. *pressed: receives true if a bond
+ * is compressed into its core, else false. model: bond law, a compile-time constant. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {
@@ -86,9 +86,9 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));
 }
 
-/* Computes the forces of the bonds on the eight particles of row block g into p->f, repulsive cores included, and
- * breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its two
- * rows. limit: breaking limits; model: bond law, a compile-time constant. */
+/* Computes the forces of the bonds on the eight particles of block g of eight rows into p->f, repulsive cores included,
+ * and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its
+ * two rows. limit: breaking limits; model: bond law, a compile-time constant. */
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {

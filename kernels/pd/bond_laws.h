@@ -35,8 +35,8 @@ static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t f
 }
 
 /* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
- * 7 in the arrays of b, in a row block that softens (data/softening.h). stretch: present stretches of these bonds [1];
- * largest_stretch: their largest stretches so far, the present ones included [1]. */
+ * 7 in the arrays of b, in a block of eight rows that softens (data/softening.h). stretch: present stretches of these
+ * bonds [1]; largest_stretch: their largest stretches so far, the present ones included [1]. */
 static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch,
                                                   lanes largest_stretch)
 {
@@ -92,8 +92,8 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
 }
 
 /* Returns the elastic part [1] of the stretch `stretch` of the bond with index `bond` in the arrays of b: `stretch`
- * less the plastic stretch where bonds yield, times the remaining stiffness fraction where they soften. row_block: row
- * block (the bonds of eight particles) that contains the bond. */
+ * less the plastic stretch where bonds yield, times the remaining stiffness fraction where they soften. row_block:
+ * block of eight rows (the bonds of eight particles) that contains the bond. */
 static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     if (b->soft.curve) return stretch * bond_remaining_stiffness_fraction(b, row_block, bond, stretch);
@@ -101,8 +101,8 @@ static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row
 }
 
 /* Returns the elastic energy of the bond with index `bond` in the arrays of b at the stretch `stretch` [1], divided by
- * stiffness, weight and reference length of the bond (dimensionless). row_block: row block (the bonds of eight
- * particles) that contains the bond. */
+ * stiffness, weight and reference length of the bond (dimensionless). row_block: block of eight rows (the bonds of
+ * eight particles) that contains the bond. */
 static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     const real elastic = bond_entry_elastic_stretch(b, row_block, bond, stretch);

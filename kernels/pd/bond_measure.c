@@ -1,5 +1,5 @@
 /* Elastic energy, plastic work and stress (virial of the bonds) of bond-based models, for output. A row holds all bonds
- * of one particle, a row block the rows of eight particles, a column one bond of each row. */
+ * of one particle, a block of eight rows the rows of eight particles, a column one bond of each row. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -12,7 +12,7 @@
 #define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
 /* Computes bond vectors y[dim] [m] and stretches *stretch [1] of the eight bonds of column s, one for each particle of
- * a row block. x[dim]: positions of these eight particles [m]. Returns the inverse lengths 1/|y| [1/m]. */
+ * a block of eight rows. x[dim]: positions of these eight particles [m]. Returns the inverse lengths 1/|y| [1/m]. */
 static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *y, lanes *stretch, const int dim)
 {
@@ -41,10 +41,10 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     return lanes_choose(w > 0.0, w * bonds_normalised_energy(model, stretch, elastic) * length, lanes_broadcast(0));
 }
 
-/* Returns the elastic energy, divided by the stiffness, of the bonds of the eight particles in row block g, repulsive
- * cores included. Multiplied by half the stiffness it is the share of these particles in the energy, since each bond
- * belongs to two particles. row_energy[b->rows]: the share of each row (bonds of one particle) is added to it [J]; NULL
- * if not wanted. model: bond law, a compile-time constant. */
+/* Returns the elastic energy, divided by the stiffness, of the bonds of the eight particles in block g of eight rows,
+ * repulsive cores included. Multiplied by half the stiffness it is the share of these particles in the energy, since
+ * each bond belongs to two particles. row_energy[b->rows]: the share of each row (bonds of one particle) is added to it
+ * [J]; NULL if not wanted. model: bond law, a compile-time constant. */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 real *row_energy, const int dim, const enum pd_model model)
 {
@@ -80,8 +80,8 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
 }
 
 /* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the eight
- * particles of row block g, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005). model:
- * bond law, a compile-time constant. */
+ * particles of block g of eight rows, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005).
+ * model: bond law, a compile-time constant. */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                 const enum pd_model model)
 {
@@ -99,8 +99,8 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
-/* Raises the largest stretches so far of eight softening bonds, column s of a row block (one bond of each of eight
- * particles), to their present stretches where these are larger. x[dim]: positions of the eight particles [m]. */
+/* Raises the largest stretches so far of eight softening bonds, column s of a block of eight rows (one bond of each of
+ * eight particles), to their present stretches where these are larger. x[dim]: positions of the eight particles [m]. */
 static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
                                              const int dim)
 {
@@ -109,8 +109,8 @@ static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct
     bonds_update_softened_stretch(s.b, s.number * LANES, stretch);
 }
 
-/* Raises the largest stretches so far of the bonds of row block g (bonds of eight particles) to the present stretches.
- * Call only if at least one of these bonds has begun to soften. */
+/* Raises the largest stretches so far of the bonds of block g of eight rows (bonds of eight particles) to the present
+ * stretches. Call only if at least one of these bonds has begun to soften. */
 static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim)
 {
@@ -161,8 +161,9 @@ real bond_plastic_work(const struct bonds *b)
     return b->plastic_path ? reproducible_sum(b->rows, bond_measure_plastic_term, b) : 0;
 }
 
-/* Sums of energies: row blocks (bonds of eight particles) are summed in blocks of ROW_BLOCK_PER_BLOCK, BLOCKS_AT_ONCE
- * of these in parallel, and their sums in order, so that results have equal bits on any number of threads. */
+/* Sums of energies: blocks of eight rows (bonds of eight particles) are summed in blocks of ROW_BLOCK_PER_BLOCK,
+ * BLOCKS_AT_ONCE of these in parallel, and their sums in order, so that results have equal bits on any number of
+ * threads. */
 enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
 
 #define INSTANCE(D, M)                                                                                                 \

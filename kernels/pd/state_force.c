@@ -16,9 +16,9 @@
 
 /* ---- first sweep: states of families ----------------------------------------------------------------------------- */
 
-/* Sums over the families of the eight particles of a row block: extension, sum w r e; moment, sum w Y (x) xi; largest
- * (stretch) and smallest (press) stretch of the bonds [1]; moved: nonzero in a lane where a bond vector differs from
- * its reference, so that an undeformed family has exactly no rotation. */
+/* Sums over the families of the eight particles of a block of eight rows: extension, sum w r e; moment, sum w Y (x) xi;
+ * largest (stretch) and smallest (press) stretch of the bonds [1]; moved: nonzero in a lane where a bond vector differs
+ * from its reference, so that an undeformed family has exactly no rotation. */
 struct family_sums {
     lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX];
     lanes_mask moved;
@@ -68,8 +68,8 @@ struct own_family {
     lanes share;   /* V/Q, with the weighted volume of a full family if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the families of the eight particles of row block g. A family consists of
- * all bonds of one particle. */
+/* Returns the moduli and weighted volumes of the families of the eight particles of block g of eight rows. A family
+ * consists of all bonds of one particle. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -91,8 +91,8 @@ struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states *k (pressure, spring stiffness and rotation) of the families of the eight particles of row block g
- * in b->state. model: state-based model, a compile-time constant. */
+/* Stores the states *k (pressure, spring stiffness and rotation) of the families of the eight particles of block g of
+ * eight rows in b->state. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -107,8 +107,8 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns the mask of the rows of row block g (eight rows) that belong to material points with bonds; the other rows
- * belong to peridynamic particles. A row has the bonds of one particle. */
+/* Returns the mask of the rows of block g of eight rows (the bonds of eight particles) that belong to material points
+ * with bonds; the other rows belong to peridynamic particles. A row has the bonds of one particle. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     lanes_mask end;
@@ -160,10 +160,10 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* Updates the states *k of those particles of row block g (bonds of eight particles) that are material points. Adds to
- * the pressure of each the mean strain of its cell, and replaces its rotation by that of the cell. Stores the reactions
- * of the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes of the eight families;
- * sum: sums over their bonds. model: state-based model, a compile-time constant. */
+/* Updates the states *k of those particles of block g of eight rows (bonds of eight particles) that are material
+ * points. Adds to the pressure of each the mean strain of its cell, and replaces its rotation by that of the cell.
+ * Stores the reactions of the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes
+ * of the eight families; sum: sums over their bonds. model: state-based model, a compile-time constant. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -184,9 +184,9 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes pressure, spring stiffness and rotation of the families (all bonds of one particle) of row block g (eight
- * particles), and stores them in b->state. Families of material points include the contribution of the cell of the
- * point. sum: sums over the bonds of each family. model: state-based model, a compile-time constant. */
+/* Computes pressure, spring stiffness and rotation of the families (all bonds of one particle) of block g of eight rows
+ * (eight particles), and stores them in b->state. Families of material points include the contribution of the cell of
+ * the point. sum: sums over the bonds of each family. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -205,11 +205,11 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     precompute_store(b, g, &k, model);
 }
 
-/* Computes the states (pressure, spring stiffness, rotation) of the eight particles of row block g from sums over their
- * bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit, and
- * b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the states for
- * the remaining bonds are means of those with and without the breaking bonds (state_last.h). limit: breaking limits.
- * model: state-based model, a compile-time constant. */
+/* Computes the states (pressure, spring stiffness, rotation) of the eight particles of block g of eight rows from sums
+ * over their bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking
+ * limit, and b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the
+ * states for the remaining bonds are means of those with and without the breaking bonds (state_last.h). limit: breaking
+ * limits. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {
@@ -253,9 +253,9 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 
 /* ---- second sweep: forces ---------------------------------------------------------------------------------------- */
 
-/* Positions, states and sums of the eight particles of a row block in the second loop. x, X: present and reference
- * positions [m]; f: forces; arm = sum w xi, to which the rotations of the particles themselves are applied at the end;
- * pressure, spring: states of their families. */
+/* Positions, states and sums of the eight particles of a block of eight rows in the second loop. x, X: present and
+ * reference positions [m]; f: forces; arm = sum w xi, to which the rotations of the particles themselves are applied at
+ * the end; pressure, spring: states of their families. */
 struct state_sums {
     lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
 };
@@ -264,8 +264,8 @@ struct state_sums {
  * particles. In models without rotations the force of a bond is w [P + (g - P) q] times Y, with pressure P, spring
  * stiffness g and q = (|Y| - r)/|Y|: two products fewer than with the stretch. In models with rotations the effective
  * displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is exactly 0 where nothing has moved; the part of
- * the rotations of the row block's own particles is added in force_row_block. model: state-based model, a compile-time
- * constant. */
+ * the rotations of the block's own particles is added in force_row_block. model: state-based model, a
+ * compile-time constant. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {
@@ -297,8 +297,8 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
 
-/* Computes the forces of all bonds on the eight particles of row block g into p->f, without repulsive cores, from the
- * states of the families in b->state (pressure, spring stiffness and rotation). model: state-based model, a
+/* Computes the forces of all bonds on the eight particles of block g of eight rows into p->f, without repulsive cores,
+ * from the states of the families in b->state (pressure, spring stiffness and rotation). model: state-based model, a
  * compile-time constant. */
 static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                           const enum pd_model model)
@@ -324,9 +324,9 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     for (int d = 0; d < dim; d++) bond_row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
-/* Computes the forces of the bonds on the eight particles of row block g into p->f, repulsive cores included, and
- * breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its two
- * rows. limit: breaking limits; model: state-based model, a compile-time constant. */
+/* Computes the forces of the bonds on the eight particles of block g of eight rows into p->f, repulsive cores included,
+ * and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its
+ * two rows. limit: breaking limits; model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

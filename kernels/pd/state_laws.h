@@ -31,8 +31,8 @@
 
 #define STATE_TINY 1e-300 /* keeps roots of a padding lane finite */
 
-/* Vectors and lengths of the eight bonds of a column (one bond of each particle of a row block), for both loops of a
- * state-based force. */
+/* Vectors and lengths of the eight bonds of a column (one bond of each particle of a block of eight rows), for both
+ * loops of a state-based force. */
 struct state_bond {
     lanes y[DIM_MAX], xi[DIM_MAX]; /* deformed and reference vector [m]; xi only in models with rotations */
     lanes distance2;               /* |Y|^2 [m^2] */

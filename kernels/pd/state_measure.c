@@ -1,5 +1,5 @@
 /* Elastic energy and stress of state-based models, for output, from the states in b->state. A row holds all bonds of
- * one particle, a row block the rows of eight particles, a column one bond of each row.
+ * one particle, a block of eight rows the rows of eight particles, a column one bond of each row.
  *     energy of row i   1/2 sum_j (force state of i) . (effective displacement); its sum over j is V_i W_i
  *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, symmetrised, T_ij the force state of i alone;
  *                       deformed vectors y, not xi: the stress rotates with the body */
@@ -14,14 +14,14 @@
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
-/* Positions x, X [m] (present, reference) and states of the eight particles of a row block: pressure, spring stiffness
- * and rotation of their families (all bonds of one particle). */
+/* Positions x, X [m] (present, reference) and states of the eight particles of a block of eight rows: pressure, spring
+ * stiffness and rotation of their families (all bonds of one particle). */
 struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
 
-/* Returns positions and states (pressure, spring stiffness, rotation) of the eight particles of row block g. rotates:
- * true in models with rotations of particles; otherwise `rotation` is not set. */
+/* Returns positions and states (pressure, spring stiffness, rotation) of the eight particles of block g of eight rows.
+ * rotates: true in models with rotations of particles; otherwise `rotation` is not set. */
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
                                                    const int dim, const bool rotates)
 {
@@ -67,9 +67,9 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_broadcast(0));
 }
 
-/* Returns the elastic energy of the families of the eight particles of row block g, repulsive cores included [J]; 0 if
- * the row block is inactive (at rest). row_energy: [b->rows] the energy of each family is added to it [J]; NULL if it
- * is not wanted. model: state-based model, a compile-time constant. */
+/* Returns the elastic energy of the families of the eight particles of block g of eight rows, repulsive cores included
+ * [J]; 0 if the block is inactive (at rest). row_energy: [b->rows] the energy of each family is added to it [J]; NULL
+ * if it is not wanted. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                            real *row_energy, const int dim, const enum pd_model model)
 {
@@ -98,8 +98,8 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-/* Computes the stress of the peridynamic ones among the eight particles of row block g, into p->stress [Pa], from the
- * states of their families (pressure, spring stiffness and rotation). model: state-based model, a compile-time
+/* Computes the stress of the peridynamic ones among the eight particles of block g of eight rows, into p->stress [Pa],
+ * from the states of their families (pressure, spring stiffness and rotation). model: state-based model, a compile-time
  * constant. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
@@ -116,7 +116,7 @@ static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particl
             p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];
 }
 
-/* Arguments of the functions that compute the energy of one row block (bonds of eight particles) for
+/* Arguments of the functions that compute the energy of one block of eight rows (bonds of eight particles) for
  * reproducible_sum. */
 struct row_block_sum {
     const struct bonds *b;

@@ -1,8 +1,8 @@
-/* Loop over the active row blocks (rows of bonds of eight particles) that computes forces and moves a particle as soon
- * as no later row reads its position. Bonds reach at most b->reach row blocks, so a row block is moved once the loop is
- * that far beyond it: its data are still in the nearest cache, and positions, velocities and forces travel to memory
- * once per step. Row blocks near the ends of a thread's part are moved after a barrier. Results are bitwise equal to
- * those of all forces first, then all motion. */
+/* Loop over the active blocks of eight rows (rows of bonds of eight particles) that computes forces and moves a
+ * particle as soon as no later row reads its position. Bonds reach at most b->reach blocks, so a block is moved once
+ * the loop is that far beyond it: its data are still in the nearest cache, and positions, velocities and forces travel
+ * to memory once per step. Blocks near the ends of a thread's part are moved after a barrier. Results are bitwise equal
+ * to those of all forces first, then all motion. */
 #ifndef CLEAVE_KERNELS_SWEEP
 #define CLEAVE_KERNELS_SWEEP
 
@@ -11,24 +11,24 @@
 #include "pd_move.h"
 
 enum {
-    PIECE = 64,       /* row blocks between two calls of sweep_move_finished_rows */
-    AHEAD = 16,       /* prefetch distance in row blocks: about a microsecond */
-    FETCHED = 1 << 15 /* smallest number of row blocks for prefetching (smaller bodies fit in caches): saves 15 % of a
-                         step there, costs 2 % below */
+    PIECE = 64,       /* blocks of eight rows between two calls of sweep_move_finished_rows */
+    AHEAD = 16,       /* prefetch distance in blocks of eight rows: about a microsecond */
+    FETCHED = 1 << 15 /* smallest number of blocks of eight rows for prefetching (smaller bodies fit in caches): saves
+                         15 % of a step there, costs 2 % below */
 };
 
-/* The part of the list of active row blocks (bonds of eight particles, not at rest) that one thread processes, and its
- * progress in moving particles. diverged: true if a moved particle is too fast or not finite. */
+/* The part of the list of active blocks of eight rows (bonds of eight particles, not at rest) that one thread
+ * processes, and its progress in moving particles. diverged: true if a moved particle is too fast or not finite. */
 struct sweep {
-    const int32_t *row_block; /* active row blocks, ascending */
+    const int32_t *row_block; /* active blocks of eight rows, ascending */
     int64_t first, end, all;  /* entries first .. end-1 of `all` entries are this thread's */
     /* first entry that may be moved before other threads have finished their forces; next entry to move */
     int64_t early, next;
     bool diverged;
 };
 
-/* Returns the part of the list of active (not resting) row blocks of b that the calling thread processes. A row block
- * holds the bonds of eight particles. The threads of the team get equal parts of the list in order, as by
+/* Returns the part of the list of active (not resting) blocks of eight rows of b that the calling thread processes. A
+ * block holds the bonds of eight particles. The threads of the team get equal parts of the list in order, as by
  * schedule(static). */
 static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
 {
@@ -42,9 +42,9 @@ static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
     return s;
 }
 
-/* Advances the particles of entry k (from 0) in the list of active row blocks of b (bonds of eight particles of p) by a
- * leap-frog step with the step sizes of m. Sets s->diverged if one of the particles has diverged, i.e. is too fast or
- * not finite. */
+/* Advances the particles of entry k (from 0) in the list of active blocks of eight rows of b (bonds of eight particles
+ * of p) by a leap-frog step with the step sizes of m. Sets s->diverged if one of the particles has diverged, i.e. is
+ * too fast or not finite. */
 static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                                const struct pd_motion *m, const int dim)
 {
@@ -53,11 +53,11 @@ static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bon
         pd_move_eight(p, b->particle + g * LANES, count_of_eight_indices_below(g * LANES, b->rows), m->loaded, m, dim);
 }
 
-/* Prefetches the data of b and p that the loop over active row blocks (bonds of eight particles each) needs next. s:
- * part of the list of this thread; k: index of the present row block in the list. Fetched are the forces and breaking
- * limits of the row block AHEAD entries further on, the positions of its farthest neighbours, and mass and velocities
- * of the row block that is moved next. Hardware prefetching follows consecutive lines within a page, but not a dozen
- * arrays. */
+/* Prefetches the data of b and p that the loop over active blocks of eight rows (bonds of eight particles each) needs
+ * next. s: part of the list of this thread; k: index of the present block in the list. Fetched are the forces and
+ * breaking limits of the block AHEAD entries further on, the positions of its farthest neighbours, and mass and
+ * velocities of the block that is moved next. Hardware prefetching follows consecutive lines within a page, but not a
+ * dozen arrays. */
 static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bonds *b, const struct particles *p,
                                          int64_t k, const int dim)
 {
@@ -75,9 +75,9 @@ static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bon
     }
 }
 
-/* Advances in time those particles of p whose positions no later row block of this thread reads. They belong to row
- * blocks of b (bonds of eight particles each) in the part s of the list of active row blocks. The forces of entry k of
- * the list of active row blocks and of all entries before it must be complete. m: step sizes. */
+/* Advances in time those particles of p whose positions no later block of eight rows of this thread reads. They belong
+ * to blocks of b (bonds of eight particles each) in the part s of the list of active blocks. The forces of entry k of
+ * the list of active blocks and of all entries before it must be complete. m: step sizes. */
 static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                    int64_t k, const struct pd_motion *m, const int dim)
 {
@@ -85,9 +85,9 @@ static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct
     for (; s->next <= k && s->row_block[s->next] < until; s->next++) sweep_move_row_block(s, b, p, s->next, m, dim);
 }
 
-/* Advances in time those particles of p of this thread's row blocks (bonds of eight particles in b, part s of the list)
- * that have not been moved yet: the first row blocks, whose positions the previous thread may have read, and the last
- * ones. To be called when all threads have finished their forces. m: step sizes. */
+/* Advances in time those particles of p of this thread's blocks of eight rows (bonds of eight particles in b, part s of
+ * the list) that have not been moved yet: the first blocks, whose positions the previous thread may have read, and the
+ * last ones. To be called when all threads have finished their forces. m: step sizes. */
 static ALWAYS_INLINE void sweep_move_remaining_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                     const struct pd_motion *m, const int dim)
 {
@@ -95,10 +95,11 @@ static ALWAYS_INLINE void sweep_move_remaining_rows(struct sweep *s, const struc
     for (; s->next < s->end; s->next++) sweep_move_row_block(s, b, p, s->next, m, dim);
 }
 
-/* Defines the body of a force kernel, with the return statement: a parallel loop over the active row blocks of B.
- * FORCE: expression that computes the forces of `row_block` and returns the number of bonds broken; M: step sizes with
- * which particles of P are moved in the same loop (D dimensions), NULL: none is moved. The kernel returns the number of
- * bonds broken, each counted once for each of its particles, and sets M->diverged if a particle has diverged. */
+/* Defines the body of a force kernel, with the return statement: a parallel loop over the active blocks of eight rows
+ * of B. FORCE: expression that computes the forces of `row_block` and returns the number of bonds broken; M: step sizes
+ * with which particles of P are moved in the same loop (D dimensions), NULL: none is moved. The kernel returns the
+ * number of bonds broken, each counted once for each of its particles, and sets M->diverged if a particle has
+ * diverged. */
 #define SWEEP(B, P, M, D, FORCE)                                                                                       \
     int64_t broken = 0, diverged = 0;                                                                                  \
     _Pragma("omp parallel reduction(+ : broken, diverged)")                                                            \

@@ -1,4 +1,5 @@
-/* Makes bond rows: selects the particles that have rows, forms row blocks of eight and fills their columns. */
+/* Makes bond rows: selects the particles that have rows, forms blocks of eight rows and fills their
+ * columns. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -46,10 +47,10 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
 
 /* Marks by 1 in wanted[(n + 7)/8] the sets of eight consecutive particles that get rows (lists of bonds): sets with a
  * peridynamic particle or with a material point that has a peridynamic neighbour. Rows of other particles of a marked
- * set have no bonds. Whole sets are used, since a row block keeps its eight particles for as long as it exists. Marks
- * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
- * previous bonds or NULL; map: map from lattice sites to particles; s: data from which bonds are made; capacity:
- * largest number of neighbours of a particle. */
+ * set have no bonds. Whole sets are used, since a block of eight rows keeps its eight particles for as long as it
+ * exists. Marks in fresh[n] the particles to be searched again: those that have become peridynamic and all within their
+ * cutoff. old: previous bonds or NULL; map: map from lattice sites to particles; s: data from which bonds are made;
+ * capacity: largest number of neighbours of a particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -122,8 +123,8 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
-/* Allocates the arrays of b with an entry for each row (bonds of one particle) or each row block (eight rows stored
- * together). The arrays with an entry for each bond are allocated later. Call it after rows_list. */
+/* Allocates the arrays of b with an entry for each row (bonds of one particle) or each block of eight rows (the bonds
+ * of eight particles). The arrays with an entry for each bond are allocated later. Call it after rows_list. */
 static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->row_blocks * LANES;
@@ -144,20 +145,20 @@ static void rows_arrays(struct bonds *b)
     active_set_make_with_all_blocks_active(&b->active, b->row_blocks);
 }
 
-/* Inputs and results of the two passes over the row blocks: the first one counts their columns, the second one fills
- * these. */
+/* Inputs and results of the two passes over the blocks of eight rows: the first one counts their columns, the second
+ * one fills these. */
 struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
-    struct row_block_found **found; /* [row blocks] neighbours found by search in the first pass, NULL: not kept */
-    int64_t *kept;                  /* [row blocks] previous row block that is taken over, -1: the row block is made */
-    int64_t n, *list;               /* [n] row blocks that are made, in ascending order */
-    bool count;                     /* first pass: columns are only counted */
+    struct row_block_found **found; /* [row_blocks] neighbours found by search in the first pass, NULL: not kept */
+    int64_t *kept;    /* [row_blocks] previous block of eight rows that is taken over, -1: the block is made */
+    int64_t n, *list; /* [n] blocks of eight rows that are made, in ascending order */
+    bool count;       /* first pass: columns are only counted */
 };
 
 /* Returns true if the new rows of the particles particle[rows] inherit changed weights: one of these particles had its
- * row in a row block (eight rows stored together) of the previous bonds `old` in which a bond has broken or softened.
- * Returns false if `old` is NULL. */
+ * row in a block of eight rows (the bonds of eight particles) of the previous bonds `old` in which a bond has broken or
+ * softened. Returns false if `old` is NULL. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -168,10 +169,10 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
     return changed;
 }
 
-/* Returns true if the bonds of row block g (eight rows stored together) can be made from the map of lattice sites,
- * without a search: its particles are consecutive, on a regular part of the lattice, and have no changed weights. In
- * this case stores the bonds in room->regular. pass: the bonds and the data from which they are made; room: working
- * memory of the thread. */
+/* Returns true if the bonds of block g of eight rows (the bonds of eight particles) can be made from the map of lattice
+ * sites, without a search: its particles are consecutive, on a regular part of the lattice, and have no changed
+ * weights. In this case stores the bonds in room->regular. pass: the bonds and the data from which they are made; room:
+ * working memory of the thread. */
 static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
@@ -187,9 +188,9 @@ static void reach_widen(int32_t *reach, int32_t distance)
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
-/* Increases room->reach to the largest difference of the indices of two bonded particles in row block g (eight rows
- * stored together). Images do not count, as they have no rows. regular: true if the bonds are in room->regular (found
- * from the lattice map), false if they are in room->row (found by search). pass: the bonds. */
+/* Increases room->reach to the largest difference of the indices of two bonded particles in block g of eight rows (the
+ * bonds of eight particles). Images do not count, as they have no rows. regular: true if the bonds are in room->regular
+ * (found from the lattice map), false if they are in room->row (found by search). pass: the bonds. */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -200,9 +201,9 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Makes row block g (eight rows stored together): in the first pass (pass->count is true) counts its columns, in the
- * second fills them. Column k contains the k-th bonds of its eight particles. room: working memory of the thread.
- * Returns the number of bonds of the row block. */
+/* Makes block g of eight rows (the bonds of eight particles): in the first pass (pass->count is true) counts its
+ * columns, in the second fills them. Column k contains the k-th bonds of its eight particles. room: working memory of
+ * the thread. Returns the number of bonds of the block. */
 static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
@@ -234,8 +235,8 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Compares the new row blocks (eight rows stored together) with the previous ones. pass->kept[g]: receives the previous
- * row block that is equal to new row block g, so that its contents can be copied, or -1. pass->list: receives the row
+/* Compares the new blocks of eight rows (the bonds of eight particles) with the previous ones. pass->kept[g]: receives
+ * the previous block that is equal to new block g, so that its contents can be copied, or -1. pass->list: receives the
  * blocks without an equal one, which must be made; pass->n: their number. */
 static void rows_pass_begin(struct rows_pass *pass)
 {
@@ -252,9 +253,9 @@ static void rows_pass_begin(struct rows_pass *pass)
         if (pass->kept[g] < 0) pass->list[pass->n++] = g;
 }
 
-/* Makes all row blocks (eight rows stored together) in pass->list in parallel: counts their columns in the first pass,
- * fills them in the second. In two passes the memory is known before it is filled, and bonds are not stored twice.
- * Increases b->reach to the distance from a particle to the farthest one bonded to it [row blocks]. */
+/* Makes all blocks of eight rows (the bonds of eight particles) in pass->list in parallel: counts their columns in the
+ * first pass, fills them in the second. In two passes the memory is known before it is filled, and bonds are not stored
+ * twice. Increases b->reach to the distance from a particle to the farthest one bonded to it [row_blocks]. */
 static void rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -273,9 +274,9 @@ static void rows_pass(const struct rows_pass *pass)
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
 }
 
-/* Copies the row blocks (eight rows stored together) that are equal to previous ones from the previous bonds
- * (pass->maker.old) to the new ones (pass->b), and sets the member n of the latter to the number of directed bonds of
- * all row blocks. */
+/* Copies the blocks of eight rows (the bonds of eight particles) that are equal to previous ones from the previous
+ * bonds (pass->maker.old) to the new ones (pass->b), and sets the member n of the latter to the number of directed
+ * bonds of all blocks. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
@@ -288,8 +289,8 @@ static void rows_pass_end(const struct rows_pass *pass)
     b->n = made;
 }
 
-/* Makes all row blocks (eight rows stored together) of b in two passes: the first counts their columns, the second
- * fills them. maker: input, with the previous bonds, if any. If there are previous bonds, few row blocks change; the
+/* Makes all blocks of eight rows (the bonds of eight particles) of b in two passes: the first counts their columns, the
+ * second fills them. maker: input, with the previous bonds, if any. If there are previous bonds, few blocks change; the
  * neighbours that the first pass finds for these are then kept for the second pass. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
@@ -328,7 +329,7 @@ static void rows_inherit(struct bonds *b, const struct bonds *old)
 void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
-    if (previous) b->reach = previous->reach; /* covers the row blocks that are kept */
+    if (previous) b->reach = previous->reach; /* covers the blocks of eight rows that are kept */
     b->stencils = stencils_share_or_make_table(previous ? previous->stencils : NULL);
     struct site_map *map = site_map_share_or_make(previous ? previous->site_map : NULL, s, p);
     int most = bonds_neighbour_count_bound(s);

@@ -36,9 +36,10 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts in c->n the intact bonds of column k (the k-th bonds) of row block g (eight rows stored together) to images
- * across clamped planes (planes at which all motion is prevented). If c->entry is not NULL, also stores index, both
- * particles, inverse length and weight of each of these bonds. is[images]: 1 for images across clamped planes. */
+/* Counts in c->n the intact bonds of column k (the k-th bonds) of block g of eight rows (the bonds of eight particles)
+ * to images across clamped planes (planes at which all motion is prevented). If c->entry is not NULL, also stores
+ * index, both particles, inverse length and weight of each of these bonds. is[images]: 1 for images across clamped
+ * planes. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -54,9 +55,10 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Counts in c->n the intact bonds of all row blocks (eight rows stored together) of b to images across clamped planes
- * (planes at which all motion is prevented), and stores them if c->entry is not NULL. Images have indices behind those
- * of the body, so that one comparison excludes most columns. is[images]: 1 for images across clamped planes. */
+/* Counts in c->n the intact bonds of all blocks of eight rows (the bonds of eight particles) of b to images across
+ * clamped planes (planes at which all motion is prevented), and stores them if c->entry is not NULL. Images have
+ * indices behind those of the body, so that one comparison excludes most columns. is[images]: 1 for images across
+ * clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;

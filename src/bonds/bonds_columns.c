@@ -1,12 +1,14 @@
-/* Storage of columns when rows are rebuilt: columns of unchanged row blocks stay in place; others are placed in the
- * holes of removed row blocks, or behind all stored columns. Touched memory is reused, and columns are never copied. */
+/* Storage of columns when rows are rebuilt: columns of unchanged blocks of eight rows stay in place; others are placed
+ * in the holes of removed blocks, or behind all stored columns. Touched memory is reused, and columns are never
+ * copied. */
 #include "bonds_parts.h"
 #include "base/memory.h"
 
 /* ---- holes ------------------------------------------------------------------------------------------------------- */
 
-/* Linked lists of the holes (ranges of unused columns between row blocks), one list for each size. first[size]: index
- * of the first hole of this size in `all`, -1: none; next[hole]: next hole of the same size; most: largest size. */
+/* Linked lists of the holes (ranges of unused columns between blocks of eight rows), one list for each size.
+ * first[size]: index of the first hole of this size in `all`, -1: none; next[hole]: next hole of the same size; most:
+ * largest size. */
 struct holes_by_size {
     struct bond_holes *all;
     int32_t *first, *next;
@@ -63,9 +65,9 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* Appends the columns of those row blocks of the previous bonds `old` (eight rows stored together) that are not kept to
- * the list of unused columns b->holes. The next rebuilding may use them; the present one still reads them. kept[row
- * blocks of b]: row block of `old` that is kept, or -1. */
+/* Appends the columns of those blocks of eight rows of the previous bonds `old` (eight rows stored together) that are
+ * not kept to the list of unused columns b->holes. The next rebuilding may use them; the present one still reads them.
+ * kept[row_blocks of b]: block of `old` that is kept, or -1. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     struct bond_holes *holes = &b->holes;
@@ -84,7 +86,7 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
 
 /* Allocates the arrays of b with an entry for each column (the k-th bonds of eight rows), for b->room columns. s:
  * states which arrays the model needs; sparse: true to reserve addresses only, which get memory when they are written;
- * on a lattice most row blocks (eight rows stored together) write no column. */
+ * on a lattice most blocks of eight rows (the bonds of eight particles) write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
     void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_lazy_uninitialised : memory_new_uninitialised;
@@ -131,10 +133,10 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Chooses the position of each row block g (eight rows stored together) of b in the column arrays of the previous bonds
- * `old`. If kept[g] >= 0, it is equal to this previous row block and stays at the columns of that one. If kept[g] is
- * -1, it gets a range of unused columns that is large enough, or else columns at the end of the arrays, which are
- * extended. */
+/* Chooses the position of each block g of eight rows (the bonds of eight particles) of b in the column arrays of the
+ * previous bonds `old`. If kept[g] >= 0, it is equal to this previous block and stays at the columns of that one. If
+ * kept[g] is -1, it gets a range of unused columns that is large enough, or else columns at the end of the arrays,
+ * which are extended. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);
@@ -148,8 +150,8 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 }
 
 /* Makes b use the column arrays of the previous bonds `old`. Both use them until bonds_clear_pointers_to_moved_arrays
- * removes them from `old`. kept[g]: row block of `old` (eight rows stored together) whose columns row block g keeps, or
- * -1. */
+ * removes them from `old`. kept[g]: block of eight rows of `old` (eight rows stored together) whose columns block g
+ * keeps, or -1. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -162,10 +164,10 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
     holes_add(b, old, kept);
 }
 
-/* Assigns columns (the k-th bonds of eight rows) to all row blocks of b, in the arrays of the previous bonds m->old if
- * possible, else in new ones. Row blocks with plastic bonds always get new arrays, because their plastic state is
- * archived in the order of the row blocks (bonds_archive.c). previous_row_block[row blocks]: previous row block that is
- * kept, or -1; not used without previous bonds. */
+/* Assigns columns (the k-th bonds of eight rows) to all blocks of eight rows of b, in the arrays of the previous bonds
+ * m->old if possible, else in new ones. Blocks with plastic bonds always get new arrays, because their plastic state is
+ * archived in the order of the blocks (bonds_archive.c). previous_row_block[row_blocks]: previous block that is kept,
+ * or -1; not used without previous bonds. */
 void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *m, const int64_t *previous_row_block)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];

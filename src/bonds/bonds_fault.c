@@ -18,8 +18,8 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* Checks row block g (eight rows stored together) of b, which stores no columns but uses a stencil. Returns a constant
- * text that names the first fault; NULL if there is none. */
+/* Checks block g of eight rows (the bonds of eight particles) of b, which stores no columns but uses a stencil. Returns
+ * a constant text that names the first fault; NULL if there is none. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "an implicit row block has no stencil";
@@ -47,8 +47,8 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     return NULL;
 }
 
-/* Checks that no intact bond of row `row` leads to a row more than b->reach row blocks (eight rows stored together)
- * away. Returns a constant text that names the fault; NULL if there is none. */
+/* Checks that no intact bond of row `row` leads to a row more than b->reach blocks of eight rows (the bonds of eight
+ * particles) away. Returns a constant text that names the fault; NULL if there is none. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {

@@ -1,4 +1,4 @@
-/* Takes over unchanged row blocks of the previous rows, and neighbours found while counting. */
+/* Takes over unchanged blocks of eight rows of the previous rows, and neighbours found while counting. */
 #include <string.h>
 
 #include "bonds_parts.h"
@@ -15,7 +15,7 @@ int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct r
     return first / LANES;
 }
 
-/* Copies the entries of one array from row block `of` of the previous bonds `old` to row block g of b (eight rows
+/* Copies the entries of one array from block `of` of eight rows of the previous bonds `old` to block g of b (eight rows
  * stored together). to, from: the arrays of b and of `old` with entries for all columns; each: size of an entry of a
  * column [byte]. */
 static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
@@ -25,8 +25,8 @@ static void columns_copy(void *to, const void *from, size_t each, const struct b
                b->column_count[g], each);
 }
 
-/* Copies the entries of all column arrays from row block `from` of the previous bonds `old` to row block g of b (eight
- * rows stored together), with the softening and plastic state of the bonds. */
+/* Copies the entries of all column arrays from block `from` of eight rows of the previous bonds `old` to block g of b
+ * (eight rows stored together), with the softening and plastic state of the bonds. */
 static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     columns_copy(b->first, old->first, sizeof *b->first, b, old, g, from);

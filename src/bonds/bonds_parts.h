@@ -1,6 +1,6 @@
-/* Declarations shared by the files bonds*.c. A row holds all bonds of one particle, a row block the rows of eight
- * particles. A column of a row block holds one bond of each of its eight rows. A stencil is a list of columns that many
- * row blocks of a lattice have in common. */
+/* Declarations shared by the files bonds*.c. A row holds all bonds of one particle, a block of eight rows the rows of
+ * eight particles. A column of a block holds one bond of each of its eight rows. A stencil is a list of columns that
+ * many blocks of a lattice have in common. */
 #ifndef CLEAVE_BONDS_PARTS
 #define CLEAVE_BONDS_PARTS
 
@@ -76,8 +76,8 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
                                  const int32_t *new_index);
 
 /* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there. Two marks of
- * each row block (bonds of eight particles) are included: whether a bond of the row block has begun to soften, and
- * whether a bond may begin to before the next computation of forces. To be restored after the columns of changed row
+ * each block of eight rows (bonds of eight particles) are included: whether a bond of the block has begun to soften,
+ * and whether a bond may begin to before the next computation of forces. To be restored after the columns of changed
  * blocks. Returns FAILED if an entry is missing or its size differs. */
 status softening_save_or_load_bond_states(struct bonds *b, struct archive *a);
 
@@ -99,19 +99,19 @@ void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, in
  * `row`, too; the plastic state of bonds is copied from there. */
 void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
-/* Returns the number of the previous row block (bonds of eight particles) in maker->old that equals row block
+/* Returns the number of the previous block of eight rows (bonds of eight particles) in maker->old that equals block
  * `row_block` of b, so that its columns can be kept; -1 if the particles or their neighbours have changed
  * (bonds_keep.c). */
 int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
-/* Copies row block `previous_row_block` (the bonds of eight particles) of the bonds `previous_bonds` to row block
+/* Copies block `previous_row_block` of eight rows (the bonds of eight particles) of the bonds `previous_bonds` to block
  * `row_block` of b: stencil, flags, limits and volumes, and the columns unless b has taken over the column arrays of
  * `previous_bonds`. */
 void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds *previous_bonds, int64_t row_block,
                                              int64_t previous_row_block);
 
-/* Neighbours of the eight particles of a row block (the bonds of eight particles), stored between the pass that counts
- * columns and the pass that fills them. family_volume: volume of all neighbours. */
+/* Neighbours of the eight particles of a block of eight rows (the bonds of eight particles), stored between the pass
+ * that counts columns and the pass that fills them. family_volume: volume of all neighbours. */
 struct row_block_found {
     real family_volume[LANES]; /* [m^3] */
     int32_t n[LANES], nbr[];   /* number of neighbours of each row; neighbours, row after row */
@@ -125,10 +125,10 @@ struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, i
  * (each row has the bonds of one particle). */
 void bond_rows_restore_found_neighbours(const struct row_block_found *saved, struct row *row, int row_count);
 
-/* Assigns a range of columns (eight bonds each) to every row block (the bonds of eight particles) of b and allocates
- * the column arrays. previous_row_block[row blocks]: number of the previous row block in maker->old whose columns are
- * used again in place, -1 for a row block that is rebuilt; NULL if there are no previous bonds. Rebuilt row blocks use
- * columns of removed row blocks if these are enough, else columns behind all others (bonds_columns.c). */
+/* Assigns a range of columns (eight bonds each) to every block of eight rows (the bonds of eight particles) of b and
+ * allocates the column arrays. previous_row_block[row_blocks]: number of the previous block in maker->old whose columns
+ * are used again in place, -1 for a block that is rebuilt; NULL if there are no previous bonds. Rebuilt blocks use
+ * columns of removed blocks if these are enough, else columns behind all others (bonds_columns.c). */
 void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *maker,
                                         const int64_t *previous_row_block);
 
@@ -162,7 +162,7 @@ struct regular_bonds {
     int16_t *number;    /* [n] numbers of these neighbours in a full family */
     uint8_t *from, *to; /* [n] first and last lane with a neighbour at the distance */
     uint8_t *bonds;     /* [n] bit l: lane l has a bond at the distance: one of both particles is peridynamic */
-    struct stencil_cache *stencil_cache; /* bonds of recent row blocks of this thread */
+    struct stencil_cache *stencil_cache; /* bonds of recent blocks of eight rows of this thread */
 };
 
 /* Allocates the arrays of `bonds`, which list the bonds of eight lattice particles by index distance (index of the
@@ -186,12 +186,13 @@ bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
 
-/* Returns a new, empty cache for one thread, which remembers the last row blocks (bonds of eight particles each) that
- * the thread has made. Later row blocks are compared with them, so that equal bonds are copied instead of computed
- * (bonds_stencil_cache.c). map: from lattice sites to particles, kept by reference. Release with stencil_cache_free. */
+/* Returns a new, empty cache for one thread, which remembers the last blocks of eight rows (bonds of eight particles
+ * each) that the thread has made. Later blocks are compared with them, so that equal bonds are copied instead of
+ * computed (bonds_stencil_cache.c). map: from lattice sites to particles, kept by reference. Release with
+ * stencil_cache_free. */
 struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 
-/* Releases the cache t of row blocks. Does nothing if t is NULL. */
+/* Releases the cache t of blocks of eight rows. Does nothing if t is NULL. */
 void stencil_cache_free(struct stencil_cache *t);
 
 /* Searches the cache bonds->stencil_cache for eight consecutive particles whose bonds are bitwise equal (lengths,
@@ -229,32 +230,32 @@ int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds);
  * of the bonds. Release the array `ratio` of the result with memory_free. */
 struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s);
 
-/* Returns the number of rows in row block `row_block` of b, i.e. of the particles whose bonds the row block stores:
- * eight, or fewer in the last row block. */
+/* Returns the number of rows in block `row_block` of eight rows of b, i.e. of the particles whose bonds the block
+ * stores: eight, or fewer in the last block. */
 static inline int bond_row_block_row_count(const struct bonds *b, int64_t row_block)
 {
     return count_of_eight_indices_below(row_block * LANES, b->rows);
 }
 
-/* Working memory in which one thread makes a row block (the bonds of eight particles). row: the bonds of each
+/* Working memory in which one thread makes a block of eight rows (the bonds of eight particles). row: the bonds of each
  * particle. */
 struct row_block_buffer {
     struct regular_bonds regular; /* bonds found without a search */
     int room;                     /* largest number of bonds of a row */
     struct row row[LANES];
     int32_t *offset;              /* [LANES room] distinct index distances */
-    struct column_copy *column;   /* [LANES room] columns of the row block */
+    struct column_copy *column;   /* [LANES room] columns of the block of eight rows */
     struct stencil stencil;       /* stencil of these columns */
-    const struct stencil *likely; /* stencil of the previous row block */
+    const struct stencil *likely; /* stencil of the previous block of eight rows */
     int32_t reach;                /* largest index distance so far */
 };
 
-/* Allocates the working memory `buffer` in which one thread makes row blocks (the bonds of eight particles each).
- * capacity: largest number of bonds of a particle; map: from lattice sites to particles. Release with
+/* Allocates the working memory `buffer` in which one thread makes blocks of eight rows (the bonds of eight particles
+ * each). capacity: largest number of bonds of a particle; map: from lattice sites to particles. Release with
  * bond_row_block_buffer_free. */
 void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map);
 
-/* Releases the arrays of `buffer`, the working memory in which row blocks are made. */
+/* Releases the arrays of `buffer`, the working memory in which blocks of eight rows are made. */
 void bond_row_block_buffer_free(struct row_block_buffer *buffer);
 
 /* Returns the number of columns (one bond of each of eight particles) that the bonds in buffer->row[0] to
@@ -264,21 +265,22 @@ void bond_row_block_buffer_free(struct row_block_buffer *buffer);
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column);
 
-/* Fills the columns of row block `row_block` of b, which stores the bonds of eight particles, from the first
+/* Fills the columns of block `row_block` of eight rows of b, which stores the bonds of eight particles, from the first
  * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, family volumes and the
- * flag `aligned` of the row block. p: particles; one_offset_per_column: true if the bonds of each column have the same
+ * flag `aligned` of the block. p: particles; one_offset_per_column: true if the bonds of each column have the same
  * offset on the lattice, as bond_row_block_count_columns returns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
-/* Fills row block `row_block` of b (the bonds of eight particles) from the bonds in buffer->regular, which were found
- * without a search, because its eight particles are consecutive on one lattice. maker: parameters of the bonds. */
+/* Fills block `row_block` of eight rows of b (the bonds of eight particles) from the bonds in buffer->regular, which
+ * were found without a search, because its eight particles are consecutive on one lattice. maker: parameters of the
+ * bonds. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                             const struct row_maker *maker);
 
-/* Stores the columns in `buffer` as columns of row block `row_block` of b (the bonds of eight particles of p), or, if
- * their bonds equal those of a known stencil (a bond pattern of the lattice), makes the row block follow that stencil
- * and stores no columns. Called after the columns were filled. */
+/* Stores the columns in `buffer` as columns of block `row_block` of eight rows of b (the bonds of eight particles of
+ * p), or, if their bonds equal those of a known stencil (a bond pattern of the lattice), makes the block follow that
+ * stencil and stores no columns. Called after the columns were filled. */
 void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                              const struct particles *p);
 
@@ -292,38 +294,38 @@ void lattice_shell_lengths_make(struct bonds *b, real spacing);
  * positions. Returns k, or 0 if the bonds have no common shell. */
 int bonds_find_lattice_shell(const struct bonds *b, const real *inverse_length, int16_t *round_off_units);
 
-/* Returns a table of stencils (lists of columns shared by many row blocks): `existing` with one more user, or a new
- * table if `existing` is NULL (bonds_stencils.c). Release with stencils_release_table. */
+/* Returns a table of stencils (lists of columns shared by many blocks of eight rows): `existing` with one more user, or
+ * a new table if `existing` is NULL (bonds_stencils.c). Release with stencils_release_table. */
 struct stencils *stencils_share_or_make_table(struct stencils *existing);
 
-/* Removes one user of the table `stencils` of bond patterns that many row blocks (bonds of eight particles) of a
- * lattice share. The last user releases the table. */
+/* Removes one user of the table `stencils` of bond patterns that many blocks of eight rows (bonds of eight particles)
+ * of a lattice share. The last user releases the table. */
 void stencils_release_table(struct stencils *stencils);
 
-/* Allocates `stencil`, a bond pattern that row blocks of a lattice share, for up to `max_columns` columns. Release with
- * stencil_free. */
+/* Allocates `stencil`, a bond pattern that blocks of eight rows of a lattice share, for up to `max_columns` columns.
+ * Release with stencil_free. */
 void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 
-/* Releases the arrays of `stencil`, a bond pattern for row blocks of a lattice. */
+/* Releases the arrays of `stencil`, a bond pattern for blocks of eight rows of a lattice. */
 void stencil_free(struct stencil *stencil);
 
-/* Appends the column `added_column` (eight bonds) of the row block with the eight consecutive particles from
+/* Appends the column `added_column` (eight bonds) of the block of eight rows with the eight consecutive particles from
  * `first_particle` on to the stencil `stencil`. A lane of `added_column` with weight 0 and inverse length 0 has no
  * bond. b, p: bonds and particles. Returns false, and leaves an unusable stencil, if the eight neighbours are not
  * consecutive, or if bonds differ in length or are cut. */
 bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
                         int64_t first_particle, const struct column_copy *added_column);
 
-/* Returns the stencil (a bond pattern that row blocks of a lattice share) in the table `table` that is equal to
- * `stencil`; adds a copy to the table if there is none. first_guess: stencil of the table that is compared first, NULL
- * for none. Returns NULL if the table is full. */
+/* Returns the stencil (a bond pattern that blocks of eight rows of a lattice share) in the table `table` that is equal
+ * to `stencil`; adds a copy to the table if there is none. first_guess: stencil of the table that is compared first,
+ * NULL for none. Returns NULL if the table is full. */
 const struct stencil *stencil_find_or_add(struct stencils *table, const struct stencil *stencil,
                                           const struct stencil *first_guess);
 
-/* Makes row block `row_block` of b use the stencil of the row block that contains particle `particle`, so that it needs
- * no stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, the row block
- * keeps the stencil that it already has. A stencil is a list of columns that many row blocks (bonds of eight particles)
- * of a lattice share. Returns false, and changes nothing, if there is no stencil. */
+/* Makes block `row_block` of eight rows of b use the stencil of the block that contains particle `particle`, so that it
+ * needs no stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, the block
+ * keeps the stencil that it already has. A stencil is a list of columns that many blocks (bonds of eight particles) of
+ * a lattice share. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
 /* Writes `bonds`, one bond of each of eight particles, to the entries of column number `column_number` (from 0) in the

@@ -204,9 +204,9 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-/* Returns the plastic state of bond number k (from 0) of one of the eight particles of row block `row_block` (eight
- * rows stored together). lane: number of this particle, 0 to 7. Call it only if bonds may yield (b->plastic_stretch is
- * not NULL). */
+/* Returns the plastic state of bond number k (from 0) of one of the eight particles of block `row_block` of eight rows
+ * (the bonds of eight particles). lane: number of this particle, 0 to 7. Call it only if bonds may yield
+ * (b->plastic_stretch is not NULL). */
 static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;

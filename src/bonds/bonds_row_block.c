@@ -1,4 +1,4 @@
-/* Combines eight rows to a row block: selects the bonds of each column, and stores columns or a stencil. */
+/* Combines eight rows to a block of eight rows: selects the bonds of each column, and stores columns or a stencil. */
 #include <string.h>
 
 #include "bonds_parts.h"
@@ -14,9 +14,9 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
     return other == 0;
 }
 
-/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block (eight rows stored
- * together) in g->offset, ascending, and returns their number. particle[rows]: its particles, up to eight; g: working
- * memory, with the bonds of these particles in g->row[rows]. */
+/* Lists the distinct index distances (neighbour minus particle) of all bonds of a block of eight rows (the bonds of
+ * eight particles) in g->offset, ascending, and returns their number. particle[rows]: its particles, up to eight; g:
+ * working memory, with the bonds of these particles in g->row[rows]. */
 static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
@@ -33,11 +33,11 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
     return n;
 }
 
-/* Returns the number of columns of a row block (eight rows stored together), whose bonds are in buffer->row.
- * *one_offset_per_column: receives how the bonds are arranged: true if all bonds of a column have one index distance
- * (neighbour minus particle), false if each row has its bonds in the first columns, without gaps. The latter is used
- * off a lattice, where columns by distance would be mostly padding. particle[row_count]: particles of the rows, 1 to
- * 8. */
+/* Returns the number of columns of a block of eight rows (the bonds of eight particles), whose bonds are in
+ * buffer->row. *one_offset_per_column: receives how the bonds are arranged: true if all bonds of a column have one
+ * index distance (neighbour minus particle), false if each row has its bonds in the first columns, without gaps. The
+ * latter is used off a lattice, where columns by distance would be mostly padding. particle[row_count]: particles of
+ * the rows, 1 to 8. */
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column)
 {
@@ -64,9 +64,9 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
     b->pair[q] = pair;
 }
 
-/* Stores properties of row block g (eight rows stored together) in b: whether its particles are consecutive, and for
- * each of its `rows` rows the smallest stretch at which a bond may break, the volume of all neighbours and that of the
- * neighbours whose bonds are broken. room: holds the rows. */
+/* Stores properties of block g of eight rows (the bonds of eight particles) in b: whether its particles are
+ * consecutive, and for each of its `rows` rows the smallest stretch at which a bond may break, the volume of all
+ * neighbours and that of the neighbours whose bonds are broken. room: holds the rows. */
 static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -81,10 +81,10 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if column k of a row block (eight rows stored together) must contain the bond number `used` of row l (0
- * to 7), the first bond of this row that has no column yet. by_offset: true if all bonds of column k have the index
- * distance room->offset[k] (neighbour minus particle), false if a column takes any bond. particle[8]: particles of the
- * rows. */
+/* Returns true if column k of a block of eight rows (the bonds of eight particles) must contain the bond number `used`
+ * of row l (0 to 7), the first bond of this row that has no column yet. by_offset: true if all bonds of column k have
+ * the index distance room->offset[k] (neighbour minus particle), false if a column takes any bond. particle[8]:
+ * particles of the rows. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -92,8 +92,8 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-/* Stores the softening of the bonds of row block g (eight rows stored together) if one of them has begun to soften;
- * else only records that none has. buffer: holds the rows and the columns in which
+/* Stores the softening of the bonds of block g of eight rows (the bonds of eight particles) if one of them has begun to
+ * soften; else only records that none has. buffer: holds the rows and the columns in which
  * bond_row_block_fill_columns_from_rows has put their bonds; rows: number of rows in use. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
@@ -139,10 +139,10 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buf
     bond_row_block_store_columns_or_stencil(b, buffer, g, p);
 }
 
-/* Makes room->stencil for row block g (eight rows stored together) from its columns in `room`. A stencil describes each
- * column by its index distance (neighbour minus particle) and the properties that its eight bonds share. Returns false
- * if the row block must store its columns: its particles are not consecutive, bonds are plastic or changed, or a column
- * has unequal bonds. */
+/* Makes room->stencil for block g of eight rows (the bonds of eight particles) from its columns in `room`. A stencil
+ * describes each column by its index distance (neighbour minus particle) and the properties that its eight bonds share.
+ * Returns false if the block must store its columns: its particles are not consecutive, bonds are plastic or changed,
+ * or a column has unequal bonds. */
 static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -251,9 +251,9 @@ static bool whole_families(const struct regular_bonds *bonds)
     return without == 0;
 }
 
-/* Fills row block g (eight rows stored together) of b from the bonds in buffer->regular, which follow from the map of
- * lattice sites. If the particles have bonds to all their neighbours, and a recent row block had equal bonds, the
- * stencil of that one and its sums over bonds are used again. m: input of the rows. */
+/* Fills block g of eight rows (the bonds of eight particles) of b from the bonds in buffer->regular, which follow from
+ * the map of lattice sites. If the particles have bonds to all their neighbours, and a recent block had equal bonds,
+ * the stencil of that one and its sums over bonds are used again. m: input of the rows. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
                                             const struct row_maker *m)
 {
@@ -277,9 +277,9 @@ void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_bu
     bond_row_block_store_columns_or_stencil(b, buffer, g, m->p);
 }
 
-/* Allocates *buffer, the working memory for row blocks (eight rows stored together) whose rows have up to `capacity`
- * bonds, for the worst case. Little of this memory is ever touched, as the arrays are not cleared. map: map from
- * lattice sites to particles. Release it with bond_row_block_buffer_free. */
+/* Allocates *buffer, the working memory for blocks of eight rows (the bonds of eight particles) whose rows have up to
+ * `capacity` bonds, for the worst case. Little of this memory is ever touched, as the arrays are not cleared. map: map
+ * from lattice sites to particles. Release it with bond_row_block_buffer_free. */
 void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map)
 {
     buffer->room = capacity;

@@ -13,7 +13,7 @@
  * from their sites, so that with this difference round-off decides nothing; horizons of whole spacings (tolerance 1e-7)
  * still pass. */
 #define BAND (4 * LATTICE_NEAR)
-enum { HALF_MOST = 16 }; /* largest reach of bonds for which row blocks are made from a map [spacings] */
+enum { HALF_MOST = 16 }; /* largest reach of bonds for which blocks of eight rows are made from a map [spacings] */
 
 /* Largest number of lattice sites per particle for which a map is made. If few particles of a body exist, few memory
  * pages of the map are written. */

@@ -12,11 +12,11 @@ real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t 
     return Q;
 }
 
-/* Computes the weighted volume Q = sum w r^2 over the bonds of each row of row block g (eight rows stored together)
- * [m^2], in b->state.weighted. If b->state.local, and if all lattice sites within the horizon of the particle are
- * occupied, the sum is over the bonds that exist; bonds that soften, or that broke by softening, count with the weight
- * that they had before. Else Q is that of the undamaged family: of a full one on the lattice or, near faces, of the
- * particle's surface class (surface.h). */
+/* Computes the weighted volume Q = sum w r^2 over the bonds of each row of block g of eight rows (the bonds of eight
+ * particles) [m^2], in b->state.weighted. If b->state.local, and if all lattice sites within the horizon of the
+ * particle are occupied, the sum is over the bonds that exist; bonds that soften, or that broke by softening, count
+ * with the weight that they had before. Else Q is that of the undamaged family: of a full one on the lattice or, near
+ * faces, of the particle's surface class (surface.h). */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
     const struct family *f = &s->family;
@@ -46,9 +46,9 @@ void state_based_update_weighted_volumes(struct bonds *b, const struct particles
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
-/* Computes the weighted volume Q (sum over the bonds of a row) of the row blocks of b (eight rows stored together) in
- * which it is still 0: those that are rebuilt. Row blocks that were copied from the previous bonds keep their Q. s:
- * inputs of the bonds; p: particles. */
+/* Computes the weighted volume Q (sum over the bonds of a row) of the blocks of eight rows of b (eight rows stored
+ * together) in which it is still 0: those that are rebuilt. Blocks that were copied from the previous bonds keep their
+ * Q. s: inputs of the bonds; p: particles. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)

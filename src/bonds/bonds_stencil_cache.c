@@ -1,16 +1,16 @@
-/* Cache of the last row blocks of a lattice. On a uniform lattice most row blocks have the surroundings of a recent
- * one, and its stencil, weights and sums are equal to the last bit. */
+/* Cache of the last blocks of eight rows of a lattice. On a uniform lattice most blocks have the surroundings of a
+ * recent one, and its stencil, weights and sums are equal to the last bit. */
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Number of recent row blocks (rows of eight particles each) in the cache. It suffices for the different row blocks
- * of a few lattice rows, inside and at their ends; empirical. */
+/* Number of recent blocks of eight rows (the bonds of eight particles) in the cache. It suffices for the different
+ * blocks of a few lattice rows, inside and at their ends; empirical. */
 enum { REMEMBERED = 32 };
 
-/* Bonds of recent row blocks, for one thread. map: map of the lattice sites, borrowed. */
+/* Bonds of recent blocks of eight rows, for one thread. map: map of the lattice sites, borrowed. */
 struct stencil_cache {
     const struct site_map *map;
     int n, next, last; /* number of entries of `cached`; index of the oldest; index of the entry found last */

@@ -1,4 +1,4 @@
-/* Stencils: lists of columns that row blocks with equal bonds share. */
+/* Stencils: lists of columns that blocks of eight rows with equal bonds share. */
 #include <string.h>
 
 #include "bonds_parts.h"
@@ -7,7 +7,7 @@
 /* Largest number of stencils; number of lists by hash. */
 enum { STENCILS_MOST = 2048, HASHES = 4096 };
 
-/* All stencils (bonds that many row blocks have in common), with lists by hash to find equal ones. */
+/* All stencils (bonds that many blocks of eight rows have in common), with lists by hash to find equal ones. */
 struct stencils {
     int n, users; /* number of stencils; number of bond storages that share them */
     struct stencil stencil[STENCILS_MOST];
@@ -41,7 +41,8 @@ void stencil_free(struct stencil *stencil)
     memory_free(stencil->w);
 }
 
-/* ---- stencil of one row block ------------------------------------------------------------------------------------ */
+/* ---- stencil of one block of eight rows
+ * ------------------------------------------------------------------------------------ */
 
 /* Stores the reference vector of the bonds from particle i + l to particle j + l, l = 0 .. 7, in the stencil column
  * `to`, whose bits to->intact must be set. Returns false if the intact bonds do not all have the same vector to the
@@ -97,8 +98,8 @@ static bool stencils_equal(const struct stencil *a, const struct stencil *b)
            arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
-/* Returns a hash of the stencil p (columns that many row blocks share), from 0 to HASHES - 1, over its index distances
- * and its first weight per column (Fowler, Noll and Vo). */
+/* Returns a hash of the stencil p (columns that many blocks of eight rows share), from 0 to HASHES - 1, over its index
+ * distances and its first weight per column (Fowler, Noll and Vo). */
 static int hash_of(const struct stencil *p)
 {
     const uint64_t prime = UINT64_C(0x100000001b3);
@@ -154,8 +155,8 @@ bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t 
 
 /* ---- bond by bond ------------------------------------------------------------------------------------------------ */
 
-/* Reads neighbours, inverse lengths and weights of column k of a row block (the k-th bonds of eight particles) into
- * *copy, from the stencil if the row block stores no columns. row_block: index of the row block. */
+/* Reads neighbours, inverse lengths and weights of column k of a block of eight rows (the k-th bonds of eight
+ * particles) into *copy, from the stencil if the block stores no columns. row_block: index of the block. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t k)
 {
     const int64_t column = b->column[row_block] + k;
@@ -173,9 +174,10 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
         copy->nbr[l] = copy->first + l, copy->inverse_length[l] = copy->w[l] == 0 ? 0 : of->inverse_length;
 }
 
-/* Returns true if bonds b of row block number row_block (eight rows stored together) may lead to images; false only if
- * none does. Images follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of
- * less than eight lanes: no column leads to an image if the last one ends two row blocks before the images. */
+/* Returns true if bonds b of block number row_block of eight rows may lead to images;
+ * false only if none does. Images follow all particles, and the columns of a stencil ascend by their neighbours, up to
+ * the padding of less than eight lanes: no column leads to an image if the last one ends two blocks before the
+ * images. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = bond_row_block_column_count(b, row_block);
@@ -208,8 +210,8 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
     bond_column_update_common_properties(b, column_number);
 }
 
-/* Writes the columns of row block `row_block` (eight rows stored together), which so far only its stencil defines, to
- * the column arrays of b. */
+/* Writes the columns of block `row_block` of eight rows (the bonds of eight particles), which so far only its stencil
+ * defines, to the column arrays of b. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

@@ -11,8 +11,8 @@
  * have softened. R is the rotation of (sum omega V (1 - d) y xi) (sum omega V (1 - d) xi xi)^-1.
  *
  * The mean is needed only where the strain of the particle itself is on the surface or beyond: at a crack, where
- * strains differ from particle to particle. This strain is needed only in row blocks with stretches that are near the
- * least one on the surface, which sweeps of forces mark. */
+ * strains differ from particle to particle. This strain is needed only in blocks of eight rows with stretches that are
+ * near the least one on the surface, which sweeps of forces mark. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -119,10 +119,10 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     }
 }
 
-/* Computes sum[8], the moment matrices of the bonds of each of the eight rows of row block g (struct moments), from
- * which the strains of its particles follow. The row block must have a stencil: its bonds are intact and have not begun
- * to soften, and all bonds of a column have one index distance. e: bonds and particles; dim: number of dimensions,
- * known at compile time. */
+/* Computes sum[8], the moment matrices of the bonds of each of the eight rows of block g of eight rows (struct
+ * moments), from which the strains of its particles follow. The block must have a stencil: its bonds are intact and
+ * have not begun to soften, and all bonds of a column have one index distance. e: bonds and particles; dim: number of
+ * dimensions, known at compile time. */
 static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -171,8 +171,8 @@ static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, cons
     }
 }
 
-/* Computes the strains of the rows of row block g (eight rows stored together) that are marked in wanted[8], into
- * e->strain[0]. dim: number of dimensions, known at compile time. */
+/* Computes the strains of the rows of block g of eight rows (the bonds of eight particles) that are marked in
+ * wanted[8], into e->strain[0]. dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, const bool *wanted, const int dim)
 {
     struct moments sum[LANES];
@@ -185,8 +185,8 @@ static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, c
     }
 }
 
-/* Computes the strains of those of the eight rows of row block g (rows stored together) that are marked in wanted[8],
- * into e->strain[0]. Does nothing if no row is marked. */
+/* Computes the strains of those of the eight rows of block g of eight rows (rows stored together) that are marked in
+ * wanted[8], into e->strain[0]. Does nothing if no row is marked. */
 static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted)
 {
     bool any = false;
@@ -301,8 +301,8 @@ static void evaluation_free(struct evaluation *e)
     memory_free(e->strain[0]), memory_free(e->strain[1]);
 }
 
-/* Returns true if a particle of row block g (eight rows stored together) may have nearly reached its strength surface
- * (failure criterion in stress), or a bond of it has begun to soften. */
+/* Returns true if a particle of block g of eight rows (the bonds of eight particles) may have nearly reached its
+ * strength surface (failure criterion in stress), or a bond of it has begun to soften. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
 /* Returns true if row `row` of e (bonds of one particle) has an intact bond that can break and has not begun to
@@ -317,10 +317,10 @@ static bool row_can_start(const struct evaluation *e, int64_t row)
     return false;
 }
 
-/* Computes the strains of those rows of row block g (eight rows stored together) whose material has a strength surface
- * (failure criterion in stress) and in which a bond can still begin to soften. For those whose stress is at least the
- * fraction `least` of the stress on the surface [1], sets e->distance to 1 and e->share to this ratio. Returns true if
- * there is such a row. */
+/* Computes the strains of those rows of block g of eight rows (the bonds of eight particles) whose material has a
+ * strength surface (failure criterion in stress) and in which a bond can still begin to soften. For those whose stress
+ * is at least the fraction `least` of the stress on the surface [1], sets e->distance to 1 and e->share to this ratio.
+ * Returns true if there is such a row. */
 static bool row_block_find(struct evaluation *e, int64_t g, real least)
 {
     const struct bonds *b = e->b;
@@ -432,9 +432,9 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
     return (struct bond_softness){most, (float)onset, (float)end, 0};
 }
 
-/* Starts the softening of the bonds of row block g (eight rows stored together) of b that are intact, have not begun to
- * soften, and lead from or to a particle on its strength surface (failure criterion in stress). Material points with
- * such bonds are marked for conversion. e: particles that have reached their strength surface. */
+/* Starts the softening of the bonds of block g of eight rows (the bonds of eight particles) of b that are intact, have
+ * not begun to soften, and lead from or to a particle on its strength surface (failure criterion in stress). Material
+ * points with such bonds are marked for conversion. e: particles that have reached their strength surface. */
 static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -465,9 +465,9 @@ real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct 
     return most;
 }
 
-/* Marks by 1 in touched[row blocks] the row block (eight rows stored together) of row `row`, whose particle is on its
- * strength surface, and those of all neighbours to which its bonds lead. e: the bonds. Several threads may mark one row
- * block. */
+/* Marks by 1 in touched[row_blocks] the block of eight rows (the bonds of eight particles) of row `row`, whose particle
+ * is on its strength surface, and those of all neighbours to which its bonds lead. e: the bonds. Several threads may
+ * mark one block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

@@ -185,8 +185,8 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles in row block g (eight rows
- * stored together) [1/s^2] from its stored bonds. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles in block g of eight rows
+ * (the bonds of eight particles) [1/s^2] from its stored bonds. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];
@@ -270,7 +270,7 @@ real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, cons
             if (!any) continue;
             if (map.at && first + LANES <= p->n &&
                 bond_row_block_compute_lattice_bonds(&map, s, &all, first, &regular)) {
-                /* an equal row block is already in `largest` */
+                /* an equal block of eight rows is already in `largest` */
                 if (stencil_cache_particle_with_equal_bonds(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;

@@ -1,6 +1,6 @@
 /* Rows that contact may push before the next search: their particles count as loaded, so that they move after contact
- * has pushed them, and their row blocks as active. Rows at faces still at rest are added once particles there move:
- * contact activates no region still at rest. */
+ * has pushed them, and their blocks of eight rows as active. Rows at faces still at rest are added once particles there
+ * move: contact activates no region still at rest. */
 #include "base/memory.h"
 #include "contact_internal.h"
 
@@ -79,9 +79,9 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
-/* Marks the particles on which contact forces may act as loaded in the loads l, and the row blocks of their bonds (rows
- * of eight particles stored together) in b as active. They are then moved after the contact forces are known. c:
- * contact, whose rows have been marked; p: particles. */
+/* Marks the particles on which contact forces may act as loaded in the loads l, and the blocks of eight rows of their
+ * bonds (rows of eight particles stored together) in b as active. They are then moved after the contact forces are
+ * known. c: contact, whose rows have been marked; p: particles. */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

@@ -355,5 +355,5 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
         return;
     }
     c->changed = conversion_count;
-    contact_activate_particles_after_restart(c, p, b, l); /* also after conversions, which rebuild row blocks */
+    contact_activate_particles_after_restart(c, p, b, l); /* also after conversions, which rebuild rows of bonds */
 }

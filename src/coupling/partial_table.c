@@ -343,15 +343,15 @@ static void response_make(const struct partial_table *t, const struct particles 
     }
 }
 
-/* The row block of the last query, and its rows with an intact bond, one bit each: consecutive queries mostly concern
- * the same row block. */
+/* The block of eight rows of the last query, and its rows with an intact bond, one bit each: consecutive queries mostly
+ * concern the same block. */
 struct row_block_intact {
     int64_t row_block;
     unsigned rows;
 };
 
-/* Returns true if particle i is a material point with an intact bond in b. *last: result for the last row block queried
- * (rows of eight particles stored together), updated. */
+/* Returns true if particle i is a material point with an intact bond in b. *last: result for the last block of eight
+ * rows queried (rows of eight particles stored together), updated. */
 static bool partial_table_has_bonds(struct row_block_intact *last, const struct particles *p, const struct bonds *b,
                                     int64_t i)
 {

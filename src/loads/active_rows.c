@@ -1,15 +1,15 @@
-/* The active set of row blocks: finds inactive row blocks of bonds, and activates them when particles move. */
+/* The active set of blocks of eight rows: finds inactive blocks of bonds, and activates them when particles move. */
 #include "loads/active_rows.h"
 
 #include <string.h>
 
-/* Returns the highest activity level, that of row blocks in motion: 1 + the number of row blocks (groups of LANES rows
- * of bonds, one row for each particle) over which forces spread in a step. Forces reach over two horizons in
+/* Returns the highest activity level, that of blocks of eight rows in motion: 1 + the number of blocks (groups of LANES
+ * rows of bonds, one row for each particle) over which forces spread in a step. Forces reach over two horizons in
  * state-based models (level 3), over one in bond-based models (level 2). b: bonds of the body. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
-/* Returns true if a particle of row block `row_block` of b (LANES rows of bonds stored together, one row for each
- * particle) has left its reference position: its coordinates x and X in p differ in any bit. */
+/* Returns true if a particle of block `row_block` of eight rows of b (LANES rows of bonds stored together, one row for
+ * each particle) has left its reference position: its coordinates x and X in p differ in any bit. */
 static bool has_moved(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
@@ -18,8 +18,9 @@ static bool has_moved(const struct bonds *b, const struct particles *p, int64_t 
     return false;
 }
 
-/* Returns true if row block `row_block` of b (LANES rows of bonds stored together, one for each particle) is at rest:
- * displacements, velocities and forces of its particles in p are zero, and no load of l, grid or mesh can move them. */
+/* Returns true if block `row_block` of eight rows of b (LANES rows of bonds stored together, one for each particle) is
+ * at rest: displacements, velocities and forces of its particles in p are zero, and no load of l, grid or mesh can move
+ * them. */
 static bool active_set_is_inactive(const struct bonds *b, const struct particles *p, const struct loads *l,
                                    int64_t row_block)
 {
@@ -32,10 +33,10 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
     return !has_moved(b, p, row_block);
 }
 
-/* Returns the row block of b (LANES rows of bonds stored together, one for each particle) that contains the row of the
- * neighbour at the end of one bond. If the neighbour is a mirror image in l, the row of the particle that it copies is
- * meant. Returns -1 if the bond is padding or there is no such row. column: one bond of each of the LANES rows of a row
- * block; lane: number of the row, from 0. */
+/* Returns the block of eight rows of b (LANES rows of bonds stored together, one for each particle) that contains the
+ * row of the neighbour at the end of one bond. If the neighbour is a mirror image in l, the row of the particle that it
+ * copies is meant. Returns -1 if the bond is padding or there is no such row. column: one bond of each of the LANES
+ * rows of a block; lane: number of the row, from 0. */
 static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
                             const struct column_copy *column, int lane)
 {
@@ -44,8 +45,8 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
     return row < 0 ? -1 : row / LANES;
 }
 
-/* Raises the activity level of row block `row_block` of b to `level`, and recursively those of the row blocks of its
- * neighbours to level - 1, down to 1. Levels are never lowered here. A row block (LANES rows of bonds stored together,
+/* Raises the activity level of block `row_block` of eight rows of b to `level`, and recursively those of the blocks of
+ * its neighbours to level - 1, down to 1. Levels are never lowered here. A block (LANES rows of bonds stored together,
  * one for each particle of p) has level 0 while it is inactive: its bond forces are not computed. l: loads with the
  * mirror images. */
 static void row_block_activate(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
@@ -63,8 +64,8 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
     }
 }
 
-/* Returns true if a particle of row block `row_block` of b (LANES rows of bonds stored together, one for each particle
- * of p) has a bond to a particle whose row block has exactly the activity level `level`. l: loads with the mirror
+/* Returns true if a particle of block `row_block` of eight rows of b (LANES rows of bonds stored together, one for each
+ * particle of p) has a bond to a particle whose block has exactly the activity level `level`. l: loads with the mirror
  * images. */
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
@@ -80,8 +81,8 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
     return false;
 }
 
-/* Recomputes the activity levels b->active.level of all row blocks of b (LANES rows of bonds stored together, one for
- * each particle of p). Row blocks in motion have the highest level. A row block with a bond to these has one level
+/* Recomputes the activity levels b->active.level of all blocks of eight rows of b (LANES rows of bonds stored together,
+ * one for each particle of p). Blocks in motion have the highest level. A block with a bond to these has one level
  * less, and so on from neighbour to neighbour down to level 0: inactive, no forces computed. l: loads that may move
  * particles. Must be called after rows were rebuilt. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
@@ -99,8 +100,8 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
     r->is_current = true;
 }
 
-/* Updates the activity levels of row blocks of b (LANES rows of bonds stored together, one for each particle of p)
- * after a step. Blocks that have begun to move since the last call get the highest level, and the levels of their
+/* Updates the activity levels of blocks of eight rows of b (LANES rows of bonds stored together, one for each particle
+ * of p) after a step. Blocks that have begun to move since the last call get the highest level, and the levels of their
  * neighbours are raised. Then rebuilds the list of active blocks. Tests only active blocks below the highest level,
  * since motion reaches others only through these; sets b->active.over if there are no such blocks. l: loads with the
  * mirror images. */

@@ -30,9 +30,9 @@ static real critical_stretch_least(const struct bond_limit *limit, const struct 
     return least * weakest;
 }
 
-/* Returns the largest ratio of stretch to critical stretch of the intact bonds of b in row block g (bonds of eight
- * particles, stored together), or `most` if that is larger. p: particles; limit: critical stretches; weakest: lower
- * bound of the critical stretches, by which most row blocks are skipped. */
+/* Returns the largest ratio of stretch to critical stretch of the intact bonds of b in block g of eight rows (bonds of
+ * eight particles, stored together), or `most` if that is larger. p: particles; limit: critical stretches; weakest:
+ * lower bound of the critical stretches, by which most blocks are skipped. */
 static real row_block_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g, real weakest, real most)
 {
@@ -110,8 +110,8 @@ static void overstretched_add(struct overstretched *o, real over, const struct b
     o->record[o->n++] = *record;
 }
 
-/* Appends the bonds of row block g of b (bonds of eight particles, stored together) with a ratio of stretch to critical
- * stretch above `least` to o, in the order of rows. p: particles; limit: critical stretches. */
+/* Appends the bonds of block g of eight rows of b (bonds of eight particles, stored together) with a ratio of stretch
+ * to critical stretch above `least` to o, in the order of rows. p: particles; limit: critical stretches. */
 static void row_block_overstretched(struct overstretched *o, const struct bonds *b, const struct particles *p,
                                     const struct bond_limit *limit, int64_t g, real least)
 {

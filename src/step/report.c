@@ -289,7 +289,7 @@ static void progress(struct run *e, bool last)
 /* ---- after a step ------------------------------------------------------------------------------------------------ */
 
 /* Returns the fraction of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
- * peridynamic particles by row blocks of the bonds b, material points by the mesh. */
+ * peridynamic particles by blocks of eight rows of the bonds b, material points by the mesh. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p)
 {
     real at_rest = active_set_inactive_fraction(&b->active) * (real)p->n_of[KIND_PD];
