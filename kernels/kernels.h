@@ -62,8 +62,8 @@ static inline real point_conversion_stress(const struct elastic *m, const struct
 struct partial_stress {
     int32_t *index; /* [n] entry of a particle in `matrix`, -1: transmits all of its stress; NULL: all particles do */
     real *matrix;   /* M, [entries][symmetric^2], row major [1] */
-    /* [entries][symmetric] derivative of the mean strain of the point's family by the strain of its cell; 0 for points
-     * without bonds; NULL: bond-based model [1] */
+    /* [entries][symmetric] derivative of the mean strain of the point's neighbourhood by the strain of its cell; 0 for
+     * points without bonds; NULL: bond-based model [1] */
     real *local;
     bool gives_all;              /* all stress is transmitted (coupling `handshake`): M and local are 0 */
     int64_t entries;             /* number of entries */
@@ -171,10 +171,10 @@ KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
  * as a force computation does. To be called before energies are read without a force computation. */
 KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p));
 
-/* Computes pressure (from the dilatation), spring stiffness and rotation of all families (all neighbours of a particle)
- * from the present positions into b->state: the first of the two loops of a state-based force. To be called before
- * these quantities are read without a force computation. Stores the reactions on the cells of material points with
- * bonds in p->end_pull and p->end_moment. */
+/* Computes pressure (from the dilatation), spring stiffness and rotation of all neighbourhoods (all neighbours of a
+ * particle) from the present positions into b->state: the first of the two loops of a state-based force. To be called
+ * before these quantities are read without a force computation. Stores the reactions on the cells of material points
+ * with bonds in p->end_pull and p->end_moment. */
 typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
 /* Breaks the bonds of block number `row_block` of eight rows of b (all bonds of eight particles) whose stretch exceeds
@@ -207,15 +207,15 @@ KERNEL(void, bond_break_entry,
  * damage and flags of its particle. */
 KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns the elastic energy [J] of the family of row number `row` of b (all bonds of one particle of p) in a
+/* Returns the elastic energy [J] of the neighbourhood of row number `row` of b (all bonds of one particle of p) in a
  * state-based model, from the present weights of its bonds and the positions at a time `lag` [s] before the present
  * ones. Independent of the last force computation. */
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row, real lag));
 
 /* Returns half the elastic energy [J] of the intact bonds of all rows of b (a row: all bonds of one particle of p). A
  * bond between two peridynamic particles is in two rows, so that its whole energy is included. In state-based models,
- * returns the energy of the families at the last computation of their states. The sum has equal bits on any number of
- * threads. row_energy: [b->rows]: the share of each row is added to its entry [J]; NULL: not needed. */
+ * returns the energy of the neighbourhoods at the last computation of their states. The sum has equal bits on any
+ * number of threads. row_energy: [b->rows]: the share of each row is added to its entry [J]; NULL: not needed. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, real *row_energy);
 
 /* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) [J] of the bonds of all rows of b (a row: all bonds of
@@ -436,7 +436,7 @@ KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 /* Returns the correction [J] of the kinetic energy of the mesh, whose velocities are half a step behind the positions:
  * the sum of (dt f)^2/(4 m) over the nodes, with the force f and the mass m of a node. dt: time step [s]. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
-/* Returns the elastic energy [J] of all cells of the mesh, including their contribution to the families of bonded
+/* Returns the elastic energy [J] of all cells of the mesh, including their contribution to the neighbourhoods of bonded
  * points (material points of p with state-based bonds). m: elastic constants by material; finite: true for finite
  * strain, false for small strain. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));

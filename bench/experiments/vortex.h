@@ -7,7 +7,7 @@
  * of Cleave, with F = Q (1 + alpha'/R (J X) (x) X) in closed form and Div by fourth-order differences:
  *
  *   mesh   P = R C : (U - 1), F = R U, linear in the Biot strain (kernels/mesh/mesh_law.h)
- *   bonds  P = 1/2 sum c (|F xi| - |xi|)/|xi| F xi/|F xi| (x) xi V over the family of the lattice */
+ *   bonds  P = 1/2 sum c (|F xi| - |xi|)/|xi| F xi/|F xi| (x) xi V over the neighbourhood of the lattice */
 #ifndef CLEAVE_EXPERIMENTS_VORTEX
 #define CLEAVE_EXPERIMENTS_VORTEX
 
@@ -21,8 +21,8 @@ struct vortex {
     enum vortex_law law;
     double turn, period, density; /* A [rad], T [s], rho [kg/m^3] */
     double c11, c12, shear;       /* elastic constants of the plane [Pa] */
-    int bonds;                    /* number of bonds of half a family; xi [spacings]; weight: c V r^2, scaled to the
-                                   * constants of the plane [Pa] */
+    int bonds; /* number of bonds of half a neighbourhood; xi [spacings]; weight: c V r^2, scaled to the
+                * constants of the plane [Pa] */
     double xi[VORTEX_BONDS_MOST][2], weight[VORTEX_BONDS_MOST];
 };
 

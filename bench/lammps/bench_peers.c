@@ -3,9 +3,9 @@
  * Cleave.
  *
  * LAMMPS weights neighbours near the horizon by a ramp (here `cut-ramp`), with influence function 1/r for LPS. LPS with
- * K_L = 4 k2/9, G_L = 8 G/15 on a planar family is the 2D law. LAMMPS creates bonds from the neighbour list of the
- * first `run 0`: pairs excluded at that time, by a type for each particle that a crack touches, never become bonds. A
- * second `run 0` lets LPS compute its strains before anything moves. */
+ * K_L = 4 k2/9, G_L = 8 G/15 on a planar neighbourhood is the 2D law. LAMMPS creates bonds from the neighbour list of
+ * the first `run 0`: pairs excluded at that time, by a type for each particle that a crack touches, never become bonds.
+ * A second `run 0` lets LPS compute its strains before anything moves. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

@@ -10,8 +10,8 @@ static const double exact = 11.93;             /* K_I for a/W = 0.5, H = W (Bowi
 static const double unit = 31622.776601683793; /* 1 MPa mm^0.5                               [Pa m^0.5] */
 static const double width = 10;                /* width of the plate [mm] */
 
-/* Models that are compared. LOCAL, BULK: the constants of bonds follow from the family of each particle, or from that
- * of a particle in the bulk. style: of its line, for gnuplot. */
+/* Models that are compared. LOCAL, BULK: the constants of bonds follow from the neighbourhood of each particle, or from
+ * that of a particle in the bulk. style: of its line, for gnuplot. */
 enum { MOSPD, MOSPD_LOCAL, OSPD, OSPD_BULK, BOND, MODELS };
 static const struct edge_model {
     const char *name, *model, *normalisation, *poisson, *style;

@@ -34,8 +34,8 @@ static status single(const struct limits_row *r, double *to)
 #define LAW(law, kind, ...) NAMED_LAW(law " " kind, law, kind, __VA_ARGS__)
 #define NAMED_LAW(name_, law, kind, ...) .method = name_, .set = {"model", law, "method", kind, __VA_ARGS__}
 /* A row for a peridynamic model (law) and a method (kind) with the particle that comes off (see single). At its speed a
- * bond gains 1.7 times its critical stretch in a step. The energy of whole families that lose most of their bonds in
- * one step is then at best first order: errors of 0.066 at a safety factor of 0.2, 0.031 at 0.1, 0.014 at 0.025. */
+ * bond gains 1.7 times its critical stretch in a step. The energy of whole neighbourhoods that lose most of their bonds
+ * in one step is then at best first order: errors of 0.066 at a safety factor of 0.2, 0.031 at 0.1, 0.014 at 0.025. */
 #define SINGLE(law, kind)                                                                                              \
     {                                                                                                                  \
         LAW(law, kind, NULL), .known = { {0, 0}, {0, 1e-13}, {0, 0.05} }                                               \

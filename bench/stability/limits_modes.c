@@ -138,7 +138,7 @@ const struct limits_scene limits_modes_figure = {
 /* ---- lowest elastic frequency ------------------------------------------------------------------------------------ */
 
 /* Exact omega L/c_p of the lowest in-plane mode of a free square, nu = 0.3 (Bardell, Langley & Dunsdon 1996, table 2);
- * incomplete families at surfaces make it softer or stiffer. */
+ * incomplete neighbourhoods at surfaces make it softer or stiffer. */
 #define LOWEST 2.321
 
 static status softest(const struct limits_row *r, double *to)

@@ -59,7 +59,7 @@ static status variants(const struct taker *t)
     return OK;
 }
 
-/* Passes to the callback t->take each case with a published stability limit: large lattices of complete families,
+/* Passes to the callback t->take each case with a published stability limit: large lattices of complete neighbourhoods,
  * without surface correction. Returns the first status that is not OK. */
 static status stability_cases_published(const struct taker *t)
 {

@@ -19,7 +19,7 @@ static inline void polar_rotation_2d(const real *M, real *R)
 
 /* Computes the rotation R nearest to the 3 x 3 matrix M (row major), by Newton's iteration R <- (R + R^-T)/2 (Higham
  * 1986) from M scaled to unit size. R is the identity if M is singular or inverted (determinant <= 0), as possible for
- * families that have lost bonds. */
+ * neighbourhoods that have lost bonds. */
 static inline void polar_rotation_3d(const real *M, real *R)
 {
     real size = 0;

@@ -1,11 +1,11 @@
 /* Storage of bonds. Only src/bonds and kernels/pd use the members of these structures (tests/house.sh); all other files
  * read bonds through the iterator of bonds.h.
  *
- * Rows exist only for peridynamic particles (whole family) and bonded material points (their peridynamic neighbours),
- * in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows form a block,
- * which stores its bonds column by column, lane l of a column being a bond of row l; shorter rows are padded (SELL-C
- * layout with C = 8, Kreutzer et al. 2014). Kinds of columns (enum column_kind of kernels/pd/bond_column.h), and the
- * data that a hot loop reads of each:
+ * Rows exist only for peridynamic particles (whole neighbourhood) and bonded material points (their peridynamic
+ * neighbours), in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows form
+ * a block, which stores its bonds column by column, lane l of a column being a bond of row l; shorter rows are padded
+ * (SELL-C layout with C = 8, Kreutzer et al. 2014). Kinds of columns (enum column_kind of kernels/pd/bond_column.h),
+ * and the data that a hot loop reads of each:
  *
  *     block       kind      the eight bonds                                          nbr  1/r  w   common  stencil
  *     stores      FREE      any neighbours, or consecutive ones from first on         x    x   x    first
@@ -75,7 +75,7 @@ struct softened {
     bool any_due;     /* an entry of `due` is not DUE_NOT */
     bool at_points;   /* true: bonds that end at material points have begun to soften */
     uint8_t *needed;  /* [row_blocks 8] working memory: 1: the dilatation of the row is needed */
-    real *dilatation; /* [row_blocks 8] working memory: trace of the strain of the family [1] */
+    real *dilatation; /* [row_blocks 8] working memory: trace of the strain of the neighbourhood [1] */
     /* [row_blocks 8] mean strain rate of the bonds of a particle while their stretch grows from half the onset to the
      * onset, 0 or less: outside this range [1/s]; time since half the onset was exceeded [s]. NULL: no strength depends
      * on the rate */
@@ -121,19 +121,19 @@ struct clamped {
     struct clamp_end *end;
 };
 
-/* State of the family of each particle (all its neighbours) in state-based models, from which bond forces follow:
- * weighted volume Q, pressure P, spring g and, in models with particle rotations, rotation R. V is the volume of the
- * particle. Material points with bonds have the members end_* of struct particles instead of P, g and R. Blocks of
- * eight rows hold the bonds of eight particles. */
+/* State of the neighbourhood of each particle (all its neighbours) in state-based models, from which bond forces
+ * follow: weighted volume Q, pressure P, spring g and, in models with particle rotations, rotation R. V is the volume
+ * of the particle. Material points with bonds have the members end_* of struct particles instead of P, g and R. Blocks
+ * of eight rows hold the bonds of eight particles. */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
     const struct state_modulus *modulus; /* [materials] elastic moduli, borrowed; NULL: bond-based model */
-    bool local;                          /* Q is summed over the present family, not over a full one */
+    bool local;                          /* Q is summed over the present neighbourhood, not over a full one */
     real *weighted;                      /* [row_blocks 8] weighted volume Q [m^2] */
-    real share;                          /* V/Q of a full family, where moduli refer to it; 0: V/Q of each family [m] */
-    uint8_t *past;                       /* [row_blocks] 1: a bond may have exceeded its limit in the last sweep */
-    uint8_t *pressed;                    /* [row_blocks] 1: a bond is within its core (kernels/pd/bond_core.h) */
-    real *pressure, *spring;             /* [n_all] pressure P [N/m^2] and spring g [N/m] */
+    real share;       /* V/Q of a full neighbourhood, where moduli refer to it; 0: V/Q of each neighbourhood [m] */
+    uint8_t *past;    /* [row_blocks] 1: a bond may have exceeded its limit in the last sweep */
+    uint8_t *pressed; /* [row_blocks] 1: a bond is within its core (kernels/pd/bond_core.h) */
+    real *pressure, *spring; /* [n_all] pressure P [N/m^2] and spring g [N/m] */
     /* [n_all] rotation R with spring g (kernels/pd/rotation.h), only in models with rotations. 2D: g (R - 1), row major
      * [N/m]; 3D: sqrt(2 g) times the quaternion of R, its scalar last [(N/m)^1/2] */
     real *rotation[ROTATION];
@@ -218,7 +218,7 @@ struct bonds {
     int32_t *no_rows;  /* [n_all] all -1: spare array for the next row_of; NULL: none */
     int64_t *column;   /* [row_blocks] index of the first column of a block of eight rows */
     int32_t *column_count; /* [row_blocks] number of columns */
-    uint8_t *whole;        /* [row_blocks 8] 1: row of a peridynamic particle, with the whole family */
+    uint8_t *whole;        /* [row_blocks 8] 1: row of a peridynamic particle, with the whole neighbourhood */
     int32_t *made;    /* [row_blocks] number of bonds in the rows of the block of eight rows, broken ones included */
     uint8_t *aligned; /* [row_blocks] 1: the eight particles have consecutive indices */
     int32_t *first;   /* [columns] neighbour of the first row if the eight neighbours are consecutive, else -1 */

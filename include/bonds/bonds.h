@@ -1,6 +1,6 @@
-/* Room `bonds`: families of particles and the bonds between them. It uses particles, cells, materials and regions, but
- * neither loads nor the step; kernels, coupling, fracture, solver and engine call it. family.h defines which bonds
- * exist, bond_storage.h how they are stored; this header makes and reads them. */
+/* Room `bonds`: neighbourhoods of particles and the bonds between them. It uses particles, cells, materials and
+ * regions, but neither loads nor the step; kernels, coupling, fracture, solver and engine call it. family.h defines
+ * which bonds exist, bond_storage.h how they are stored; this header makes and reads them. */
 #ifndef CLEAVE_BONDS
 #define CLEAVE_BONDS
 

@@ -14,8 +14,8 @@
  * bonds (keys pd.* of the scene). */
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 
-/* How the micro-modulus of bonds follows from the elastic constants: from the sum over a full family of the lattice,
- * from the integral over a continuum, or by the rule vmpd of Zeng et al. 2021. */
+/* How the micro-modulus of bonds follows from the elastic constants: from the sum over a full neighbourhood of the
+ * lattice, from the integral over a continuum, or by the rule vmpd of Zeng et al. 2021. */
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
 
 /* Correction of the weights of bonds near faces: none, by the volume of the neighbours, by moments of the families. */
@@ -33,7 +33,7 @@ enum influence { INFLUENCE_ONE, INFLUENCE_GAUSSIAN, INFLUENCE_INVERSE, INFLUENCE
  * of its two particles (models with particle rotations). */
 enum bond_energy { ENERGY_OF_STRETCH, ENERGY_OF_ELONGATION, ENERGY_OF_DISPLACEMENT };
 
-/* Rules (enumerations above) and sizes that define families and the weights of their bonds. */
+/* Rules (enumerations above) and sizes that define neighbourhoods and the weights of their bonds. */
 struct family {
     enum space space;             /* dimension and plane state */
     enum volume_rule volume;      /* part of the volume of a neighbour that counts: beta */
@@ -47,8 +47,8 @@ struct family {
     real cutoff;                  /* largest distance of a neighbour, with a relative tolerance [m] */
     real section;                 /* cross-section A (1D) [m^2], thickness (2D) [m], 1 (3D) */
     real cell_volume;             /* volume of a lattice particle: spacing^dim section [m^3] */
-    real full;            /* sum of V_j beta over a full family (volume factor beta, all lattice neighbours) [m^3] */
-    real weighted;        /* sum of omega beta r^2 over a full family, with the weights that are stored [m^2] */
+    real full;     /* sum of V_j beta over a full neighbourhood (volume factor beta, all lattice neighbours) [m^3] */
+    real weighted; /* sum of omega beta r^2 over a full neighbourhood, with the weights that are stored [m^2] */
     real shell_weight[2]; /* isotropic shells: factors on bonds near the axes and near the diagonals [1] */
 };
 
@@ -139,10 +139,10 @@ static inline struct state_modulus state_based_moduli_of_material(const struct m
                                   (with_rotations ? 2 : D + 2) * D * m->shear};
 }
 
-/* Inputs of bonds_make besides the particles: rules of families, limits, `materials` materials, cracks, images. All
- * pointers are borrowed. */
+/* Inputs of bonds_make besides the particles: rules of neighbourhoods, limits, `materials` materials, cracks, images.
+ * All pointers are borrowed. */
 struct bond_source {
-    struct family family;            /* rules and sizes of families */
+    struct family family;            /* rules and sizes of neighbourhoods */
     const struct cells *cells;       /* search over reference positions, cell edge >= cutoff */
     const struct material *material; /* [materials] */
     int materials;
@@ -150,9 +150,9 @@ struct bond_source {
     struct bond_yield yield;             /* stretches at which bonds yield */
     const struct state_modulus *modulus; /* [materials] moduli of state-based models; NULL: bond-based model */
     real core; /* stiffness of the repulsive cores (kernels/pd/bond_core.h) divided by that of the bonds [1] */
-    bool local, rotates;    /* state-based: weighted volumes are summed over the present bonds, not over a full family;
-                               model with particle rotations */
-    const int *mirror_axis; /* [loads] axis of a plane of symmetry, -1: clamped plane */
+    bool local, rotates;       /* state-based: weighted volumes are summed over the present bonds, not over a full
+                                  neighbourhood;       model with particle rotations */
+    const int *mirror_axis;    /* [loads] axis of a plane of symmetry, -1: clamped plane */
     const struct crack *given; /* [givens] pre-cracks of the scene */
     int givens;
     const struct crack *crack; /* [cracks] parts of the pre-cracks within the body, with their images beyond mirrors */
@@ -168,37 +168,38 @@ struct bond_source {
     const struct surface_weights *surface; /* factors of bonds near faces (bonds/surface.h); NULL: none */
 };
 
-/* Computes horizon, cutoff, weights by direction and the sums over a complete family on the lattice into f. The rules
- * f->volume, calibration, surface, shells and influence must be set. space: line, plane stress, plane strain or solid;
- * spacing: lattice spacing [m]; horizon_in_spacings: delta/spacing [1]; section: cross-section in 1D [m^2], thickness
- * in 2D [m], 1 in 3D. */
+/* Computes horizon, cutoff, weights by direction and the sums over a complete neighbourhood on the lattice into f. The
+ * rules f->volume, calibration, surface, shells and influence must be set. space: line, plane stress, plane strain or
+ * solid; spacing: lattice spacing [m]; horizon_in_spacings: delta/spacing [1]; section: cross-section in 1D [m^2],
+ * thickness in 2D [m], 1 in 3D. */
 void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 
 /* Returns the micro-modulus c [N/m^6] of bond-based peridynamics for the material m, calibrated by the rule
- * f->calibration for a particle with all neighbours of the family f. */
+ * f->calibration for a particle with all neighbours of the neighbourhood f. */
 real family_micro_modulus(const struct family *f, const struct material *m);
 
-/* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete families has under uniform strain: C_abcd
- * = c V/2 sum w r e_a e_b e_c e_d over the bonds of a particle. f: family and rules of the weights; m: material; c:
- * micro-modulus; V: volume of a particle; r, e: length and direction of a bond; w: its weight, with partial volume and
- * weight by direction (family_bond_weight). The elasticity is cubic, with a shear modulus equal to c12. */
+/* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete neighbourhoods has under uniform strain:
+ * C_abcd = c V/2 sum w r e_a e_b e_c e_d over the bonds of a particle. f: neighbourhood and rules of the weights; m:
+ * material; c: micro-modulus; V: volume of a particle; r, e: length and direction of a bond; w: its weight, with
+ * partial volume and weight by direction (family_bond_weight). The elasticity is cubic, with a shear modulus equal to
+ * c12. */
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
 /* Returns the ratio G/s_c^2 [N/m] of state-based peridynamics, by which the critical stretch s_c of bonds follows from
  * the energy release rate G: the work per area that separates the two halves of a lattice along a plane (separation.c).
- * f: family of the lattice; modulus: moduli of the material; particles_rotate: true for the model with particle
+ * f: neighbourhood of the lattice; modulus: moduli of the material; particles_rotate: true for the model with particle
  * rotations, false for the ordinary one; intact_bonds_only: true if the weighted volume Q is summed over the unbroken
- * bonds of a family, false over all. */
+ * bonds of a neighbourhood, false over all. */
 real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
                                                  bool particles_rotate, bool intact_bonds_only);
 
 /* Returns the energy per area [J/m^2] stored in the bonds that cross a lattice plane normal to an axis if each has the
- * critical stretch of material m: the energy release rate of a crack along the plane. f: family of the lattice.
+ * critical stretch of material m: the energy release rate of a crack along the plane. f: neighbourhood of the lattice.
  * Bond-based models only (Silling & Askari 2005). */
 real family_crack_energy_per_area(const struct family *f, const struct material *m);
 
-/* Returns true if all bonds of family f have one weight: no partial volumes, influence function 1, and equal weights in
- * all directions. */
+/* Returns true if all bonds of neighbourhood f have one weight: no partial volumes, influence function 1, and equal
+ * weights in all directions. */
 static inline bool family_has_equal_weights(const struct family *f)
 {
     return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];

@@ -1,4 +1,4 @@
-/* Weights of bonds near faces, chosen such that bodies of bonds and families bend, twist and stretch like the
+/* Weights of bonds near faces, chosen such that bodies of bonds and neighbourhoods bend, twist and stretch like the
  * continuum.
  *
  * In a field of linear strain the stretch of a bond is n.eps.n at its middle. With w the weight, r the length and n the
@@ -6,7 +6,7 @@
  * equilibrium stays in equilibrium if
  *
  *     sum w nnn = -M A_i/2        A_i: outward area of the cell of i [spacing^(dim - 1)]
- *     sum w r nnnn = (1 + tau_i) M     M: sum of a full family of the lattice
+ *     sum w r nnnn = (1 + tau_i) M     M: sum of a full neighbourhood of the lattice
  *
  * for the strains that a free face can have: those whose stress has no traction on it. The energy of membranes is exact
  * if tau sums to zero; that of bending requires, for every face, tau with the moment alpha = 1/24 + <d^2>/8, d being
@@ -26,12 +26,12 @@ struct surface_weights {
     real residual;  /* residual of the least-squares problem divided by that with all factors 1; large if the solver did
                        not converge [1] */
     int reach, dim; /* largest component of a bond vector [spacings]; dimension */
-    int offsets, *offset_at; /* neighbours of a full family; index of an offset by its position in a box of offsets */
+    int offsets, *offset_at; /* neighbours of a particle inside a body; index of an offset by its position in a box */
     int32_t classes, *class_of; /* [n] class of equal surroundings of a particle; 0: no face nearby */
     uint8_t *mirrors; /* [n] axes (bit d for axis d) that must be reversed to map the surroundings of the particle to
                          those of its class */
     real *factor;     /* [classes offsets] factor on the weight of a bond [1] */
-    real *weighted;   /* [classes] sum w r^2 of the family, of reference particles [m^2] */
+    real *weighted;   /* [classes] sum w r^2 of the neighbourhood, of reference particles [m^2] */
     int64_t apart[2]; /* if REFUSED: a particle, and its first neighbour or image that is not a whole number of spacings
                          away */
 };

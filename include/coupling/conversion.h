@@ -69,10 +69,9 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 
 /* Computes p->end_strain [1] for each material point on the background grid that has state-based bonds to peridynamic
- * particles: the part of the mean strain of its family (its neighbourhood) that is due to the deformation of the cell
- * of the point itself. The strain of the cell follows from the stress of the point by Hooke's law. Does nothing in
- * bond-based models. partial: lists these points;
- * material: array of the materials. */
+ * particles: the part of the mean strain of its neighbourhood that is due to the deformation of the cell of the point
+ * itself. The strain of the cell follows from the stress of the point by Hooke's law. Does nothing in bond-based
+ * models. partial: lists these points; material: array of the materials. */
 void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                               const struct material *material);
 

@@ -43,9 +43,10 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
                                               const struct bonds *b, const struct bond_source *source);
 
 /* Updates p->end_strain [1] of all material points that have state-based bonds to peridynamic particles, which
- * `partial` lists. end_strain is the strain that the cell of a point adds to the mean strain of the family of the
- * point. For points of the mesh of `frame` it follows from the strain of the cell; for points on the background grid
- * from the stress of the point, by the elastic law of its material in material[]. Does nothing in bond-based models. */
+ * `partial` lists. end_strain is the strain that the cell of a point adds to the mean strain of the neighbourhood of
+ * the point. For points of the mesh of `frame` it follows from the strain of the cell; for points on the background
+ * grid from the stress of the point, by the elastic law of its material in material[]. Does nothing in bond-based
+ * models. */
 void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
                                  struct particles *p, const struct material *material);
 

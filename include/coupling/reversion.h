@@ -17,20 +17,20 @@ struct reversion_rule {
  * bonds_compute_particle_stress before). b: the bonds. Also updates p->low_since, the time since which the stress of
  * each particle is low. *selected receives the indices of the selected particles in ascending order, an array that the
  * caller frees. Returns the number of selected particles. A particle is selected if three conditions hold. The particle
- * is outside the region rule->kept, and its stress and that of all peridynamic particles of its family have been low
- * for rule->hold_time. No bond of the particle or of a particle within two horizons was ever cut, by load or by a
+ * is outside the region rule->kept, and its stress and that of all peridynamic particles of its neighbourhood have been
+ * low for rule->hold_time. No bond of the particle or of a particle within two horizons was ever cut, by load or by a
  * pre-crack. The particle is inside a ball with the radius of one horizon that will contain material points only. By
- * the third condition the remaining peridynamic regions consist of full families, as after conversion, and regions that
- * revert are at least two horizons wide. */
+ * the third condition the remaining peridynamic regions consist of full neighbourhoods, as after conversion, and
+ * regions that revert are at least two horizons wide. */
 int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *rule, struct particles *p,
                                                  const struct bonds *b, real t, int32_t **selected);
 
 /* Turns the peridynamic particles of p in particle_list[particle_count] (indices) into material points. Their stress
- * follows from the bonds that cross their cells (state-based models: from the virial of the family), their volume from
- * the determinant of the deformation gradient of the family. The velocity gradient becomes 0; positions and velocities
- * are unchanged. Beside a surface the stress is that of a full family under the same strain. Rebuilds the bonds b and,
- * if `partial` is not NULL, the partial stresses around the particles. Counts the reversion in c. source: inputs of the
- * bonds. */
+ * follows from the bonds that cross their cells (state-based models: from the virial of the neighbourhood), their
+ * volume from the determinant of the deformation gradient of the family. The velocity gradient becomes 0; positions and
+ * velocities are unchanged. Beside a surface the stress is that of a full neighbourhood under the same strain. Rebuilds
+ * the bonds b and, if `partial` is not NULL, the partial stresses around the particles. Counts the reversion in c.
+ * source: inputs of the bonds. */
 void reversion_convert_listed_particles_to_mpm(struct conversion *c, struct particles *p, struct bonds *b,
                                                const struct bond_source *source, struct partial_stress *partial,
                                                const int32_t *particle_list, int64_t particle_count);

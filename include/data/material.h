@@ -107,10 +107,10 @@ static inline bool material_has_viscosity(const struct material *m)
  * plane stress, 1/4 in plane strain and in 3D, NAN in 1D, where there is none. */
 real bond_based_poisson_ratio(enum space space);
 
-/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics in the space `space` for a family of discrete
+/* Returns the micro-modulus c [N/m^6] of bond-based peridynamics in the space `space` for a neighbourhood of discrete
  * particles: 2 k/family_sum in 1D, 8 k/family_sum in 2D, 18 k/family_sum in 3D, with k = m->bulk. Bonds then have the
  * energy of the continuum under uniform dilatation (Silling & Askari 2005). family_sum: sum of r V_j beta over a full
- * family [m^4], where beta is the fraction of the volume of neighbour j within the horizon. */
+ * neighbourhood [m^4], where beta is the fraction of the volume of neighbour j within the horizon. */
 real material_micro_modulus_of_discrete_family(const struct material *m, enum space space, real family_sum);
 
 /* Returns the micro-modulus c [N/m^6] of bond-based peridynamics in the space `space` for a continuous family: 2 k/(A
@@ -119,9 +119,9 @@ real material_micro_modulus_of_discrete_family(const struct material *m, enum sp
 real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section);
 
 /* Returns the critical stretch [1] of the bonds of material m: if all bonds that cross a plane have this stretch, their
- * energy per area of the plane is the energy release rate G_c. horizon: radius of families [m]; model: STRETCH_BOND
- * bond-based with the continuum micro-modulus (Silling & Askari 2005), STRETCH_OSPD ordinary state-based (Madenci &
- * Oterkus 2014). For the model with particle rotations use family_fracture_energy_over_stretch_squared. */
+ * energy per area of the plane is the energy release rate G_c. horizon: radius of neighbourhoods [m]; model:
+ * STRETCH_BOND bond-based with the continuum micro-modulus (Silling & Askari 2005), STRETCH_OSPD ordinary state-based
+ * (Madenci & Oterkus 2014). For the model with particle rotations use family_fracture_energy_over_stretch_squared. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 

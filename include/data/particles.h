@@ -74,14 +74,14 @@ struct particles {
     /* points of a mesh with a flow law: stress at the end of the last step, in axes that rotate with the cell of the
      * point; only with WITH_MESH_STRESS [Pa] */
     real *mesh_stress[SYM_MAX];
-    /* bonded material points (with state-based bonds): contribution of their cell to the mean strain S of their family
-     * [1] */
+    /* bonded material points (with state-based bonds): contribution of their cell to the mean strain S of their
+     * neighbourhood [1] */
     real *end_strain;
     /* rotation R of bonded points: in 2D cos - 1 and sin, in 3D a quaternion, its scalar last; only models with
      * rotations [1] */
     real *end_rotation[ROTATION];
-    /* reaction of the bonds on bonded points: derivative of the energy of their family (all neighbours of a point) by
-     * end_strain [J] */
+    /* reaction of the bonds on bonded points: derivative of the energy of their neighbourhood (all neighbours of a
+     * point) by end_strain [J] */
     real *end_pull;
     real *end_moment[DIM_MAX]; /* moment of the bonds about bonded points, in axes that rotate with the points [N m] */
     real *low_since; /* peridynamic particles: time since which the stress is low, INFINITY: it is not low; only with

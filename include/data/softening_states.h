@@ -1,30 +1,30 @@
-/* Strength of bonds that soften (softening.h) in a family of any model: bond-based, or state-based with the share 1 - d
- * of the weight of a bond in all sums (kernels/pd/state_soften.c). */
+/* Strength of bonds that soften (softening.h) in a neighbourhood of any model: bond-based, or state-based with the
+ * share 1 - d of the weight of a bond in all sums (kernels/pd/state_soften.c). */
 #ifndef CLEAVE_SOFTENING_STATES
 #define CLEAVE_SOFTENING_STATES
 
 #include "data/softening.h"
 
-/* Peridynamic model of a family (a particle with its neighbours). A, B: moduli of a state-based model divided by the
- * modulus E' of uniaxial tension [1], B = 0 for bond-based models; rotates: bonds resist all of their deformation apart
- * from the rotation of the particle, else only their extension. */
+/* Peridynamic model of a neighbourhood (a particle with its neighbours). A, B: moduli of a state-based model divided by
+ * the modulus E' of uniaxial tension [1], B = 0 for bond-based models; rotates: bonds resist all of their deformation
+ * apart from the rotation of the particle, else only their extension. */
 struct softening_model {
     real A, B;
     bool rotates;
 };
 
-/* Returns the largest stresses, divided by s_0 E', that a family (particle with its neighbours) of softening bonds of
- * the model `model` reaches under growing uniform strain, by quadrature over directions. c: softening curve; s_0:
- * stretch at which bonds begin to soften; E': modulus of uniaxial tension; space: line, plane stress, plane strain or
- * solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
+/* Returns the largest stresses, divided by s_0 E', that a neighbourhood (particle with its neighbours) of softening
+ * bonds of the model `model` reaches under growing uniform strain, by quadrature over directions. c: softening curve;
+ * s_0: stretch at which bonds begin to soften; E': modulus of uniaxial tension; space: line, plane stress, plane strain
+ * or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
                                                                real squared_stretch_ratio,
                                                                const struct softening_model *model);
 
 /* Returns the stretch s_0 [1] at which bonds must begin to soften so that material m has the tensile strength
- * m->tensile_strength, for families of the bond-based or state-based model `model`, by fixed-point iteration. space:
- * line, plane stress, plane strain or solid. m->critical_stretch must be set. If the horizon is too large for this
- * strength, the result exceeds m->critical_stretch. */
+ * m->tensile_strength, for neighbourhoods of the bond-based or state-based model `model`, by fixed-point iteration.
+ * space: line, plane stress, plane strain or solid. m->critical_stretch must be set. If the horizon is too large for
+ * this strength, the result exceeds m->critical_stretch. */
 real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model);
 
 /* Computes, for each strain rate of the table m->rate, by which factor the stretch at which bonds of material m begin

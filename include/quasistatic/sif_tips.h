@@ -65,7 +65,7 @@ struct path_segment {
 /* The SIF-driven cracks of a run: the direction of their growth follows from their stress-intensity factors. */
 struct sif_cracks {
     const struct scene *scene;        /* borrowed */
-    const struct bond_source *source; /* borrowed: pre-cracks, family and critical stretches */
+    const struct bond_source *source; /* borrowed: pre-cracks, neighbourhood and critical stretches */
     struct sif_plane plane;           /* plane in which the tips move */
     const char *fault;                /* why no crack of the scene is SIF-driven; NULL: cracks are */
     bool known;                       /* the tips of the pre-cracks have been found */

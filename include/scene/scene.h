@@ -181,10 +181,10 @@ struct scene {
     enum surface_rule surface;
     enum shell_rule shells;
     enum influence influence;
-    bool bulk;                            /* state-based models: weights are normalised by the sum over a full family */
-    enum last_force last_force;           /* force of a bond in the step in which it breaks */
-    enum contact_between contact_between; /* particles between which contact forces act */
-    enum contact_form contact_form;       /* contact of faces, or of pairs of particles */
+    bool bulk;                  /* state-based models: weights are normalised by the sum over a full neighbourhood */
+    enum last_force last_force; /* force of a bond in the step in which it breaks */
+    enum contact_between contact_between;   /* particles between which contact forces act */
+    enum contact_form contact_form;         /* contact of faces, or of pairs of particles */
     enum contact_distance contact_distance; /* rule for the contact distance of pairs */
     bool contact_convert;                   /* adaptive: material points near another body become peridynamic */
     real contact_friction;                  /* coefficient of Coulomb friction [1] */

@@ -87,15 +87,16 @@ static void mark_needed(struct bonds *b, const struct particles *p, const struct
         }
 }
 
-/* Normal equations A eps = b for the strain eps that fits the stretches of a family (all bonds of one particle) best.
- * n: number of components of eps; all: sum of the weights of the bonds; sum: sum of their weighted stretches. */
+/* Normal equations A eps = b for the strain eps that fits the stretches of a neighbourhood (all bonds of one particle)
+ * best. n: number of components of eps; all: sum of the weights of the bonds; sum: sum of their weighted stretches. */
 struct strain_fit {
     int n;
     real A[SYM_MAX][SYM_MAX], b[SYM_MAX], all, sum;
 };
 
-/* Adds one bond to the least-squares fit *fit of a strain to the stretches of a family (all bonds of one particle).
- * e[dim]: direction of the bond in the reference configuration; stretch: its stretch [1]; w: its weight [1]. */
+/* Adds one bond to the least-squares fit *fit of a strain to the stretches of a neighbourhood (all bonds of one
+ * particle). e[dim]: direction of the bond in the reference configuration; stretch: its stretch [1]; w: its weight
+ * [1]. */
 static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real stretch, real w)
 {
     real product[SYM_MAX];
@@ -111,9 +112,9 @@ static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real 
     fit->all += w, fit->sum += w * stretch;
 }
 
-/* Solves the least-squares fit of a strain to the bonds of a family and returns the trace of this strain [1]. If the
- * bonds have too few directions (a pivot below PIVOT times the sum of weights), returns dim times their mean stretch
- * instead; 0 without bonds. Overwrites the equations in *fit. */
+/* Solves the least-squares fit of a strain to the bonds of a neighbourhood and returns the trace of this strain [1]. If
+ * the bonds have too few directions (a pivot below PIVOT times the sum of weights), returns dim times their mean
+ * stretch instead; 0 without bonds. Overwrites the equations in *fit. */
 static real fit_trace(struct strain_fit *fit, int dim)
 {
     real trace = 0;
@@ -138,8 +139,8 @@ static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t
     return b->state.rotation[0] ? 2 * m.A / (D * m.B) : 1 + (D + 2) * m.A / (D * m.B);
 }
 
-/* Returns lambda/G (Lame's constants) times the dilatation of the family of one row, i.e. of all bonds of one particle
- * [1]. The dilatation is the trace of the strain that fits the stretches of the bonds best, with the remaining
+/* Returns lambda/G (Lame's constants) times the dilatation of the neighbourhood of one row, i.e. of all bonds of one
+ * particle [1]. The dilatation is the trace of the strain that fits the stretches of the bonds best, with the remaining
  * stiffness of each bond as its weight. */
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {

@@ -49,8 +49,8 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 }
 
 /* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Does
- * nothing unless the model is state-based and normalises by the present family, the bonds are brittle, and the row has
- * all bonds of the particle (not a part, as of a material point). */
+ * nothing unless the model is state-based and normalises by the present neighbourhood, the bonds are brittle, and the
+ * row has all bonds of the particle (not a part, as of a material point). */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])
@@ -61,7 +61,7 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* Corrects the force p->f on particle i for a bond of particle i that breaks in this step. Subtracts the whole force
  * that the force kernel has added for this bond, and adds `share` times the force that follows from the states of both
- * families before bonds broke. share: fraction of the force that acts in this step [1]. */
+ * neighbourhoods before bonds broke. share: fraction of the force that acts in this step [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];

@@ -1,5 +1,5 @@
-/* How state-based kernels store the rotation R of a particle: as g (R - 1), with the spring stiffness g of its family
- * (all neighbours of a particle). In 2D these are the four entries of that matrix.
+/* How state-based kernels store the rotation R of a particle: as g (R - 1), with the spring stiffness g of its
+ * neighbourhood (all neighbours of a particle). In 2D these are the four entries of that matrix.
  *
  * In 3D four numbers replace nine: with the unit quaternion (q, q0) of R, and (a, s) = sqrt(2 g) (q, q0),
  *
@@ -35,8 +35,8 @@ static ALWAYS_INLINE lanes quaternion_largest_row(const lanes *R, lanes *row)
     return largest;
 }
 
-/* Computes the stored numbers, rotation[ROTATION], of eight rotations R (row major) of particles whose families have
- * the spring stiffnesses `spring`, g [N/m]: in 2D g (R - 1), in 3D sqrt(2 g) times the unit quaternion of R. */
+/* Computes the stored numbers, rotation[ROTATION], of eight rotations R (row major) of particles whose neighbourhoods
+ * have the spring stiffnesses `spring`, g [N/m]: in 2D g (R - 1), in 3D sqrt(2 g) times the unit quaternion of R. */
 static ALWAYS_INLINE void rotation_encode(lanes *rotation, const lanes *R, lanes spring, const int dim)
 {
     if (dim == 2) {

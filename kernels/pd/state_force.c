@@ -1,6 +1,7 @@
 /* Forces of state-based peridynamics (state_laws.h). A first loop over the rows (a row: all bonds of one particle, its
- * family) computes the states of families: pressure, spring stiffness and rotation. A second loop computes the forces
- * of bonds from these. In both each row is written by one thread, which gives equal bits on any number of threads. */
+ * neighbourhood) computes the states of families: pressure, spring stiffness and rotation. A second loop computes the
+ * forces of bonds from these. In both each row is written by one thread, which gives equal bits on any number of
+ * threads. */
 #include <math.h>
 #include <string.h>
 
@@ -14,20 +15,20 @@
 #include "rotation.h"
 #include "kernels/simd/variants.h"
 
-/* ---- first sweep: states of families ----------------------------------------------------------------------------- */
+/* ---- first sweep: states of neighbourhoods ----------------------------------------------------------------------- */
 
-/* Sums over the families of the eight particles of a block of eight rows: extension, sum w r e; moment, sum w Y (x) xi;
- * largest (stretch) and smallest (press) stretch of the bonds [1]; moved: nonzero in a lane where a bond vector differs
- * from its reference, so that an undeformed family has exactly no rotation. */
+/* Sums over the neighbourhoods of the eight particles of a block of eight rows: extension, sum w r e; moment, sum w Y
+ * (x) xi; largest (stretch) and smallest (press) stretch of the bonds [1]; moved: nonzero in a lane where a bond vector
+ * differs from its reference, so that an undeformed neighbourhood has exactly no rotation. */
 struct family_sums {
     lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX];
     lanes_mask moved;
 };
 
-/* Adds the eight bonds of a column (one bond of each of eight particles) to *sum, the sums over their families (all
- * bonds of one particle): w r e with weight w, reference length r and extension e = |Y| - r of the bond vector Y, and
- * in models with rotations w Y (x) xi with the reference vector xi. Also updates the smallest and largest stretch in
- * *sum. x[dim], X[dim]: present and reference positions of the eight particles [m]. model: state-based model, a
+/* Adds the eight bonds of a column (one bond of each of eight particles) to *sum, the sums over their neighbourhoods
+ * (all bonds of one particle): w r e with weight w, reference length r and extension e = |Y| - r of the bond vector Y,
+ * and in models with rotations w Y (x) xi with the reference vector xi. Also updates the smallest and largest stretch
+ * in *sum. x[dim], X[dim]: present and reference positions of the eight particles [m]. model: state-based model, a
  * compile-time constant. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
                                             const struct column column, const lanes *x, const lanes *X, const int dim,
@@ -48,9 +49,9 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     }
 }
 
-/* Computes the rotations of eight families from `moment`, their moments sum w Y (x) xi [dim dim], in the form in which
- * rotations are stored (rotation.h). moved: lanes that are 0 belong to families in which no neighbour has moved, whose
- * rotation is set to the identity exactly. spring: spring stiffness of the families [N/m]. */
+/* Computes the rotations of eight neighbourhoods from `moment`, their moments sum w Y (x) xi [dim dim], in the form in
+ * which rotations are stored (rotation.h). moved: lanes that are 0 belong to neighbourhoods in which no neighbour has
+ * moved, whose rotation is set to the identity exactly. spring: spring stiffness of the neighbourhoods [N/m]. */
 static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, lanes_mask moved, lanes spring,
                                           const int dim)
 {
@@ -60,16 +61,16 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     rotation_encode(rotation, R, spring, dim);
 }
 
-/* Moduli and weighted volumes Q = sum w |xi|^2 of the families (all bonds) of eight particles. Members inverse and
- * share are 0 for families without bonds. */
+/* Moduli and weighted volumes Q = sum w |xi|^2 of the neighbourhoods (all bonds) of eight particles. Members inverse
+ * and share are 0 for neighbourhoods without bonds. */
 struct own_family {
     lanes A, B;    /* moduli [Pa] */
     lanes inverse; /* 1/Q [1/m^2] */
-    lanes share;   /* V/Q, with the weighted volume of a full family if the moduli refer to it [m] */
+    lanes share;   /* V/Q, with the weighted volume of a full neighbourhood if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the families of the eight particles of block g of eight rows. A family
- * consists of all bonds of one particle. */
+/* Returns the moduli and weighted volumes of the neighbourhoods of the eight particles of block g of eight rows. A
+ * neighbourhood consists of all bonds of one particle. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -85,14 +86,14 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     return f;
 }
 
-/* States of the families (all bonds of one particle) of eight particles: pressure P, spring stiffness g and stored
- * rotation (rotation.h) of each. */
+/* States of the neighbourhoods (all bonds of one particle) of eight particles: pressure P, spring stiffness g and
+ * stored rotation (rotation.h) of each. */
 struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states *k (pressure, spring stiffness and rotation) of the families of the eight particles of block g of
- * eight rows in b->state. model: state-based model, a compile-time constant. */
+/* Stores the states *k (pressure, spring stiffness and rotation) of the neighbourhoods of the eight particles of block
+ * g of eight rows in b->state. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -119,7 +120,7 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
 /* Computes the rotations of the cells of eight material points, which their bonds use, from p->end_rotation. Stores
  * them in rotation[ROTATION], times the spring stiffness (in the plane) or a factor of it (in space), as rotation.h
  * describes. row: indices of the points; own: the first of them if they are consecutive, else -1; spring: spring
- * stiffness of their families [N/m]; back: true for the inverse rotations. */
+ * stiffness of their neighbourhoods [N/m]; back: true for the inverse rotations. */
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {
@@ -163,7 +164,7 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
 /* Updates the states *k of those particles of block g of eight rows (bonds of eight particles) that are material
  * points. Adds to the pressure of each the mean strain of its cell, and replaces its rotation by that of the cell.
  * Stores the reactions of the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes
- * of the eight families; sum: sums over their bonds. model: state-based model, a compile-time constant. */
+ * of the eight neighbourhoods; sum: sums over their bonds. model: state-based model, a compile-time constant. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -184,9 +185,10 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes pressure, spring stiffness and rotation of the families (all bonds of one particle) of block g of eight rows
- * (eight particles), and stores them in b->state. Families of material points include the contribution of the cell of
- * the point. sum: sums over the bonds of each family. model: state-based model, a compile-time constant. */
+/* Computes pressure, spring stiffness and rotation of the neighbourhoods (all bonds of one particle) of block g of
+ * eight rows (eight particles), and stores them in b->state. Neighbourhoods of material points include the contribution
+ * of the cell of the point. sum: sums over the bonds of each family. model: state-based model, a compile-time
+ * constant. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -298,8 +300,8 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
 }
 
 /* Computes the forces of all bonds on the eight particles of block g of eight rows into p->f, without repulsive cores,
- * from the states of the families in b->state (pressure, spring stiffness and rotation). model: state-based model, a
- * compile-time constant. */
+ * from the states of the neighbourhoods in b->state (pressure, spring stiffness and rotation). model: state-based
+ * model, a compile-time constant. */
 static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                           const enum pd_model model)
 {

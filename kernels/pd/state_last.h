@@ -1,7 +1,7 @@
 /* State-based bonds in the step in which they break. A breaking bond acts with the states (pressure, spring stiffness,
- * rotation) of the families of both particles before it broke, times the fraction `share` of bond_last.h. The forces of
- * the remaining bonds depend on these families, too: in this step they use the mixture of `share` times the state with
- * and (1 - share) times the state without the breaking bonds. */
+ * rotation) of the neighbourhoods of both particles before it broke, times the fraction `share` of bond_last.h. The
+ * forces of the remaining bonds depend on these neighbourhoods, too: in this step they use the mixture of `share` times
+ * the state with and (1 - share) times the state without the breaking bonds. */
 #ifndef CLEAVE_KERNELS_STATE_LAST
 #define CLEAVE_KERNELS_STATE_LAST
 
@@ -11,8 +11,8 @@
 #include "base/polar.h"
 #include "rotation.h"
 
-/* Sums over those bonds of one particle (its family) that do not break in this step. w: weight of a bond; xi, r: its
- * reference vector and length; Y: deformed vector; e: extension. */
+/* Sums over those bonds of one particle (its neighbourhood) that do not break in this step. w: weight of a bond; xi, r:
+ * its reference vector and length; Y: deformed vector; e: extension. */
 struct family_left {
     real extension, weighted;       /* sum w r e, with e = r stretch; sum w r^2 [m^2] */
     real moment[DIM_MAX * DIM_MAX]; /* sum w Y (x) xi [m^2] */
@@ -47,9 +47,9 @@ static inline struct family_left family_sums_of_unbroken_bonds(const struct bond
     return left;
 }
 
-/* Replaces *value, a quantity of a family with the bonds that break in this step, by weight * *value + (1 - weight) *
- * without_breaking, where `without_breaking` is the quantity without these bonds. weight: share (0 to 1) of the force
- * of the breaking bonds that acts in this step. */
+/* Replaces *value, a quantity of a neighbourhood with the bonds that break in this step, by weight * *value + (1 -
+ * weight) * without_breaking, where `without_breaking` is the quantity without these bonds. weight: share (0 to 1) of
+ * the force of the breaking bonds that acts in this step. */
 static inline void blend_with_value_without_breaking(real *value, real without_breaking, real weight)
 {
     *value = weight * *value + (1 - weight) * without_breaking;
@@ -57,8 +57,8 @@ static inline void blend_with_value_without_breaking(real *value, real without_b
 
 /* Replaces the rotation of particle i stored in t by S R + (1 - S) R', with its rotation R over all bonds, its rotation
  * R' without the breaking bonds, and the share S = left->share of the force of the breaking bonds that acts in this
- * step. left: sums over the remaining bonds; spring: spring stiffness of its family without the breaking bonds [N/m];
- * dim: dimensions. */
+ * step. left: sums over the remaining bonds; spring: spring stiffness of its neighbourhood without the breaking bonds
+ * [N/m]; dim: dimensions. */
 static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
@@ -130,8 +130,8 @@ static inline real state_component_before_breaking(const struct bonds *b, const 
 }
 
 /* Computes the force f[dim] [N] of the state-based bond `bond` on particle i of p, to whose bonds in b it belongs, from
- * the states (pressure, spring, rotation) of the families of both particles. present: true for their present states,
- * false for the states before bonds broke in this step. */
+ * the states (pressure, spring, rotation) of the neighbourhoods of both particles. present: true for their present
+ * states, false for the states before bonds broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool present, real *f, const int dim)
 {

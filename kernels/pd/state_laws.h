@@ -1,11 +1,11 @@
-/* State-based peridynamics: the sums over families, and the bond force that follows from them.
+/* State-based peridynamics: the sums over neighbourhoods, and the bond force that follows from them.
  *
  * With w = omega beta V_i V_j / V0^2, Y the deformed and xi the reference bond vector, r = |xi|, e = |Y| - r, n =
  * Y/|Y|:
  *
- *     Q_i = sum_j w r^2            weighted volume (normalisation bulk: of a full family)
+ *     Q_i = sum_j w r^2            weighted volume (normalisation bulk: of a full neighbourhood)
  *     S_i = sum_j w r e / Q_i      mean stretch (of uniform dilatation: the strain)
- *     P_i = A S_i V_i/Q_i,  g_i = B V_i/Q_i    pressure and spring (with Q of a full family where surface weights act),
+ *     P_i = A S_i V_i/Q_i,  g_i = B V_i/Q_i    pressure and spring (surface weights: Q of a full neighbourhood),
  *     R_i the rotation that minimises sum_j w |Y - R_i xi|^2
  *
  *     ordinary (Silling et al. 2007; Le, Chan & Schwartz 2014; one form for plane stress, plane strain and 3D)
@@ -14,11 +14,11 @@
  *     for shear on lattices)
  *         f_i = sum_j w {r (P_i + P_j) n + [g_i (Y - R_i xi) + g_j (Y - R_j xi)]},   A = D^2 lambda',  B = 2 D G
  *
- * Since R_i minimises the energy of its family, the force is the exact gradient of the energy in cut families too:
- * energy and angular momentum are conserved. A bonded material point (material point with state-based bonds) has a
- * family of which its bonds are only one part: its cell adds the rest of S (particles.end_strain) and gives R
- * (end_rotation), and receives the conjugate reactions: P Q (end_pull) and the moment of the springs about the point
- * (end_moment; src/coupling/partial_stress.c). */
+ * Since R_i minimises the energy of its neighbourhood, the force is the exact gradient of the energy in cut
+ * neighbourhoods too: energy and angular momentum are conserved. A bonded material point (material point with
+ * state-based bonds) has a neighbourhood of which its bonds are only one part: its cell adds the rest of S
+ * (particles.end_strain) and gives R (end_rotation), and receives the conjugate reactions: P Q (end_pull) and the
+ * moment of the springs about the point (end_moment; src/coupling/partial_stress.c). */
 #ifndef CLEAVE_KERNELS_STATE_LAWS
 #define CLEAVE_KERNELS_STATE_LAWS
 

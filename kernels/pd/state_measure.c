@@ -15,7 +15,7 @@
 #include "kernels/simd/variants.h"
 
 /* Positions x, X [m] (present, reference) and states of the eight particles of a block of eight rows: pressure, spring
- * stiffness and rotation of their families (all bonds of one particle). */
+ * stiffness and rotation of their neighbourhoods (all bonds of one particle). */
 struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
@@ -67,9 +67,9 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_broadcast(0));
 }
 
-/* Returns the elastic energy of the families of the eight particles of block g of eight rows, repulsive cores included
- * [J]; 0 if the block is inactive (at rest). row_energy: [b->rows] the energy of each family is added to it [J]; NULL
- * if it is not wanted. model: state-based model, a compile-time constant. */
+/* Returns the elastic energy of the neighbourhoods of the eight particles of block g of eight rows, repulsive cores
+ * included [J]; 0 if the block is inactive (at rest). row_energy: [b->rows] the energy of each neighbourhood is added
+ * to it [J]; NULL if it is not wanted. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                            real *row_energy, const int dim, const enum pd_model model)
 {
@@ -99,8 +99,8 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
 }
 
 /* Computes the stress of the peridynamic ones among the eight particles of block g of eight rows, into p->stress [Pa],
- * from the states of their families (pressure, spring stiffness and rotation). model: state-based model, a compile-time
- * constant. */
+ * from the states of their neighbourhoods (pressure, spring stiffness and rotation). model: state-based model, a
+ * compile-time constant. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -121,7 +121,7 @@ static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particl
 struct row_block_sum {
     const struct bonds *b;
     const struct particles *p;
-    real *row_energy; /* [b->rows] receives the energy of each family [J]; NULL if it is not wanted */
+    real *row_energy; /* [b->rows] receives the energy of each neighbourhood [J]; NULL if it is not wanted */
 };
 
 #define INSTANCE(D, M)                                                                                                 \

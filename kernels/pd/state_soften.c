@@ -1,5 +1,5 @@
 /* Bonds of state-based models that soften (data/softening.h). A bond of damage d has 1 - d of its weight in the sums of
- * both families, in extension and pressure alike, while the weighted volumes Q stay those of the intact families:
+ * both neighbourhoods, in extension and pressure alike, while the weighted volumes Q stay those of the intact families:
  *
  *     W_i = share_i/2 [A Q S_i^2 + B sum w (1 - d) e^2],   S_i = sum w (1 - d) r e/Q,   share = V/Q
  *
@@ -8,10 +8,10 @@
  *
  *     Y = - dW/dd = w [r e (P_i + P_j) + (g_i |e_i|^2 + g_j |e_j|^2)/2] > 0,   P = A S share,  g = B share
  *
- * e_i the extension, or the effective displacement Y - R_i xi: a family under pressure would give energy otherwise.
- * What a row loses in a step is fracture energy at once: a leap-frog step from weights w_0 at x_0 to w_1 at x_1 loses
- * x_0 x_1 (w_0 - w_1)/2 of a spring's energy. A quadratic energy W has this product in 2 W((x_0 + x_1)/2) - (W(x_0) +
- * W(x_1))/2. */
+ * e_i the extension, or the effective displacement Y - R_i xi: a neighbourhood under pressure would give energy
+ * otherwise. What a row loses in a step is fracture energy at once: a leap-frog step from weights w_0 at x_0 to w_1 at
+ * x_1 loses x_0 x_1 (w_0 - w_1)/2 of a spring's energy. A quadratic energy W has this product in 2 W((x_0 + x_1)/2) -
+ * (W(x_0) + W(x_1))/2. */
 #include <math.h>
 
 #include "bond_last.h"

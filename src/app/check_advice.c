@@ -1,8 +1,8 @@
 /* Remarks on a scene before it runs: what limits its accuracy, and hints at what would be faster. No remark is an
  * error. Limits and their basis:
  *
- *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are incomplete; how
- *                far its stiffness is off: strips and bars in pure bending, tension and torsion. First frequencies
+ *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose particles lack
+ *                neighbours; how far its stiffness is off: strips and bars in pure bending, tension and torsion. First frequencies
  *                (`cleave bench accuracy=beam` and `=rod`) are off by half of that
  *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from
  *                an interface, the group velocity of the shortest waves is off by a tenth

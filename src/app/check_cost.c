@@ -180,8 +180,8 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
 
 /* ---- the estimate ------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of neighbours of a particle far from surfaces: the volume of its complete family f (all neighbours
- * within the horizon) divided by that of a lattice cell [1]. */
+/* Returns the number of neighbours of a particle far from surfaces: the volume of its complete neighbourhood f (all
+ * neighbours within the horizon) divided by that of a lattice cell [1]. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
 /* Returns an estimate of the time for writing the output of run e [s]: all frames including the one at the start, two

@@ -1,5 +1,5 @@
-/* Counts the particle layers across thin parts of bodies of any shape, and reports errors from incomplete families,
- * locking cells and layers that supports hold. */
+/* Counts the particle layers across thin parts of bodies of any shape, and reports errors from incomplete
+ * neighbourhoods, locking cells and layers that supports hold. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -148,7 +148,7 @@ static double soft_cells(double poisson, double layers)
     const double even = 2 * ceil(0.5 * layers), square = even * even;
     return 170 / square + (760 + 6100 * fmax(poisson - 0.3, 0)) / (square * square);
 }
-#define SOFT_FAMILIES 0.4 /* Poisson's ratios up to which nothing is reported for families */
+#define SOFT_FAMILIES 0.4 /* Poisson's ratios up to which nothing is reported for neighbourhoods */
 #define SOFT_MOST 2.0     /* least error that is reported [%] */
 
 /* Returns the largest Poisson's ratio of those materials of the body with the index `body_index` on which

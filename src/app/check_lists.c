@@ -1,5 +1,5 @@
-/* Reports bodies from lists that are no lattice along the axes, and thin parts of them: families near their faces have
- * no weights of their own, and no solid gives the thickness of the parts. */
+/* Reports bodies from lists that are no lattice along the axes, and thin parts of them: neighbourhoods near their faces
+ * have no weights of their own, and no solid gives the thickness of the parts. */
 #include <math.h>
 
 #include "check_parts.h"

@@ -17,7 +17,7 @@ struct row {
     struct bond_plasticity *plastic;
     struct bond_softness *soft;     /* [n] only where bonds soften */
     real trigger;                   /* stretch above which the vector test reports a bond [1] */
-    real family_volume, cut_volume; /* volume of the family; of neighbours behind cut or broken bonds [m^3] */
+    real family_volume, cut_volume; /* volume of the neighbourhood; of neighbours behind cut or broken bonds [m^3] */
 };
 
 /* Relative micro-moduli of bonds by pair of materials: ratio[a * materials + b] is the micro-modulus of bonds between
@@ -159,7 +159,7 @@ struct regular_bonds {
     int n;              /* number of index distances */
     bool full;          /* every lane has a neighbour at every distance */
     int32_t *offset;    /* [n] index distances */
-    int16_t *number;    /* [n] numbers of these neighbours in a full family */
+    int16_t *number;    /* [n] numbers of these neighbours in a full neighbourhood */
     uint8_t *from, *to; /* [n] first and last lane with a neighbour at the distance */
     uint8_t *bonds;     /* [n] bit l: lane l has a bond at the distance: one of both particles is peridynamic */
     struct stencil_cache *stencil_cache; /* bonds of recent blocks of eight rows of this thread */
@@ -266,9 +266,9 @@ int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t 
                                  bool *one_offset_per_column);
 
 /* Fills the columns of block `row_block` of eight rows of b, which stores the bonds of eight particles, from the first
- * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, family volumes and the
- * flag `aligned` of the block. p: particles; one_offset_per_column: true if the bonds of each column have the same
- * offset on the lattice, as bond_row_block_count_columns returns. */
+ * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, neighbourhood volumes
+ * and the flag `aligned` of the block. p: particles; one_offset_per_column: true if the bonds of each column have the
+ * same offset on the lattice, as bond_row_block_count_columns returns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
@@ -323,9 +323,9 @@ const struct stencil *stencil_find_or_add(struct stencils *table, const struct s
                                           const struct stencil *first_guess);
 
 /* Makes block `row_block` of eight rows of b use the stencil of the block that contains particle `particle`, so that it
- * needs no stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, the block
- * keeps the stencil that it already has. A stencil is a list of columns that many blocks (bonds of eight particles) of
- * a lattice share. Returns false, and changes nothing, if there is no stencil. */
+ * needs no stored columns; breaking limits and neighbourhood volumes are copied from there, too. If particle = -1, the
+ * block keeps the stencil that it already has. A stencil is a list of columns that many blocks (bonds of eight
+ * particles) of a lattice share. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
 /* Writes `bonds`, one bond of each of eight particles, to the entries of column number `column_number` (from 0) in the
@@ -342,7 +342,7 @@ void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *
  * material of the bonds. Call after all rows were made. Does nothing for bond-based models. */
 void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
-/* Releases the arrays of b->state, the data of families in state-based models. */
+/* Releases the arrays of b->state, the data of neighbourhoods in state-based models. */
 void bonds_free_state_based_arrays(struct bonds *b);
 
 /* Lists in b->clamped the bonds of particles p to their mirror images in clamped planes (planes in which all motion is

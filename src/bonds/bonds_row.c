@@ -101,8 +101,8 @@ bool particle_is_near_precrack_or_void(const struct bond_source *source, const s
 
 /* Returns the weight [1] of the bond between particles i and j: product of partial volume, influence, volumes and
  * materials of both particles, and the surface correction. xi[dim], r: reference vector from i to j and its length [m];
- * s: family and surface correction; pairs: stiffness by pair of materials, divided by that of material 0. Exchanging i
- * and j changes no bit. */
+ * s: neighbourhood and surface correction; pairs: stiffness by pair of materials, divided by that of material 0.
+ * Exchanging i and j changes no bit. */
 static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                         int32_t i, int32_t j, const real *xi, real r)
 {

@@ -51,8 +51,8 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
 }
 
 /* Lists in l->row the sites within the cutoff of a site, as one segment on each lattice row along x, in ascending
- * order. f: family (neighbourhood), with cutoff and spacing. Returns false if a site is so close to the cutoff that
- * round-off would decide whether it is inside. */
+ * order. f: neighbourhood, with cutoff and spacing. Returns false if a site is so close to the cutoff that round-off
+ * would decide whether it is inside. */
 static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
@@ -187,8 +187,8 @@ int site_map_list_neighbours_of_particle(const struct site_map *map, const struc
 
 /* Appends to *to the bonds from particles i .. i + 7 to their neighbours on one line of the lattice parallel to x. l:
  * map from lattice sites to particles; site: index in the map of the site of particle i; row: the sites of the line
- * within the cutoff, relative to that site; number: number of neighbours in a full family on all lines before this one.
- * Returns false if the particles on the line do not have consecutive indices. */
+ * within the cutoff, relative to that site; number: number of neighbours in a full neighbourhood on all lines before
+ * this one. Returns false if the particles on the line do not have consecutive indices. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, int number, struct regular_bonds *to)
 {
@@ -273,9 +273,9 @@ void regular_bonds_free(struct regular_bonds *bonds)
 }
 
 /* Computes inverse length [1/m] and weight [1] of the bonds from particle i + l to j + l for l = 0 .. 7, in inverse[8]
- * and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s: family and materials;
- * pairs: stiffness by pair of materials, divided by that of material 0; dim: number of dimensions, known at compile
- * time. */
+ * and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s: neighbourhood and
+ * materials; pairs: stiffness by pair of materials, divided by that of material 0; dim: number of dimensions, known at
+ * compile time. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                                 int64_t i, int64_t j, real *inverse, real *w, const int dim)
 {

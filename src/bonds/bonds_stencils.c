@@ -41,8 +41,7 @@ void stencil_free(struct stencil *stencil)
     memory_free(stencil->w);
 }
 
-/* ---- stencil of one block of eight rows
- * ------------------------------------------------------------------------------------ */
+/* ---- stencil of one block of eight rows -------------------------------------------------------------------------- */
 
 /* Stores the reference vector of the bonds from particle i + l to particle j + l, l = 0 .. 7, in the stencil column
  * `to`, whose bits to->intact must be set. Returns false if the intact bonds do not all have the same vector to the

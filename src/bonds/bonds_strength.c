@@ -1,5 +1,5 @@
-/* Strength surfaces start the softening of bonds. Of each particle the strain is averaged over its family, in n means
- * over intact bonds that reach R = delta sqrt(n + 0.3) far; where its stress is on the surface, all bonds of the
+/* Strength surfaces start the softening of bonds. Of each particle the strain is averaged over its neighbourhood, in n
+ * means over intact bonds that reach R = delta sqrt(n + 0.3) far; where its stress is on the surface, all bonds of the
  * particle that have not begun to soften do so from their present stretch on. Forces and energy do not jump.
  *
  * Strain of a particle, with the reference vectors xi and present vectors y of its bonds, their weight omega V, omega =
@@ -7,8 +7,8 @@
  *
  *     E = sym[(R^T sum omega V (1 - d) y xi - sum omega V (1 - d) xi xi) K^-1],   K = sum omega V xi xi
  *
- * K is that of the first family, after pre-cracks: exact for uniform strain beside faces, too, and smaller where bonds
- * have softened. R is the rotation of (sum omega V (1 - d) y xi) (sum omega V (1 - d) xi xi)^-1.
+ * K is that of the first neighbourhood, after pre-cracks: exact for uniform strain beside faces, too, and smaller where
+ * bonds have softened. R is the rotation of (sum omega V (1 - d) y xi) (sum omega V (1 - d) xi xi)^-1.
  *
  * The mean is needed only where the strain of the particle itself is on the surface or beyond: at a crack, where
  * strains differ from particle to particle. This strain is needed only in blocks of eight rows with stretches that are
@@ -27,13 +27,13 @@
 #define SPANS 1e-6
 
 /* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles. A row holds
- * the bonds of one particle. Strains are averaged over the family as many times as the material requires. */
+ * the bonds of one particle. Strains are averaged over the neighbourhood as many times as the material requires. */
 struct evaluation {
     const struct bonds *b;
     const struct particles *p;
     const struct bond_source *source;
-    int means;          /* largest number of averages over the family that a material requires */
-    uint16_t *distance; /* [rows] number of families between the row and the nearest row to be evaluated, plus 1;
+    int means;          /* largest number of averages over the neighbourhood that a material requires */
+    uint16_t *distance; /* [rows] number of neighbourhoods between the row and the nearest row to be evaluated, plus 1;
                            0: the row is not needed */
     real (*strain[2])[SYM_MAX]; /* [rows] strain after the last average and after the average being computed [1] */
     real *share;                /* [rows] ratio of stress to strength in rows to be evaluated [1] */
@@ -351,9 +351,9 @@ static bool find_candidates(struct evaluation *e, real least)
 }
 
 /* For all rows with e->distance 1, reduces e->share to the ratio of the stress of their averaged strain to that on the
- * strength surface (failure criterion in stress), if this is smaller. Strains are averaged over the families
- * (neighbourhoods) as many times as the material requires, at most e->means times. Strains of all rows at most e->means
- * bonds away are computed for these averages. Call it after find_candidates. */
+ * strength surface (failure criterion in stress), if this is smaller. Strains are averaged over the neighbourhoods as
+ * many times as the material requires, at most e->means times. Strains of all rows at most e->means bonds away are
+ * computed for these averages. Call it after find_candidates. */
 static void evaluate_surfaces(struct evaluation *e)
 {
     const struct bonds *b = e->b;

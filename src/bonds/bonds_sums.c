@@ -12,9 +12,9 @@
  * orders, and differ by round-off. */
 #define WHOLE 1e-12
 
-/* Returns the sum of the volumes of the neighbours of particle i, each times the weight of the bond to it in the family
- * f [m^3]. s: cutoff and cells of the search; map: map from lattice sites to particles; found[capacity]: working
- * memory. */
+/* Returns the sum of the volumes of the neighbours of particle i, each times the weight of the bond to it in the
+ * neighbourhood f [m^3]. s: cutoff and cells of the search; map: map from lattice sites to particles; found[capacity]:
+ * working memory. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int capacity)
 {
@@ -40,7 +40,7 @@ static void volumes_near(real *volume, const struct particles *p, const struct r
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Sets those of n family volumes, volume[n] [m^3], that equal the volume `full` of a full family (neighbourhood) up to
+/* Sets those of n neighbourhood volumes, volume[n] [m^3], that equal the volume `full` of a full neighbourhood up to
  * round-off exactly to `full`. Bonds inside a body then have weight 1, which need not be stored
  * (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)

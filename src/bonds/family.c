@@ -1,16 +1,16 @@
-/* The family of a peridynamic particle: members, weights, and the sums over a full family on the lattice that calibrate
- * the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
+/* The neighbourhood of a peridynamic particle: members, weights, and the sums over a full neighbourhood on the lattice
+ * that calibrate the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
 #include <math.h>
 #include <string.h>
 
 #include "bonds/bonds.h"
 #include "base/memory.h"
 
-#define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the family */
+#define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the neighbourhood */
 
 /* Returns the share of the volume of a neighbour at distance r [m] that counts [1]. It falls linearly from 1 to 0 over
- * one spacing about the horizon of the family f (neighbourhood of a particle). It is rounded to 1e-9: lattice distances
- * that are equal except for round-off then have equal weights. */
+ * one spacing about the horizon of the neighbourhood f of a particle. It is rounded to 1e-9: lattice distances that are
+ * equal except for round-off then have equal weights. */
 static real ramp(const struct family *f, real r)
 {
     /* rounded, so that distances equal on paper have equal weights */
@@ -19,12 +19,11 @@ static real ramp(const struct family *f, real r)
     return share > 1 ? 1 : share < 0 ? 0 : share;
 }
 
-/* Returns the share beta of the volume of a neighbour at distance r [m] that counts [1] (Seleson 2014); 1 if the family
- * f (neighbourhood of a particle) uses whole volumes. */
+/* Returns the share beta of the volume of a neighbour at distance r [m] that counts [1] (Seleson 2014); 1 if the
+ * neighbourhood f of a particle uses whole volumes. */
 static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
 
-/* Returns the influence function omega [1] of the family f (neighbourhood of a particle) for a neighbour at distance r
- * [m]. */
+/* Returns the influence function omega [1] of the neighbourhood f of a particle for a neighbour at distance r [m]. */
 static real influence(const struct family *f, real r)
 {
     switch (f->influence) {
@@ -42,8 +41,8 @@ static real influence(const struct family *f, real r)
 }
 
 /* Returns the weight that a bond of length r [m] has in the elastic constants of a lattice, up to a constant factor.
- * omega: influence function of the family f (neighbourhood of a particle). The weight is omega r if the energy is one
- * of stretches, omega r^2 if it is one of elongations. An energy of displacements is isotropic with any weights by
+ * omega: influence function of the neighbourhood f of a particle. The weight is omega r if the energy is one of
+ * stretches, omega r^2 if it is one of elongations. An energy of displacements is isotropic with any weights by
  * direction; for it the weight is r, that of bonds without influence function. */
 static real stiffness_weight(const struct family *f, real r)
 {
@@ -88,8 +87,8 @@ struct lattice_sums {
     real axial[2], mixed[2]; /* sums of n1^4 and of n1^2 n2^2 times V beta stiffness_weight, by class of direction */
 };
 
-/* Adds the lattice point at xi[dim] [m] relative to a particle to the sums *s over its family f (neighbourhood). Does
- * nothing if the point is outside the cutoff or is the particle itself. */
+/* Adds the lattice point at xi[dim] [m] relative to a particle to the sums *s over its neighbourhood f. Does nothing if
+ * the point is outside the cutoff or is the particle itself. */
 static void sum_point(const struct family *f, const real *xi, int dim, struct lattice_sums *s)
 {
     real r = sqrt(dot(xi, xi, dim)), V = f->cell_volume;
@@ -106,7 +105,7 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
 }
 
 /* Returns the sums over all lattice points within the cutoff of a particle inside a body, on which the constants of the
- * family f (neighbourhood) depend. */
+ * neighbourhood f depend. */
 static struct lattice_sums lattice_sums(const struct family *f)
 {
     struct lattice_sums s = {0};
@@ -123,8 +122,9 @@ static struct lattice_sums lattice_sums(const struct family *f)
 }
 
 /* Computes the two factors f->shell_weight, of bonds nearer the axes and of bonds nearer the diagonals, such that the
- * family f is isotropic: sum k n1^4 = 3 sum k n1^2 n2^2 with k of stiffness_weight, i.e. C11 = C12 + 2 C44 with C12 =
- * C44. Their scale keeps sum r omega V unchanged. If there is no solution, or in 1D, the factors remain as they are. */
+ * neighbourhood f is isotropic: sum k n1^4 = 3 sum k n1^2 n2^2 with k of stiffness_weight, i.e. C11 = C12 + 2 C44 with
+ * C12 = C44. Their scale keeps sum r omega V unchanged. If there is no solution, or in 1D, the factors remain as they
+ * are. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;
@@ -154,8 +154,8 @@ void family_make_on_lattice(struct family *f, enum space space, real spacing, re
     f->weighted = lattice_sums(f).weighted;
 }
 
-/* Returns the mean of the influence function omega over the horizon d of the family f, weighted with the energy of
- * bonds under uniform dilatation [1]: (n + 1)/d^(n + 1) times the integral of r^n omega(r) from 0 to d, in n
+/* Returns the mean of the influence function omega over the horizon d of the neighbourhood f, weighted with the energy
+ * of bonds under uniform dilatation [1]: (n + 1)/d^(n + 1) times the integral of r^n omega(r) from 0 to d, in n
  * dimensions. It is infinite for omega = (d/r)^2 in 1D. */
 static real influence_mean(const struct family *f)
 {

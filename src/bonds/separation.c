@@ -32,8 +32,7 @@ static int later(const void *a, const void *b)
 }
 
 /* Lists in c the bonds that cross a plane from one particle of a full lattice at `height` [m] above the plane. f:
- * family (neighbourhood) of a particle; c must have room for all neighbours in a full family. Returns the number of
- * bonds. */
+ * neighbourhood of a particle; c must have room for all neighbours in a full family. Returns the number of bonds. */
 static int crossings(const struct family *f, real height, struct crossing *c)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), depth = dim > 2 ? reach : 0;
@@ -52,9 +51,9 @@ static int crossings(const struct family *f, real height, struct crossing *c)
 
 /* Returns the work per volume [Pa] that separates all bonds of a layer of particles at `height` [m] above a plane, if
  * the critical stretch is 1. It is the integral of the energy density of a particle over the opening of the plane,
- * summed from the last bond that breaks back to the first. f: family (neighbourhood); m: constants of the state-based
- * law; rotates: true for the model with particle rotations; local: true if the weighted volume Q is summed over the
- * intact bonds only; c: working memory for the bonds that cross the plane. */
+ * summed from the last bond that breaks back to the first. f: neighbourhood; m: constants of the state-based law;
+ * rotates: true for the model with particle rotations; local: true if the weighted volume Q is summed over the intact
+ * bonds only; c: working memory for the bonds that cross the plane. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool rotates, bool local,
                        struct crossing *c)
 {
@@ -89,9 +88,9 @@ enum { OPENINGS = 1000 }; /* steps of the quadrature over the opening; 4000 give
 /* Returns the work per volume [Pa] that separates all bonds of a layer of particles at `height` [m] above a plane, if
  * bonds soften: the integral of dW/dD at constant damage over the opening D of the plane. The energy density of a
  * particle is W = D^2/2 [A (sum q w z/Q)^2 + B/Q sum q w |e/D|^2]. A bond across the plane has the stretch D z/r^2, and
- * q is the share of its stiffness that remains at this stretch. f: family (neighbourhood); m: constants A, B of the
- * state-based law; rotates: true for a model with particle rotations; curve, range: softening curve and the stretches
- * between which bonds soften; c: working memory for the bonds that cross the plane. */
+ * q is the share of its stiffness that remains at this stretch. f: neighbourhood; m: constants A, B of the state-based
+ * law; rotates: true for a model with particle rotations; curve, range: softening curve and the stretches between which
+ * bonds soften; c: working memory for the bonds that cross the plane. */
 static real layer_softening_work(const struct family *f, real height, const struct state_modulus *m, bool rotates,
                                  const struct softening_curve *curve, struct softening_range range, struct crossing *c)
 {
@@ -131,8 +130,8 @@ real family_fracture_energy_of_softening_bonds(const struct family *f, const str
 }
 
 /* Returns the energy per area of all bonds across a plane at the critical stretch of material m [J/m^2], on the lattice
- * with the family f (neighbourhood). A bond whose component normal to the plane is n spacings counts n times: n
- * parallel bonds per lattice cell of the plane cross it. */
+ * with the neighbourhood f. A bond whose component normal to the plane is n spacings counts n times: n parallel bonds
+ * per lattice cell of the plane cross it. */
 real family_crack_energy_per_area(const struct family *f, const struct material *m)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);

@@ -9,8 +9,8 @@
 /* Computes two tables of `to` for particles near faces, by classes: the particles of a class have equal surroundings.
  * to->factor[classes, offsets]: surface correction of the bond to the neighbour at each lattice offset, a factor on its
  * weight. to->weighted[classes]: weighted volume sum w r^2 with these factors [m^2]. b: particles near faces; a: their
- * classes; f: family (neighbourhood); factor[sets]: fitted factor of each set of bonds that share one; bonds in no set
- * have the factor 1. */
+ * classes; f: neighbourhood; factor[sets]: fitted factor of each set of bonds that share one; bonds in no set have the
+ * factor 1. */
 static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct bond_classes *a,
                         const struct family *f, const real *factor)
 {

@@ -1,15 +1,15 @@
 /* Classes of particles with equal surroundings, and groups of bonds that share one factor.
  *
- * The surroundings of a particle are its neighbours and theirs, RADIUS families deep, seen through the mirrors across
- * the axes that give the smallest hash. Both directions of a bond, and a bond and its mirror image, are in one group;
- * so a factor is a function of a particle's class and of the offset in its mirrors, and equal from both particles. Most
- * bodies have few classes: the cost of the fit depends on shape, not on size. */
+ * The surroundings of a particle are its neighbours and theirs, RADIUS neighbourhoods deep, seen through the mirrors
+ * across the axes that give the smallest hash. Both directions of a bond, and a bond and its mirror image, are in one
+ * group; so a factor is a function of a particle's class and of the offset in its mirrors, and equal from both
+ * particles. Most bodies have few classes: the cost of the fit depends on shape, not on size. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "surface_parts.h"
 
-enum { RADIUS = 2 }; /* number of families over which surroundings are compared */
+enum { RADIUS = 2 }; /* number of neighbourhoods over which surroundings are compared */
 
 /* Returns `hash` after one more 64-bit `word` has been added to it: a step of the hash of Fowler, Noll and Vo, followed
  * by an exclusive or with the upper bits of the result. */
@@ -22,9 +22,9 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 
 /* ---- kinds of particles ------------------------------------------------------------------------------------------ */
 
-/* Kinds of particles near faces: particles of one kind have equal surroundings, some families deep, without being
- * mirrored. Each kind has 2^dim consecutive colours: hashes of its surroundings, mirrored across each of the 2^dim
- * sets of axes. Kinds are numbered in the order of their first particle. */
+/* Kinds of particles near faces: particles of one kind have equal surroundings, some neighbourhoods deep, without being
+ * mirrored. Each kind has 2^dim consecutive colours: hashes of its surroundings, mirrored across each of the 2^dim sets
+ * of axes. Kinds are numbered in the order of their first particle. */
 struct kinds {
     int32_t n, *of;   /* number of kinds; [near n] kind of a particle */
     int64_t *first;   /* [n] first particle of a kind */
@@ -80,7 +80,7 @@ static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, i
 
 /* Returns a hash (colour) of the surroundings of a particle, reflected by the axes in `mirrors` (bit d: axis d). It
  * combines the present colours s->colour of the particle and its neighbours, and so describes surroundings that are
- * larger by one family (neighbourhood). t: index of the particle among b, those near faces. */
+ * larger by one neighbourhood. t: index of the particle among b, those near faces. */
 static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
@@ -111,8 +111,8 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 }
 
 /* Divides the kinds s of particles (particles of one kind have equal surroundings) by the kinds of their neighbours:
- * surroundings are then equal one family (neighbourhood) further out. b: particles near faces; colours: true to compute
- * also the colours of the new kinds, the hashes of their surroundings in all mirrors. */
+ * surroundings are then equal one neighbourhood further out. b: particles near faces; colours: true to compute also the
+ * colours of the new kinds, the hashes of their surroundings in all mirrors. */
 static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;

@@ -6,11 +6,11 @@
 #include "bonds_parts.h"
 #include "surface_parts.h"
 
-/* ---- offsets of a full family ------------------------------------------------------------------------------------ */
+/* ---- offsets of a full neighbourhood ------------------------------------------------------------------------------ */
 
-/* Appends the offset at[dim] [spacings] to the list o, with its length, direction and weight in the family f
- * (neighbourhood), if it is within the cutoff. Sets its number in o->number, -1 if it is not. states: true if the
- * weights are those of state-based models. */
+/* Appends the offset at[dim] [spacings] to the list o, with its length, direction and weight in the neighbourhood f, if
+ * it is within the cutoff. Sets its number in o->number, -1 if it is not. states: true if the weights are those of
+ * state-based models. */
 static void offset_add(struct offsets *o, const struct family *f, bool states, const int *at)
 {
     real xi[DIM_MAX], length2 = 0;
@@ -30,8 +30,8 @@ static void offset_add(struct offsets *o, const struct family *f, bool states, c
     o->weight[o->n] = o->share[o->n] * (states ? length : 1), o->n++;
 }
 
-/* Lists in o the lattice offsets of all neighbours in a full family f (neighbourhood inside a body), with their lengths
- * and weights, and the mirror image of each offset for each set of axes. states: true if the weights are those of
+/* Lists in o the lattice offsets of all neighbours in a full neighbourhood f inside a body, with their lengths and
+ * weights, and the mirror image of each offset for each set of axes. states: true if the weights are those of
  * state-based models. */
 static void offsets_make(struct offsets *o, const struct family *f, bool states)
 {

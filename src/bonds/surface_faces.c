@@ -1,8 +1,8 @@
 /* Faces of a body of lattice particles: outward areas, and normals that average the steps of a staircase over a family.
  *
  * A particle without its nearest neighbour up or down an axis, or cut from it by a crack, has a face of area 1 there.
- * Faces within a family that bonds connect and whose normals are less than 90 degrees apart form one face with their
- * mean normal N, as far as they are in one plane: completely if their variance along N is below `FLAT` spacings
+ * Faces within a neighbourhood that bonds connect and whose normals are less than 90 degrees apart form one face with
+ * their mean normal N, as far as they are in one plane: completely if their variance along N is below `FLAT` spacings
  * squared, not at all above `ROUGH`. */
 #include <math.h>
 #include <string.h>

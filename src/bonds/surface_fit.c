@@ -69,8 +69,8 @@ static real component_value(const struct components *c, int k, const real *n)
     return value;
 }
 
-/* Moments of the bonds by offset (direction n, weight w, length r): third w nnn, fourth w r nnnn; fourth moment M of
- * a full family; and a basis B_k of symmetric strain tensors. They are the same for all classes of particles. */
+/* Moments of the bonds by offset (direction n, weight w, length r): third w nnn, fourth w r nnnn; fourth moment M of a
+ * full neighbourhood; and a basis B_k of symmetric strain tensors. They are the same for all classes of particles. */
 struct moments {
     int dim, strains;                /* dimension; number of tensors B_k */
     struct components third, fourth; /* independent components of both moments */
@@ -82,16 +82,16 @@ struct moments {
     real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };
 
-/* Returns component abcd of the fourth moment M of a full family (the sum of w r nnnn over its bonds with weight w,
- * length r and direction n), divided by M_1111 [1]; from m. a, b, c, d: axes, from 0. */
+/* Returns component abcd of the fourth moment M of a full neighbourhood (the sum of w r nnnn over its bonds with weight
+ * w, length r and direction n), divided by M_1111 [1]; from m. a, b, c, d: axes, from 0. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
 /* Computes the basis in which deviations of moment tensors are measured by the stresses that they cause: orthonormal
- * symmetric strain tensors B_k; their stresses M:B_k, with the fourth moment M of a full family (m->full); and the
- * coefficients by which products of B_k with a moment tensor follow from the components of that tensor. */
+ * symmetric strain tensors B_k; their stresses M:B_k, with the fourth moment M of a full neighbourhood (m->full); and
+ * the coefficients by which products of B_k with a moment tensor follow from the components of that tensor. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -114,8 +114,8 @@ static void strains_make(struct moments *m)
 }
 
 /* Computes in m the moments of the bond at each lattice offset of o, the third w nnn and the fourth w r nnnn (direction
- * n, weight w, length r), and the fourth moment M of a full family, all divided by M_1111. Then computes the basis of
- * strains. */
+ * n, weight w, length r), and the fourth moment M of a full neighbourhood, all divided by M_1111. Then computes the
+ * basis of strains. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
     real sum[FOURTHS] = {0};
@@ -140,9 +140,10 @@ static void moments_make(struct moments *m, const struct offsets *o)
 }
 
 /* Returns the constant alpha of models without particle rotations [1]: near a face the fourth moments of the bonds are
- * to be (1 + alpha dipole) M, where M is the fourth moment of a full family and the dipole is 1 in the first layer of
- * particles and -1 in the second. alpha is the value for a plane face along which the body is stretched; in an
- * isotropic family the value for shear along the face is equal. m: has M; o: lattice offsets with their weights. */
+ * to be (1 + alpha dipole) M, where M is the fourth moment of a full neighbourhood and the dipole is 1 in the first
+ * layer of particles and -1 in the second. alpha is the value for a plane face along which the body is stretched; in an
+ * isotropic neighbourhood the value for shear along the face is equal. m: has M; o: lattice offsets with their
+ * weights. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -179,8 +180,8 @@ static void invert(real *a, int n, int capacity)
 
 /* Computes the weights P = (1 + STIFF Q)^-1 of the basis strains B_k in the least-squares fit of bonds near faces,
  * P[k][l] over the strains of m. Q_kl = (M:B_k) : N (x) N : (M:B_l) is the product of the tractions that two strains
- * cause on faces nearby; strains without such tractions have the weight 1. M: fourth moment of a full family; STIFF: a
- * constant; normal2: mean of N (x) N over the faces nearby, with unit normals N. */
+ * cause on faces nearby; strains without such tractions have the weight 1. M: fourth moment of a full neighbourhood;
+ * STIFF: a constant; normal2: mean of N (x) N over the faces nearby, with unit normals N. */
 static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
 {
     const int dim = m->dim;

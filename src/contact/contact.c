@@ -89,12 +89,12 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
 }
 
 /* Returns the critical time step [s] of particles p that are held by bonds and pushed by contact c; INFINITY if contact
- * is not possible. bonds_time_step: critical time step of the bonds alone [s]; materials: array of the materials.
- * The step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact are added.
+ * is not possible. bonds_time_step: critical time step of the bonds alone [s]; materials: array of the materials. The
+ * step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact are added.
  * Bonds: such a particle has half of the bonds of an inner one, so that the square of 2/bonds_time_step counts half.
  * Contact: two particles in contact with stiffness k have the squared frequency 2 k/mass. The normal stiffness of all
  * contacts of one particle is 1 k in 1D, 1.5 k in 2D and 2 k in 3D (1, 2 or 3 opposite particles, at angles of at least
- * 60 degrees to the face). With the contact distance of LAMMPS, full families and contact with all 2, 8 or 26
+ * 60 degrees to the face). With the contact distance of LAMMPS, full neighbourhoods and contact with all 2, 8 or 26
  * neighbours are assumed instead. Rubble has up to eight contacts per particle and needs 0.61 of the bonds' critical
  * step in 2D, which the safety factor 0.5 for breaking bonds covers. */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,

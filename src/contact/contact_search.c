@@ -12,8 +12,8 @@ enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces op
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
 /* Returns the limit of the neighbour volume below which a particle counts as being in the first layer at a face: the
- * volume of its bonded neighbours divided by that of a full family (neighbourhood) f [1]. In bodies with horizons of 2
- * to 3 spacings, this share is 0.50 (1D) to 0.67 (2D) in the first layer and 0.79 or more in the second. With bonds to
+ * volume of its bonded neighbours divided by that of a full neighbourhood f [1]. In bodies with horizons of 2 to 3
+ * spacings, this share is 0.50 (1D) to 0.67 (2D) in the first layer and 0.79 or more in the second. With bonds to
  * nearest neighbours alone it is up to 5/6 in the first layer and 1 in the second. */
 static real first_layer_share(const struct family *f)
 {
@@ -108,7 +108,7 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
 
 /* Lists in c->particle the peridynamic particles near a face, in ascending order, then their mirror images, and stores
  * the present positions of all of them in c->at. A particle is near a face if the volume of its bonded neighbours in b
- * is less than a share of that of the complete family f. */
+ * is less than a share of that of the complete neighbourhood f. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
@@ -267,7 +267,7 @@ static real search_reach(const struct contact *c)
 
 /* Finds the exposed particles (those near faces) and the pairs that may come into contact at the present positions of
  * p. Copies the state of pairs, friction springs and contacts with rigid bodies from the previous list in c, and frees
- * that list. b, f: bonds and their complete family (neighbourhood), by which exposed particles are recognised. */
+ * that list. b, f: bonds and their complete neighbourhood, by which exposed particles are recognised. */
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
@@ -318,9 +318,9 @@ static bool has_come_far(const struct contact *c)
 }
 
 /* Requests a contact search (c->due) if one of particle_count particles, which have just become peridynamic, is in the
- * first layer at a face. particle_list: their indices; b, family: bonds and their complete family (neighbourhood), by
- * which such particles are recognised. A particle elsewhere with a few broken bonds does not require a search at once;
- * the next search lists it. With the contact distance of LAMMPS, any particle requests a search. */
+ * first layer at a face. particle_list: their indices; b, family: bonds and their complete neighbourhood, by which such
+ * particles are recognised. A particle elsewhere with a few broken bonds does not require a search at once; the next
+ * search lists it. With the contact distance of LAMMPS, any particle requests a search. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *particle_list, int64_t particle_count)
 {

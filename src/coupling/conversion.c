@@ -80,8 +80,8 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
 
 /* Appends to l the peridynamic particles that have lost a bond in this step and still have bonds to material points.
  * Appends none unless the model is state-based and s->local is set, i.e. the model normalises its forces by the intact
- * bonds of the family (neighbourhood). The remaining bonds are then stiffer than before, so that the partial stress
- * (stress that bonds replace) of the material points around must be recomputed. */
+ * bonds of the neighbourhood. The remaining bonds are then stiffer than before, so that the partial stress (stress that
+ * bonds replace) of the material points around must be recomputed. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {

@@ -6,7 +6,8 @@
  * the Hessian of an energy: C - T_q is the stiffness of the bonds that the cells replace.
  *
  * State-based bonds also respond to the trace of the strain and in other directions (struct response): their T_q is not
- * symmetric and would cause flutter at any time step. A point j of such bonds therefore has the energy of one family,
+ * symmetric and would cause flutter at any time step. A point j of such bonds therefore has the energy of one
+ * neighbourhood,
  *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q) sum w xi (x) xi
  * in which the bonds of the point determine one part of the mean strain S and its cell the rest; R is the rotation of
  * the cell (kernels/mesh/mesh_law.h), and for ordinary models the second term is that of the stretch of the bonds. The
@@ -87,9 +88,9 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
         }
 }
 
-/* Returns V/Q of a particle [m^-2]: its volume V divided by Q, the weighted volume of its family (sum of w xi^2 V over
- * its bonds). Without bonds in b, V and Q are those of a complete family on the lattice. s: the family on the lattice
- * and the list of images; i: index of the particle or of a mirror image of it. */
+/* Returns V/Q of a particle [m^-2]: its volume V divided by Q, the weighted volume of its neighbourhood (sum of w xi^2
+ * V over its bonds). Without bonds in b, V and Q are those of a complete neighbourhood on the lattice. s: the
+ * neighbourhood on the lattice and the list of images; i: index of the particle or of a mirror image of it. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_source_particle(p, s->image, i)];

@@ -189,7 +189,7 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
 
 /* Adds the sums K = sum w e e and G = sum w e y/r over the intact bonds of row `row`, the bonds of one particle, to
  * K[dim][dim] and G[dim][dim]. w: weight of a bond; e, r: its reference direction and length [m]; y: its present vector
- * [m]. The deformation gradient F of the family (neighbourhood) follows from K F^T = G. */
+ * [m]. The deformation gradient F of the neighbourhood follows from K F^T = G. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -282,9 +282,9 @@ static real determinant(const real *F, int dim)
 }
 
 /* Corrects `stress`, the stress of the bonds that cross the cell of particle i [Pa], for missing bonds. The uniform
- * strain that causes this stress is T^-1 stress; the corrected stress is that of a complete family (neighbourhood)
- * under this strain. source: family and materials; T[n][n]: derivative of the stress by a uniform strain [Pa],
- * overwritten. Leaves the stress unchanged if T is singular. */
+ * strain that causes this stress is T^-1 stress; the corrected stress is that of a complete neighbourhood under this
+ * strain. source: neighbourhood and materials; T[n][n]: derivative of the stress by a uniform strain [Pa], overwritten.
+ * Leaves the stress unchanged if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);

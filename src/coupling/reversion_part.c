@@ -10,8 +10,8 @@
 #include "run/energies.h"
 
 /* Returns the number of time steps, at least 1, from one search for particles that may become material points again to
- * the next. In this time a wave travels one horizon, half the diameter of a family (neighbourhood), so that no wave
- * crosses a family unnoticed. clock: time step; tables: wave speed; source: horizon. */
+ * the next. In this time a wave travels one horizon, half the diameter of a neighbourhood, so that no wave crosses a
+ * neighbourhood unnoticed. clock: time step; tables: wave speed; source: horizon. */
 static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
                       const struct bond_source *source)
 {

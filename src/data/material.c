@@ -15,7 +15,7 @@ real bond_based_poisson_ratio(enum space space)
 /* Returns the micro-modulus c of bonds (force per stretch and squared volume) [N/m^6] of material m, such that bonds
  * and continuum have equal energy densities under a uniform expansion by the strain s. For bonds the energy density is
  * 1/4 c s^2 family_sum. For the continuum it is 1/2 E s^2 (1D), 2 k s^2 (2D) or 9/2 k s^2 (3D), with the bulk modulus k
- * of the space. family_sum: sum of length times volume over the bonds of a full family [m^4]. */
+ * of the space. family_sum: sum of length times volume over the bonds of a full neighbourhood [m^4]. */
 real material_micro_modulus_of_discrete_family(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};

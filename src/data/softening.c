@@ -74,14 +74,14 @@ real softening_normalised_dissipated_energy(const struct softening_curve *c, rea
 enum { DIRECTIONS = 128, BISECTIONS = 40 }; /* directions of a quadrature over bonds; steps of a bisection */
 #define GROWTH 1.01                         /* factor between two strains of the search for a peak */
 
-/* Axial and lateral stress of a family of bonds, divided by E' s_0: modulus times stretch at which bonds begin to
- * soften [1]. */
+/* Axial and lateral stress of a neighbourhood of bonds, divided by E' s_0: modulus times stretch at which bonds begin
+ * to soften [1]. */
 struct stress_pair {
     real axial, lateral;
 };
 
-/* A family of bonds of all directions, with its softening curve. reach: (s_f - s_0)/s_0, with the stretches s_0 at
- * which softening begins and s_f at which it ends [1]. */
+/* A neighbourhood of bonds of all directions, with its softening curve. reach: (s_f - s_0)/s_0, with the stretches s_0
+ * at which softening begins and s_f at which it ends [1]. */
 struct directions {
     const struct softening_curve *curve;
     enum space space;
@@ -110,7 +110,7 @@ static real direction_along(const struct directions *a, int k)
     return a->space == SPACE_SOLID ? square(at) : square(cos(0.5 * M_PI * at));
 }
 
-/* Returns the axial and lateral stress of a family of state-based bonds, divided by E' s_0 [1]. axial, lateral:
+/* Returns the axial and lateral stress of a neighbourhood of state-based bonds, divided by E' s_0 [1]. axial, lateral:
  * strains, in units of s_0, the stretch at which softening begins. The stresses are the derivatives, by the strains, of
  * the energy W = [A <q s>^2 + B <q |e|^2>]/2, with the constants A and B of the model. < > is the mean over all
  * directions n, q the share of its stiffness that a softened bond keeps, and s its stretch. e is the stretch s too, or
@@ -133,10 +133,10 @@ static struct stress_pair state_family_stress(const struct directions *a, real a
                                 m->A * mean * pull.lateral + m->B * sum.lateral};
 }
 
-/* Returns the axial and lateral stress of a family of bonds in all directions, divided by E' s_0 [1]. axial, lateral:
- * strains along one axis and in all directions normal to it, in units of s_0, the stretch at which softening begins.
- * Bond-based models have Poisson's ratio 1/3 in the plane and 1/4 in 3D; in plane strain E' and nu/(1 - nu) replace E
- * and nu. */
+/* Returns the axial and lateral stress of a neighbourhood of bonds in all directions, divided by E' s_0 [1]. axial,
+ * lateral: strains along one axis and in all directions normal to it, in units of s_0, the stretch at which softening
+ * begins. Bond-based models have Poisson's ratio 1/3 in the plane and 1/4 in 3D; in plane strain E' and nu/(1 - nu)
+ * replace E and nu. */
 static struct stress_pair family_stress(const struct directions *a, real axial, real lateral)
 {
     struct stress_pair sum = {0, 0};
@@ -152,8 +152,8 @@ static struct stress_pair family_stress(const struct directions *a, real axial, 
 }
 
 /* Returns the strain x, in units of s_0, at which the function stress(a, x, given) is 0, by bisection. The function
- * must grow with x and have its root between `low` and 0. a: family of bonds; given: the other strain of the function.
- * s_0: stretch at which softening begins. */
+ * must grow with x and have its root between `low` and 0. a: neighbourhood of bonds; given: the other strain of the
+ * function. s_0: stretch at which softening begins. */
 static real strain_without_stress(const struct directions *a, real low, real given,
                                   real (*stress)(const struct directions *, real x, real given))
 {
@@ -168,23 +168,23 @@ static real strain_without_stress(const struct directions *a, real low, real giv
     return 0.5 * (low + high);
 }
 
-/* Returns the lateral stress of the family of bonds a, divided by E' s_0 [1], as a function of the lateral strain,
- * whose zero strain_without_stress finds; axial: axial strain. Strains are in units of s_0, the stretch at which
- * softening begins. */
+/* Returns the lateral stress of the neighbourhood of bonds a, divided by E' s_0 [1], as a function of the lateral
+ * strain, whose zero strain_without_stress finds; axial: axial strain. Strains are in units of s_0, the stretch at
+ * which softening begins. */
 static real lateral_stress(const struct directions *a, real lateral, real axial)
 {
     return family_stress(a, axial, lateral).lateral;
 }
 
-/* Returns the axial stress of the family of bonds a, divided by E' s_0 [1], as a function of the axial strain, whose
- * zero strain_without_stress finds; lateral: lateral strain. Strains are in units of s_0, the stretch at which
+/* Returns the axial stress of the neighbourhood of bonds a, divided by E' s_0 [1], as a function of the axial strain,
+ * whose zero strain_without_stress finds; lateral: lateral strain. Strains are in units of s_0, the stretch at which
  * softening begins. */
 static real axial_stress(const struct directions *a, real axial, real lateral)
 {
     return family_stress(a, axial, lateral).axial;
 }
 
-/* Returns the sum of axial and lateral stress of the family of bonds a, divided by E' s_0 [1], whose zero
+/* Returns the sum of axial and lateral stress of the neighbourhood of bonds a, divided by E' s_0 [1], whose zero
  * strain_without_stress finds: the state is then one of shear. lateral, axial: strains in units of s_0, the stretch at
  * which softening begins. */
 static real stress_sum(const struct directions *a, real lateral, real axial)
@@ -193,17 +193,17 @@ static real stress_sum(const struct directions *a, real lateral, real axial)
     return stress.axial + stress.lateral;
 }
 
-/* Returns the axial stress of the family of bonds a in uniaxial tension, divided by E' s_0 [1]. strain: axial strain in
- * units of s_0, the stretch at which softening begins; the lateral stress is 0 (in 1D the lateral strain). */
+/* Returns the axial stress of the neighbourhood of bonds a in uniaxial tension, divided by E' s_0 [1]. strain: axial
+ * strain in units of s_0, the stretch at which softening begins; the lateral stress is 0 (in 1D the lateral strain). */
 static real tension_at(const struct directions *a, real strain)
 {
     const real lateral = a->space == SPACE_LINE ? 0 : strain_without_stress(a, -strain, strain, lateral_stress);
     return family_stress(a, strain, lateral).axial;
 }
 
-/* Returns the stress of the family of bonds a in equal biaxial tension without stress along the third axis, divided by
- * E' s_0 [1]. strain: strain along the two axes in units of s_0, the stretch at which softening begins. Returns NAN in
- * 1D. */
+/* Returns the stress of the neighbourhood of bonds a in equal biaxial tension without stress along the third axis,
+ * divided by E' s_0 [1]. strain: strain along the two axes in units of s_0, the stretch at which softening begins.
+ * Returns NAN in 1D. */
 static real biaxial_at(const struct directions *a, real strain)
 {
     if (a->space == SPACE_LINE) return NAN;
@@ -211,9 +211,9 @@ static real biaxial_at(const struct directions *a, real strain)
     return family_stress(a, strain_without_stress(a, -2 * strain, strain, axial_stress), strain).lateral;
 }
 
-/* Returns the shear stress of the family of bonds a, divided by E' s_0 [1], in a plane state with equal tension and
- * compression along two axes. strain: strain along the axis of tension, in units of s_0, the stretch at which softening
- * begins. Returns NAN in 1D and 3D. */
+/* Returns the shear stress of the neighbourhood of bonds a, divided by E' s_0 [1], in a plane state with equal tension
+ * and compression along two axes. strain: strain along the axis of tension, in units of s_0, the stretch at which
+ * softening begins. Returns NAN in 1D and 3D. */
 static real shear_at(const struct directions *a, real strain)
 {
     if (space_dim(a->space) != 2) return NAN;
@@ -221,9 +221,9 @@ static real shear_at(const struct directions *a, real strain)
 }
 
 /* Returns the largest value of the function stress(a, strain) as the strain grows, divided by E' s_0, which is the
- * strength of the material. a: family of bonds. The search begins at the strain at which softening begins. It ends when
- * the stress has fallen to 0.8 of the maximum, or when all bonds have failed. Returns NAN if the stress is not defined
- * in this space. */
+ * strength of the material. a: neighbourhood of bonds. The search begins at the strain at which softening begins. It
+ * ends when the stress has fallen to 0.8 of the maximum, or when all bonds have failed. Returns NAN if the stress is
+ * not defined in this space. */
 static real peak(const struct directions *a, real (*stress)(const struct directions *, real))
 {
     real most = 0;

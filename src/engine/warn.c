@@ -232,8 +232,8 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
 
 #define STIFFNESS_APART 0.05 /* relative error of a bulk modulus that is worth a warning; vmpd has 0.02 */
 
-/* Adds a warning to *to if bonds of the family f (neighbourhood), by their calibration, make a material stiffer or
- * softer than scene s says. */
+/* Adds a warning to *to if bonds of the neighbourhood f, by their calibration, make a material stiffer or softer than
+ * scene s says. */
 static void warn_of_stiffness(const struct scene *s, const struct family *f, struct warnings *to)
 {
     real c11, c12;

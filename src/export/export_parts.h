@@ -33,7 +33,7 @@ struct lammps_settings {
 status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style);
 
 /* Returns true if the results of LAMMPS differ in a way that no key of scene s removes: in the state-based model LAMMPS
- * continues to normalise by the weighted volume of the intact family after bonds have broken. */
+ * continues to normalise by the weighted volume of the intact neighbourhood after bonds have broken. */
 bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */

@@ -224,10 +224,10 @@ static void step_back(struct growing_crack *g, struct bonds *b)
 
 /* Reduces the weights of the bonds in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent, and
  * removes bonds without weight from the list. `grown` is the growth of the crack since its tip crossed the bond, w0 the
- * weight of the bond at that time; p: particles; f: family (neighbourhood), half its horizon is the default of
- * `damping`. The energy lost is booked at the present positions: half of the loss of the previous step and half of that
- * of this step. Bonds change one after the other, each from its weight of the previous step, so that the losses sum to
- * the whole energy. Returns the number of directed bonds whose weight becomes 0. */
+ * weight of the bond at that time; p: particles; f: neighbourhood, half its horizon is the default of `damping`. The
+ * energy lost is booked at the present positions: half of the loss of the previous step and half of that of this step.
+ * Bonds change one after the other, each from its weight of the previous step, so that the losses sum to the whole
+ * energy. Returns the number of directed bonds whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;

@@ -271,8 +271,8 @@ status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
         return OK;
     }
     levels_match_wave_dispersion_of_bonds(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
-    /* a point converts with its neighbours, these get bonds, and the families at their other ends extend one horizon
-     * more */
+    /* a point converts with its neighbours, these get bonds, and the neighbourhoods at their other ends extend one
+     * horizon more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
     const int safe = (int)ceil(reach) + 1;
     levels_set_conversion_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));

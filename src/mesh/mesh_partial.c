@@ -236,9 +236,9 @@ static void ends_free(struct mesh *mesh)
 }
 
 /* Computes share[modes]: how much a unit amplitude of each deformation mode of a cell changes the mean strain of the
- * family (the neighbours by bonds) of one of its points. c: numbers of modes and components; local: derivative of this
- * mean strain by the strain of the cell at the point (struct partial_stress); place: number of the point in the cell, 0
- * .. 2^dim - 1; B: strains of the points by the modes, from averaged_strains, or NULL if each point has its own
+ * neighbourhood (the neighbours by bonds) of one of its points. c: numbers of modes and components; local: derivative
+ * of this mean strain by the strain of the cell at the point (struct partial_stress); place: number of the point in the
+ * cell, 0 .. 2^dim - 1; B: strains of the points by the modes, from averaged_strains, or NULL if each point has its own
  * dilatation. */
 static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
 {

@@ -47,10 +47,10 @@ void softening_list_store_largest_stretches(const struct softening_list *l, stru
  * allocates storage in b->soft; from then on forces are computed from the stored largest stretches. */
 void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* For state-based models, computes the energy that the family of each particle (all its neighbours) has lost since the
- * last equilibrium because bonds softened, and adds it to the fracture energy of the row of the particle (its bonds).
- * p: particles midway between the positions of both equilibria, so that the error of the energy balance over the load
- * step is of second order in the size of the step. */
+/* For state-based models, computes the energy that the neighbourhood of each particle (all its neighbours) has lost
+ * since the last equilibrium because bonds softened, and adds it to the fracture energy of the row of the particle (its
+ * bonds). p: particles midway between the positions of both equilibria, so that the error of the energy balance over
+ * the load step is of second order in the size of the step. */
 void softening_add_family_losses(struct bonds *b, const struct particles *p);
 
 /* Resets the largest stretches of all softening bonds to those of the last equilibrium, which

@@ -151,9 +151,9 @@ static status search_run(struct run *e, struct search *f)
                                          : "steps.control: energy, which can follow a falling load");
 }
 
-/* Adds to the fracture energy what families of state-based models have lost since the last equilibrium by softening, at
- * positions midway. loads: list of mirror images; before[dim]: positions of the particles at that equilibrium [m]. Does
- * nothing in bond-based models. */
+/* Adds to the fracture energy what neighbourhoods of state-based models have lost since the last equilibrium by
+ * softening, at positions midway. loads: list of mirror images; before[dim]: positions of the particles at that
+ * equilibrium [m]. Does nothing in bond-based models. */
 static void family_losses_add(struct bonds *b, const struct particles *p, const struct loads *loads,
                               real *const *before)
 {

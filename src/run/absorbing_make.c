@@ -13,8 +13,8 @@ static struct impedance impedance_of(const struct material *m, real c11, real sh
 }
 
 /* Returns the wave impedances of material m with the elastic constants of bonds on the lattice: those of the material
- * for state-based models, those of the sums over the family (all neighbours of a particle) for bond-based models.
- * source: family; scene: dimension. */
+ * for state-based models, those of the sums over the neighbourhood (all neighbours of a particle) for bond-based
+ * models. source: neighbourhood; scene: dimension. */
 static struct impedance impedance_lattice(const struct bond_source *source, const struct scene *scene,
                                           const struct material *m)
 {

@@ -227,10 +227,10 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
 
 /* Returns the default of pd.surface, the rule by which bonds near surfaces are corrected, for the scene s. The
  * correction is needed only with `method: pd`, since only then bonds fill whole bodies up to their surfaces;
- * state-based families with a given normalisation are corrected already. Scenes in load steps with growing cracks use
- * the rule that ignores pre-cracks, because surfaces of a growing crack get no weights and the loads of pre-crack and
- * grown crack are compared (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5 %).
- * root: tree of the scene. */
+ * state-based neighbourhoods with a given normalisation are corrected already. Scenes in load steps with growing cracks
+ * use the rule that ignores pre-cracks, because surfaces of a growing crack get no weights and the loads of pre-crack
+ * and grown crack are compared (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5
+ * %). root: tree of the scene. */
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
@@ -243,12 +243,12 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
 }
 
 /* Sets in s the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (whether bonds are
- * normalised by a full family or by the family of each particle). root: tree of the scene, to see which keys are
- * given. */
+ * normalised by a full neighbourhood or by the neighbourhood of each particle). root: tree of the scene, to see which
+ * keys are given. */
 static void resolve_surface(struct scene *s, const struct yaml_node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
-    if (!scene_check_below(root, "pd", "normalisation")) /* an irregular lattice has no full families */
+    if (!scene_check_below(root, "pd", "normalisation")) /* an irregular lattice has no full neighbourhoods */
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 

@@ -15,7 +15,7 @@
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
-/* Number of means that the strain of a particle itself counts for, because it is that of its family [1]. */
+/* Number of means that the strain of a particle itself counts for, because it is that of its neighbourhood [1]. */
 #define MEANS_OF_FAMILY 0.3
 /* Largest radius within which strains are averaged [horizons]; takes 10^4 means of families. */
 enum { FARTHEST = 100 };
