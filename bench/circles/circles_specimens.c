@@ -118,7 +118,7 @@ static const char cantilever[] =
 
 /* clang-format on */
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 #define SETTLED 1e-6 /* time at which waves from a strain given at the start have crossed a body [s] */
 

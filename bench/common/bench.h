@@ -71,7 +71,7 @@ status bench_draw(const char *bench_name, int width, int height, void (*draw)(FI
  */
 void bench_print_machine(int thread_count);
 
-/* ---- bench_results.c: figures in bench/results ------------------------------------------------------------------- */
+/* ---- bench_results.c: results in bench/results ------------------------------------------------------------------- */
 
 /* State while the standard output of a bench is collected. printed: temporary file that receives it; output: copy of
  * the descriptor of the standard output; head: lines that precede the results. */

@@ -35,7 +35,7 @@ enum figure { START, LENGTH, ANGLE, FRACTURE, BALANCE, FIGURES };
 static const char *const key_of[FIGURES] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                             "energy.fracture", "energy.balance_error"};
 
-/* Mean of each figure over the runs around one time step, and root-mean-square deviation from it. runs: number of
+/* Mean of each result over the runs around one time step, and root-mean-square deviation from it. runs: number of
  * runs. */
 struct stepped {
     double mean[FIGURES], scatter[FIGURES];
@@ -76,7 +76,7 @@ static status stepped_take(struct bench_child *child, double *figure)
 }
 
 /* Runs the scene and method w with `runs` time steps around `share` times the critical one, as many at once as there
- * are cores. Stores means and root-mean-square deviations of the measured figures (start time, length, angle and
+ * are cores. Stores means and root-mean-square deviations of the measured results (start time, length, angle and
  * energies of the crack) in *to. Returns FAILED if a run fails. */
 static status stepped_run(const struct breaking_method *w, double share, int runs, struct stepped *to)
 {
@@ -103,8 +103,8 @@ static status stepped_run(const struct breaking_method *w, double share, int run
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Prints how the figures of the crack change from the smallest time step to the default one and to the largest one:
- * start time [%], length [spacings], angle [degree], fracture energy [%]. x[SHARES]: figures at all time steps; spacing
+/* Prints how the results of the crack change from the smallest time step to the default one and to the largest one:
+ * start time [%], length [spacings], angle [degree], fracture energy [%]. x[SHARES]: results at all time steps; spacing
  * [m]. */
 static void print_change(const struct stepped *x, double spacing)
 {
@@ -161,7 +161,7 @@ static status stepped_method(struct bench_table *t, const struct breaking_method
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Runs all scenes, peridynamic models, methods and rules for the last force of a breaking bond, and adds their figures
+/* Runs all scenes, peridynamic models, methods and rules for the last force of a breaking bond, and adds their results
  * to the table t. quick: short scenes and one model only. Returns REFUSED if no scene exists, FAILED if a run fails. */
 static status stepped_all(struct bench_table *t, bool quick)
 {

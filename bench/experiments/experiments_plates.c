@@ -27,7 +27,7 @@ static const char borden_text[] =
         }                                                                                                              \
     }
 
-/* Figures of a crack that branches: time of the first break, position and angle of the branches, and their number. */
+/* Results of a crack that branches: time of the first break, position and angle of the branches, and their number. */
 #define BRANCHES                                                                                                       \
     {"first bond breaks", "us", "crack.start_time", NULL, 1e6, NAN, NAN, ""},                                          \
         {"branches at x", "mm", NULL, branching_x_coordinate, 1e3, NAN, NAN, ""},                                      \

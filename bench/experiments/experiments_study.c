@@ -32,7 +32,7 @@ int experiment_compute_mean_and_interval(const double *value, int value_count, d
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of the figure f, a quantity to be measured, in run k of study s; NAN if the run has failed or does
+/* Returns the value of the result f, a quantity to be measured, in run k of study s; NAN if the run has failed or does
  * not have it. */
 static double figure_of_run(const struct convergence_study *s, int k, const struct experiment_figure *f)
 {
@@ -47,8 +47,8 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
     return f->scale * value;
 }
 
-/* Computes mean and scatter of a figure at each spacing level of study s: of the finest level into *row, of the next
- * two into row->coarse. value[k]: the figure in run k of the study; NAN to leave out the run, as for the angle of
+/* Computes mean and scatter of a result at each spacing level of study s: of the finest level into *row, of the next
+ * two into row->coarse. value[k]: the result in run k of the study; NAN to leave out the run, as for the angle of
  * branching of a crack that does not branch. */
 static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
 {

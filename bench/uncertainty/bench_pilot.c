@@ -1,4 +1,4 @@
-/* `cleave bench pilot`: tests whether `method: auto` reaches the requested accuracy. Each scene has one figure in
+/* `cleave bench pilot`: tests whether `method: auto` reaches the requested accuracy. Each scene has one result in
  * closed form, which is requested within some percent; pilot runs choose the run. */
 #include <errno.h>
 #include <math.h>

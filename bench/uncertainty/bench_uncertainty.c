@@ -81,7 +81,7 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the absolute difference between the mean of figure r at the finest spacing and its exact value. */
+/* Returns the absolute difference between the mean of result r at the finest spacing and its exact value. */
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
 /* Returns the share of the values in rows [1] whose error interval contains the exact value. nominal: probability with
@@ -96,7 +96,7 @@ static double covered(const struct known_rows *rows, double nominal)
     return (double)held / rows->n;
 }
 
-/* Returns the median over all figures in rows of half the width of their 95 % interval over their true error [1]. */
+/* Returns the median over all results in rows of half the width of their 95 % interval over their true error [1]. */
 static double width_median(const struct known_rows *rows)
 {
     double ratio[ROWS_MOST];
@@ -149,7 +149,7 @@ static status rows_write(const struct known_rows *rows)
 }
 
 /* Sends the gnuplot commands of two panels: the observed over the nominal probability of intervals, and the half width
- * of the 95 % interval over the true error, both relative to the figure. context: a struct known_rows. */
+ * of the 95 % interval over the true error, both relative to the result. context: a struct known_rows. */
 static void uncertainty_draw(FILE *to, const void *context)
 {
     const struct known_rows *rows = context;
@@ -177,7 +177,7 @@ static void uncertainty_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Makes the convergence studies of the scene k with all variants and spacings in `folder`, prints their figures with
+/* Makes the convergence studies of the scene k with all variants and spacings in `folder`, prints their results with
  * errors and intervals, and adds them to *rows. quick: one spacing only. Returns FAILED or REFUSED if a study does. */
 static status known_scene_measure(struct known_rows *rows, const struct known_scene *k, const char *folder, bool quick)
 {

@@ -1,4 +1,4 @@
-/* Scenes with one figure in closed form each. The texts leave out method, accuracy, spacing and output. */
+/* Scenes with one result in closed form each. The texts leave out method, accuracy, spacing and output. */
 #include "uncertainty.h"
 
 #define STEEL_LINE "material: {young: 200 GPa, density: 8000}\n" /* c = 5000 m/s */

@@ -1,4 +1,4 @@
-/* Scenes with figures whose exact values are known, for `cleave bench uncertainty` and `cleave bench pilot`. */
+/* Scenes with results whose exact values are known, for `cleave bench uncertainty` and `cleave bench pilot`. */
 #ifndef CLEAVE_UNCERTAINTY_BENCH
 #define CLEAVE_UNCERTAINTY_BENCH
 
@@ -6,7 +6,7 @@
 
 enum { KNOWN_FIGURES_MOST = 3, KNOWN_VARIANTS_MOST = 6, KNOWN_SPACINGS_MOST = 3 };
 
-/* A figure of summary.json and its exact value, from the closed form stated at the scene. */
+/* A result of summary.json and its exact value, from the closed form stated at the scene. */
 struct known_figure {
     const char *name;
     double exact;
@@ -21,7 +21,7 @@ struct known_scene {
     bool quick;
 };
 
-/* A scene for pilot runs (pilot_scenes.c), with a figure and its exact value. */
+/* A scene for pilot runs (pilot_scenes.c), with a result and its exact value. */
 struct pilot_scene {
     const char *name, *text, *figure;
     double exact;

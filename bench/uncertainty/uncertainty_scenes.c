@@ -1,4 +1,4 @@
-/* Scenes whose figures are known in closed form. The texts leave out method and spacing. */
+/* Scenes whose results are known in closed form. The texts leave out method and spacing. */
 #include "uncertainty.h"
 
 /* A bar of 20 mm (E = 200 GPa, rho = 8000, c = 5000 m/s) under a sudden traction of 100 MPa on its end for 3 us, in

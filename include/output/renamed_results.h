@@ -1,9 +1,9 @@
-/* Names of columns of history.csv and of figures of summary.json that have changed; old names work for one version. */
+/* Names of columns of history.csv and of results of summary.json that have changed; old names work for one version. */
 #ifndef CLEAVE_RENAMED_RESULTS
 #define CLEAVE_RENAMED_RESULTS
 
 /* Returns the present name of the column of history.csv or value of summary.json that an earlier version called `name`,
- * or NULL if `name` is no earlier name. Figures within an object have dotted names: conversion.returned. */
+ * or NULL if `name` is no earlier name. Results within an object have dotted names: conversion.returned. */
 const char *result_current_name(const char *name);
 
 /* Returns the other of the two names of a renamed column or figure: the present name of an earlier one, the earlier

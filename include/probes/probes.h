@@ -1,6 +1,6 @@
-/* Room `probes`: quantities measured in a run besides frames: time series, profiles, figures for scripts, the
- * balance of energy. Probes read particles, bonds, loads and tips and change none of them; the step and its reports
- * call them. */
+/* Room `probes`: quantities measured in a run besides frames: time series, profiles, results for scripts, the balance
+ * of energy. Probes read particles, bonds, loads and tips and change none of them; the step and its reports call
+ * them. */
 #ifndef CLEAVE_PROBES
 #define CLEAVE_PROBES
 

@@ -15,7 +15,7 @@
     "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|heat|growth|mass|"      \
     "brittleness|times|contact|coupling|cell|speed|shock|rayleigh"
 
-/* Warnings that a scene can silence by the key `accept`, one bit each: those up to ACCEPT_TIMES are about figures that
+/* Warnings that a scene can silence by the key `accept`, one bit each: those up to ACCEPT_TIMES are about results that
  * look like mistakes of units (src/engine/warn_units.c). */
 enum accept {
     ACCEPT_WAVES,

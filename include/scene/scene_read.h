@@ -19,8 +19,8 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
 /* Requirements of a scene with `method: auto` on the pilot runs that choose its method and spacing (study/pilot.h). */
 struct pilot_wish {
     bool wanted;           /* the scene has `method: auto` */
-    char figure[128];      /* figure of summary.json whose error is bounded; "": not given */
-    double within, budget; /* largest relative error of this figure [1]; time for the runs [s] */
+    char figure[128];      /* result of summary.json whose error is bounded; "": not given */
+    double within, budget; /* largest relative error of this result [1]; time for the runs [s] */
     double spacing;        /* given by the scene [m]; 0: not given */
     double spacing_most;   /* largest one that suits the strengths of bonds that soften [m]; INFINITY: any */
     char model[16];        /* given by the scene; "": not given */

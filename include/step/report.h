@@ -22,7 +22,7 @@ struct sampling {
     real momentum[DIM_MAX]; /* momentum of all particles at the start of the step [kg m/s] */
 };
 
-/* Half-width of the 95 % interval, in the unit of the figure, of a figure (number in summary.json), from a convergence
+/* Half-width of the 95 % interval, in the unit of the result, of a result (number in summary.json), from a convergence
  * study (study/uncertainty.h). */
 struct error_bar {
     char figure[NAME_MAX_LENGTH];
@@ -62,7 +62,7 @@ struct run_report {
     bool excerpt;                /* only the first steps run, for the export: no warning about the energy balance */
     bool quiet;                  /* no progress line */
     char note[96];               /* text for the progress line of load steps */
-    const struct error_bar *bar; /* [bars] half-widths of the error bars of figures in the summary, kept by reference;
+    const struct error_bar *bar; /* [bars] half-widths of the error bars of results in the summary, kept by reference;
                                     NULL: no study */
     int bars;
     const volatile sig_atomic_t *stop; /* set by a signal handler to stop after a checkpoint; may be NULL */

@@ -1,4 +1,4 @@
-/* Discretisation error of a figure (a scalar result), estimated from runs of one scene at several particle spacings. */
+/* Discretisation error of a scalar result, estimated from runs of one scene at several particle spacings. */
 #ifndef CLEAVE_CONVERGENCE
 #define CLEAVE_CONVERGENCE
 
@@ -8,16 +8,16 @@
  * number of runs of one level. */
 enum { LEVELS_LEAST = 3, LEVELS_MOST = 6, RUNS_MOST = 15 };
 
-/* Statistics of a figure (a scalar result) over the runs of one spacing level, which have about the same particle
- * spacing. mean, deviation, error: in the unit of the figure. */
+/* Statistics of a scalar result over the runs of one spacing level, which have about the same particle spacing. mean,
+ * deviation, error: in the unit of the result. */
 struct level_figures {
-    double spacing, mean; /* mean spacing [m]; mean of the figure */
+    double spacing, mean; /* mean spacing [m]; mean of the result */
     double deviation;     /* standard deviation of a single run */
-    double error;         /* half of the 95 % interval of the mean: Student's t and the resolution of the figure */
+    double error;         /* half of the 95 % interval of the mean: Student's t and the resolution of the result */
     int runs;
 };
 
-/* Behaviour of a figure (a scalar result) as the particle spacing decreases. */
+/* Behaviour of a scalar result as the particle spacing decreases. */
 enum verdict {
     VERDICT_CONVERGES,  /* converges with an observed order of 0.5 or more */
     VERDICT_SCATTERS,   /* differences between levels, or their order, are smaller than the scatter of the runs */
@@ -30,8 +30,8 @@ enum verdict {
 /* Words for the values of enum verdict, in their order, for tables. */
 extern const char *const verdict_name[VERDICTS];
 
-/* Convergence of a figure (a scalar result) over spacing levels; level 0 is the finest. All members but the orders are
- * in units of the figure. */
+/* Convergence of a scalar result over spacing levels; level 0 is the finest. All members but the orders are in units of
+ * the result. */
 struct convergence {
     struct level_figures level[LEVELS_MOST];
     int levels;
@@ -50,22 +50,22 @@ struct convergence {
                                          * difference of squares */
 };
 
-/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from `run_count` runs, and
- * stores them in *c. value[k]: figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k]
- * = 0 .. level_count - 1: its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is
- * quantised at this level; NULL if it is not quantised. Returns false if one of the three finest levels has no value.
- */
+/* Determines observed order, verdict and uncertainty intervals of a scalar result from `run_count` runs, and stores
+ * them in *c. value[k]: result of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k] = 0 ..
+ * level_count - 1: its spacing level, 0 the finest. resolution[level]: half of the step in which the result is
+ * quantised at this level; NULL if it is not quantised. Returns false if one of the three finest levels has no
+ * value. */
 bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
                                         const int *level, int run_count, int level_count, const double *resolution);
 
-/* Computes mean, standard deviation and error of the mean of a figure (scalar result) over runs that differ by chance
- * alone, such as by a random seed, and stores them in *l. value[run_count]: value of the figure in each run; values
- * that are not finite are left out. */
+/* Computes mean, standard deviation and error of the mean of a scalar result over runs that differ by chance alone,
+ * such as by a random seed, and stores them in *l. value[run_count]: value of the result in each run; values that are
+ * not finite are left out. */
 void convergence_summarise_runs(struct level_figures *l, const double *value, int run_count);
 
-/* Returns the half-width of the interval centred at `centre` that contains the true value of the figure with
+/* Returns the half-width of the interval centred at `centre` that contains the true value of the result with
  * probability `probability` [1], from the means of all spacing levels and their errors (convergence_interval.c).
- * `centre` and the result have the unit of the figure. */
+ * `centre` and the result have the unit of the result. */
 double convergence_interval_half_width(const struct convergence *c, double centre, double probability);
 
 /* Computes the likely order of convergence, the extrapolated value and the uncertainties (members order_likely,

@@ -45,15 +45,15 @@ struct convergence_study {
     int own;                  /* level with the spacing of the scene; -1: that spacing exceeds the budget */
     double budget, begun;     /* allowed duration [s]; start time on wall_clock_seconds [s] */
     double spent, expected;   /* duration of the first run [s]; predicted duration of all runs, in parallel [s] */
-    struct study_table table; /* figures of all runs */
+    struct study_table table; /* results of all runs */
 };
 
-/* Convergence of one figure (a scalar result), and its sensitivity to parameters of the discretisation. */
+/* Convergence of one scalar result, and its sensitivity to parameters of the discretisation. */
 struct scalar_result_study {
-    const char *name;     /* name of the figure; borrowed */
+    const char *name;     /* name of the result; borrowed */
     char unit[UNIT_ROOM]; /* SI unit; "": none */
     struct convergence c; /* means, errors and order of convergence */
-    double step_moves;    /* change of the figure for a time step 10 % longer; NAN: unknown */
+    double step_moves;    /* change of the result for a time step 10 % longer; NAN: unknown */
     double spacing_moves; /* change from level 1 to level 0 */
     double horizon_moves; /* change for a horizon one spacing longer, at level 1; NAN: unknown */
 };
@@ -65,7 +65,7 @@ struct convergence_request {
     const struct scene_override *override; /* [overrides] values that replace those of the scene file */
     int overrides, levels, runs;           /* number of overrides; of levels; largest number of runs per level */
     double budget;                         /* allowed duration [s] */
-    const char *const *wanted; /* [wanteds] names of requested figures, with a warning if the first run lacks one;
+    const char *const *wanted; /* [wanteds] names of requested results, with a warning if the first run lacks one;
                                 * NULL: none requested */
     int wanteds;
     bool fixed_horizon, finer;    /* fixed_horizon: as in struct convergence_study; finer: also use spacings below that
@@ -73,19 +73,19 @@ struct convergence_request {
     struct study_options options; /* options that all studies have */
 };
 
-/* Runs a convergence study as *w requests and stores its runs and results in *s. Figures (scalar results) of failed
+/* Runs a convergence study as *w requests and stores its runs and results in *s. Scalar results of failed
  * runs are NAN in the table s->table. Returns REFUSED if the scene cannot be refined, if its runs cannot have a
- * requested figure, or if the time budget is too small (the message states the required one). Returns FAILED if the
+ * requested result, or if the time budget is too small (the message states the required one). Returns FAILED if the
  * coarsest run fails, INTERRUPTED if w->options.stop is set. Release s with convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 
 /* Frees the scene, runs and table of the convergence study *s, which convergence_study_run has filled. Files remain. */
 void convergence_study_free(struct convergence_study *s);
 
-/* Determines the convergence of the figures (scalar results) of the study s that describe the body and have values at
- * all spacing levels. wanted_names[wanted_count]: names of the figures to be treated; if wanted_count is 0, all are.
- * Stores an allocated array in *figure, which the caller releases with memory_free, and its length in *figure_count.
- * Returns REFUSED if a named figure does not exist, FAILED if no figure has values at all levels. */
+/* Determines the convergence of the scalar results of the study s that describe the body and have values at all spacing
+ * levels. wanted_names[wanted_count]: names of the results to be treated; if wanted_count is 0, all are. Stores an
+ * allocated array in *result, which the caller releases with memory_free, and its length in *figure_count. Returns
+ * REFUSED if a named result does not exist, FAILED if no result has values at all levels. */
 status scalar_results_determine_convergence(const struct convergence_study *s, const char *const *wanted_names,
                                             int wanted_count, struct scalar_result_study **figure, int *figure_count);
 
@@ -94,18 +94,18 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
  * since study_lock_folder refuses it. */
 status scalar_results_check_replaceable(const char *folder);
 
-/* Writes the table of the figures (scalar results) figure[figures] to the file converge.csv in the folder of the study
- * s, and the text of the scene to study.yaml, the file by which the study is recognised. Returns FAILED if a file
- * cannot be written. */
+/* Writes the table of the scalar results figure[figures] to the file converge.csv in the folder of the study s, and the
+ * text of the scene to study.yaml, the file by which the study is recognised. Returns FAILED if a file cannot be
+ * written. */
 status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Prints to standard output a table of the figures (scalar results) figure[figures] of the study s, a sentence on the
- * convergence of each figure, and the parameter of the discretisation to which it is most sensitive. */
+/* Prints to standard output a table of the scalar results figure[figures] of the study s, a sentence on the convergence
+ * of each result, and the parameter of the discretisation to which it is most sensitive. */
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Draws the figures (scalar results) figure[figures] against the particle spacing as pictures/convergence.png in the
- * folder of the study s. If the runs have cracks, also draws the crack paths as pictures/path.png. Returns FAILED if a
- * picture cannot be drawn. */
+/* Draws the scalar results figure[figures] against the particle spacing as pictures/convergence.png in the folder of
+ * the study s. If the runs have cracks, also draws the crack paths as pictures/path.png. Returns FAILED if a picture
+ * cannot be drawn. */
 status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
 #endif

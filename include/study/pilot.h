@@ -20,9 +20,9 @@ struct pilot {
 
 struct pilot_wish;
 
-/* Prints to `out` which figure (scalar result) the pilot runs of a scene evaluate, which methods and spacings they vary
- * and how much time they take. wish: what the scene requires of its pilot runs; scene: path of the scene file. Returns
- * REFUSED if no pilot runs of the scene are possible. */
+/* Prints to `out` which scalar result the pilot runs of a scene evaluate, which methods and spacings they vary and how
+ * much time they take. wish: what the scene requires of its pilot runs; scene: path of the scene file. Returns REFUSED
+ * if no pilot runs of the scene are possible. */
 status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *out);
 
 /* Reads the scene file `scene` with the overrides override[overrides] into *s. If it has `method: auto`, makes pilot

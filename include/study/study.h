@@ -189,7 +189,7 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
 /* ---- results (study_table.c, study_draw.c) ----------------------------------------------------------------------- */
 
 /* All numbers in the summaries of the runs of a study. figure: [figures] their names; value: [figures][cases] value of
- * a figure in a run, NAN if the run has no such figure. */
+ * a result in a run, NAN if the run has no such result. */
 struct study_table {
     char **figure;
     double **value;
@@ -203,18 +203,18 @@ status study_table_read(struct study_table *t, const struct study *s);
 /* Frees the names and values in the table *t, which study_table_read has allocated. */
 void study_table_free(struct study_table *t);
 
-/* Returns the index in t->figure of the figure (number in summary.json) called `name`, or -1 if there is none. */
+/* Returns the index in t->figure of the result (number in summary.json) called `name`, or -1 if there is none. */
 int study_index_of_result(const struct study_table *t, const char *name);
 
-/* Checks that runs of the scene s can have a figure (a number in summary.json) called `name`. Returns REFUSED if they
+/* Checks that runs of the scene s can have a result (a number in summary.json) called `name`. Returns REFUSED if they
  * cannot, with the most similar name in the message. */
 status result_name_check_is_known(const struct scene *s, const char *name);
 
-/* Checks before the runs of the study s that each figure (number in summary.json) name[names] can be in the summary of
+/* Checks before the runs of the study s that each result (number in summary.json) name[names] can be in the summary of
  * at least one run. Returns REFUSED if not, with the most similar name in the message, or if a scene is invalid. */
 status study_check_result_names(const struct study *s, const char *const *name, int names);
 
-/* Returns true if the figure (number in summary.json) called `name` describes the computation or the discretisation
+/* Returns true if the result (number in summary.json) called `name` describes the computation or the discretisation
  * (run time, number of particles) instead of the body. */
 bool study_result_is_technical(const char *name);
 
@@ -222,8 +222,8 @@ bool study_result_is_technical(const char *name);
  * if there is none. study_write_unit_of_result takes units from it. */
 void study_read_history_header(char *header, size_t capacity, const struct study *s);
 
-/* Determines the SI unit of the figure (a number in summary.json) called `result_name` and writes it to unit[capacity];
- * "" if the figure has no unit or it is unknown. header: header line of history.csv, as study_read_history_header
+/* Determines the SI unit of the result (a number in summary.json) called `result_name` and writes it to unit[capacity];
+ * "" if the result has no unit or it is unknown. header: header line of history.csv, as study_read_history_header
  * returns it. */
 void study_write_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name);
 
@@ -232,7 +232,7 @@ void study_write_unit_of_result(char *unit, size_t capacity, const char *header,
 void study_print_warnings(const struct study *s, FILE *out);
 
 /* Writes the table sweep.csv to the folder of the study s, one line for each run: name, state, values of the keys
- * key[keys], figures. Returns FAILED if the file cannot be written. */
+ * key[keys], results. Returns FAILED if the file cannot be written. */
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 
 /* Checks that the table sweep.csv and the pictures of the study s may be written, one picture for each of the keys
@@ -240,18 +240,18 @@ status study_write_table(const struct study_table *t, const struct study *s, con
  * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys);
 
-/* If the only varied key of the study s is a random seed, prints to `to` a line for each figure (number in
+/* If the only varied key of the study s is a random seed, prints to `to` a line for each result (number in
  * summary.json) with mean, standard deviation and half of the 95 % interval of the mean over the runs; else prints
  * nothing. t: table of the results; key[keys]: varied keys of the study and their values; result[results]: names of the
- * figures; if results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no such
- * figure. */
+ * results; if results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no such
+ * result. */
 status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
                                     const struct varied_key *key, int keys, const char *const *result, int results);
 
-/* Draws figures of a study (numbers in summary.json) against the values of each of its varied keys, as pictures/KEY.png
+/* Draws results of a study (numbers in summary.json) against the values of each of its varied keys, as pictures/KEY.png
  * in the folder of the study s, and over two keys as pictures/map.png. t: table of the results; key[keys]: keys of the
- * study and their values; result[results]: names of the figures, up to six; if results is 0, the first ones that differ
- * between runs are drawn. Returns REFUSED if there is no such figure, FAILED if a picture cannot be drawn. */
+ * study and their values; result[results]: names of the results, up to six; if results is 0, the first ones that differ
+ * between runs are drawn. Returns REFUSED if there is no such result, FAILED if a picture cannot be drawn. */
 status study_draw_results_over_keys(const struct study_table *t, const struct study *s, const struct varied_key *key,
                                     int keys, const char *const *result, int results);
 

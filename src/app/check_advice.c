@@ -2,8 +2,8 @@
  * error. Limits and their basis:
  *
  *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose particles lack
- *                neighbours; how far its stiffness is off: strips and bars in pure bending, tension and torsion. First frequencies
- *                (`cleave bench accuracy=beam` and `=rod`) are off by half of that
+ *                neighbours; how far its stiffness is off: strips and bars in pure bending, tension and torsion. First
+ *                frequencies (`cleave bench accuracy=beam` and `=rod`) are off by half of that
  *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from
  *                an interface, the group velocity of the shortest waves is off by a tenth
  *   stress       sigma = rho c v ahead of a part that moves with v; waves of both ends meet and reflect: four times

@@ -19,7 +19,7 @@ enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
 struct converge_arguments {
     struct convergence_request wish;
     struct varied_key *key; /* [keys] overrides (-s), each with one value */
-    const char **wanted;    /* [wanteds] names of requested figures */
+    const char **wanted;    /* [wanteds] names of requested results */
     int keys, wanteds;
     struct picture_size size;                      /* size and format of pictures */
     char folder[NAME_MAX_LENGTH + CASE_NAME_ROOM]; /* name of the folder without -o */

@@ -10,7 +10,7 @@
 
 static const char usage[] = "sweep " SWEEP_WORDS;
 
-enum { FIGURES_MOST = 6 }; /* largest number of figures (panels) of a picture */
+enum { FIGURES_MOST = 6 }; /* largest number of results (panels) of a picture */
 
 /* Arguments of `cleave sweep`. */
 struct sweep_arguments {
@@ -19,7 +19,7 @@ struct sweep_arguments {
     int keys;
     struct study_options options;
     bool list, collect;           /* only list the runs; only collect the results of finished runs */
-    const char *of[FIGURES_MOST]; /* [asked] names of the figures that pictures show */
+    const char *of[FIGURES_MOST]; /* [asked] names of the results that pictures show */
     int asked;
     struct picture_size size; /* size and format of pictures */
     char *words;              /* text of study_options_compose_from_arguments */
@@ -40,8 +40,8 @@ static status key_add(struct sweep_arguments *a, const char *text)
     return OK;
 }
 
-/* Appends the name of a figure, the value of an option --of, to the list a->of. name: NULL if the option has no value.
- * Returns REFUSED if name is NULL or the list already has FIGURES_MOST figures. */
+/* Appends the name of a result, the value of an option --of, to the list a->of. name: NULL if the option has no value.
+ * Returns REFUSED if name is NULL or the list already has FIGURES_MOST results. */
 static status drawn_figure_add(struct sweep_arguments *a, const char *name)
 {
     TRY(option_check_has_value("--of", name != NULL, usage));

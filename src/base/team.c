@@ -26,7 +26,7 @@ struct place {
 
 /* The memory of the machine, or the smallest limit below it. It is read only once because reading takes about 6 ms, as
  * long as a hundred steps of a small scene. hwloc may not report the memory in a container, and only its initial part
- * in a virtual machine; the figure of the system is then used. */
+ * in a virtual machine; the result of the system is then used. */
 static struct memory_limit memory;
 
 /* The name of the processor, "" before the topology of the machine has been read. */

@@ -6,7 +6,7 @@
 #include "bonds_parts.h"
 #include "surface_parts.h"
 
-/* ---- offsets of a full neighbourhood ------------------------------------------------------------------------------ */
+/* ---- offsets of a full neighbourhood ----------------------------------------------------------------------------- */
 
 /* Appends the offset at[dim] [spacings] to the list o, with its length, direction and weight in the neighbourhood f, if
  * it is within the cutoff. Sets its number in o->number, -1 if it is not. states: true if the weights are those of

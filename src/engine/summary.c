@@ -1,5 +1,5 @@
-/* Writes summary.json, the figures of a run for scripts. Physical figures come first and do not depend on the number
- * of threads; figures that depend on the machine follow. */
+/* Writes summary.json, the results of a run for scripts. Physical results come first and do not depend on the number of
+ * threads; results that depend on the machine follow. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 #include "output/output.h"
 #include "probes/diagnostics.h"
 
-/* ---- physical figures -------------------------------------------------------------------------------------------- */
+/* ---- physical results -------------------------------------------------------------------------------------------- */
 
 /* Writes name, method, status, numbers of steps and particles, and times of run e to the JSON object j. s: status with
  * which the run has ended; message: its error message, "" without one. */
@@ -108,7 +108,7 @@ static status fragments_write(const struct particles *part, const struct run_rep
     return written;
 }
 
-/* ---- figures of the machine -------------------------------------------------------------------------------------- */
+/* ---- results of the machine -------------------------------------------------------------------------------------- */
 
 /* Writes the results that depend on the machine to the JSON object j: processor, commit, threads, kernels, times and
  * memory. r: counts of the run; steps: number of its steps; threads: number of threads; spent: times of the run [s]. */

@@ -27,7 +27,7 @@ static bool spins(const struct scene *s)
 }
 
 /* Adds a warning to *to if bodies of scene s rotate on the grid and velocities are transferred by FLIP, which does not
- * conserve their angular momentum. grid: with groups of points that rotate together, momentum is conserved. The figures
+ * conserve their angular momentum. grid: with groups of points that rotate together, momentum is conserved. The results
  * in the warning were measured with a plate that rotates freely, with edges at 30 m/s and cells of two spacings. */
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {

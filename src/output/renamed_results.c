@@ -1,4 +1,4 @@
-/* Earlier names of columns of history.csv and of figures of summary.json. src/python/cleave/_tables.py has the same
+/* Earlier names of columns of history.csv and of results of summary.json. src/python/cleave/_tables.py has the same
  * list. */
 #include "output/renamed_results.h"
 

@@ -1,4 +1,4 @@
-/* The balance of energy and momentum and the figures of cracks, in the summary and in checkpoints. */
+/* The balance of energy and momentum and the results of cracks, in the summary and in checkpoints. */
 #include <math.h>
 #include <stdio.h>
 

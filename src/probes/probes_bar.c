@@ -1,8 +1,8 @@
 /* A computed bar compared with a closed form (exact.h).
  *
  * There are two stresses, which differ in a peridynamic bar that is not calibrated: the bond flux, which balances
- * momentum, and E x strain. Figures without a suffix use the flux; those with `_strain` compare E x strain with E x
- * the exact strain. */
+ * momentum, and E x strain. Results without a suffix use the flux; those with `_strain` compare E x strain with E x the
+ * exact strain. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -115,7 +115,7 @@ void bar_probe_compute_profile_line(const struct bar *bar, const struct observed
     memcpy(value, all, sizeof all);
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 /* Results of an EXACT probe, in the order of its table: errors, positions of fronts, values of plateaus. */
 enum figure {

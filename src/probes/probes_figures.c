@@ -1,4 +1,4 @@
-/* Quantities that probes measure, and their figures in summary.json. */
+/* Quantities that probes measure, and their results in summary.json. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -220,9 +220,9 @@ void probe_compute_momentum_of_particles(const struct probe *q, const struct par
         momentum[d] = reproducible_sum(q->n, momentum_term, &(struct region_sum){.q = q, .o = &o, .component = d});
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Receiver of the figures of probe q in run o: emit(context, name of the probe, name of the figure, value). */
+/* Receiver of the results of probe q in run o: emit(context, name of the probe, name of the result, value). */
 struct emitter {
     void (*emit)(void *context, const char *probe, const char *quantity, real value);
     void *context;

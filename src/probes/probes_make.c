@@ -78,7 +78,7 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         for (int k = 0; k < RIGID_FIGURES; k++) column_add(s, q, rigid_figure[k].name, rigid_figure[k].unit);
         break;
     default:
-        break; /* all other kinds have figures only */
+        break; /* all other kinds have results only */
     }
 }
 

@@ -49,7 +49,7 @@ struct sampled_motion {
  * the kinds of probes that use a member. */
 struct probe {
     struct probe_request request; /* its region is kept by reference */
-    bool of_history;              /* REACTION: added for a support that no probe of the scene measures; no figures */
+    bool of_history;              /* REACTION: added for a support that no probe of the scene measures; no results */
     bool rests;                   /* REACTION: of a support at rest, without columns of displacement */
     int first, columns;           /* index of its first column in the history; number of its columns */
     int64_t n;

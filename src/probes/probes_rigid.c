@@ -100,7 +100,7 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
     }
 }
 
-enum { RIGID_PLACES = 3 }; /* number of figures that depend on positions only */
+enum { RIGID_PLACES = 3 }; /* number of results that depend on positions only */
 
 /* Raises m->most[k], the largest |value[k]| so far, to the present |value[k]| for k = first .. end - 1. m->most[k]
  * becomes NAN if value[k] is NAN. */
@@ -109,7 +109,7 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the figures of RIGID probe q of run o that depend on positions: value[0], the rotation angle of the body
+/* Computes the results of RIGID probe q of run o that depend on positions: value[0], the rotation angle of the body
  * [rad]; value[1], its largest absolute principal stress [Pa]; value[2], its largest in-plane shear stress [Pa]. The
  * angle continues beyond half a turn if the body rotates by less than half a turn between samples. */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value)

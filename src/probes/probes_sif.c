@@ -29,7 +29,7 @@ struct sif_tracked {
     int growth;                /* index of the crack with prescribed or SIF-controlled growth; -1: none */
     real reach;                /* outer radius of the largest contour [m] */
     int contours;
-    /* [contours] contour 0 gives the figures, the others are compared with contour 0 */
+    /* [contours] contour 0 gives the results, the others are compared with contour 0 */
     struct contour contour[SIF_CONTOURS_MAX + 1];
     struct crack *crack;             /* pre-cracks of the scene, and a straight crack behind a tip without one */
     real behind[2][DIM_MAX];         /* ends of this straight crack [m] */

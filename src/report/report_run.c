@@ -20,7 +20,7 @@
  * are a third larger. PICTURE_PARTICLES: number of particles above which the scene is not drawn. */
 enum { FILM_BYTES = 9 << 20, HISTORY_BYTES = 1 << 20, PICTURE_PARTICLES = 2000000 };
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 /* Arguments of write_unit: the page, and the header of history.csv, which states units. */
 struct units {
@@ -28,8 +28,8 @@ struct units {
     const char *header;
 };
 
-/* Writes the unit of the figure `key`, a number in summary.json, to the page if the figure has a unit. context: pointer
- * to a struct units; value: value of the figure, not used. It is called once for each figure. */
+/* Writes the unit of the result `key`, a number in summary.json, to the page if the result has a unit. context: pointer
+ * to a struct units; value: value of the result, not used. It is called once for each result. */
 static void write_unit(void *context, const char *key, double value)
 {
     const struct units *u = context;

@@ -123,7 +123,7 @@ static void write_reasons(struct page *p, const char *folder)
 }
 
 /* Adds the units of the columns of sweep.csv to the page p: for varied keys the units of numbers without a unit, for
- * figures the units in the header of history.csv of the first run that has such a file. folder: folder of the study. */
+ * results the units in the header of history.csv of the first run that has such a file. folder: folder of the study. */
 static void write_study_units(struct page *p, const char *folder)
 {
     char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;
@@ -135,7 +135,7 @@ static void write_study_units(struct page *p, const char *folder)
     if (file_read_whole(path_join(folder, "sweep.csv").text, &table, &length) != OK) return;
     table[strcspn(table, "\r\n")] = '\0';
     json_open(&p->json, "units", '{');
-    bool keys = true; /* the varied keys are before the figures, of which `steps` is the first */
+    bool keys = true; /* the varied keys are before the results, of which `steps` is the first */
     for (char *rest = table, *column; (column = strsep(&rest, ","));) {
         keys = keys && strcmp(column, "steps") != 0;
         if (keys)

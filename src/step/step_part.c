@@ -31,17 +31,16 @@ static void stability_free_all(struct run *e)
     if (e->stability) memory_free(e->stability->pairs.pair);
 }
 
-/* State of put_figure while it writes figures (scalar results) of probes to JSON: name of the present probe, and
- * whether its object is open. All figures of one probe come in succession; a new name ends the object of the previous
- * probe. */
+/* State of put_figure while it writes scalar results of probes to JSON: name of the present probe, and whether its
+ * object is open. All results of one probe come in succession; a new name ends the object of the previous probe. */
 struct probe_sink {
     struct json *json;
     char name[NAME_MAX_LENGTH];
     bool open;
 };
 
-/* Writes one figure (scalar result) of a probe to a JSON object named after the probe. Figures that are not finite are
- * omitted. context: a struct probe_sink; probe: name of the probe; quantity: name of the figure; value: in SI units. */
+/* Writes one scalar result of a probe to a JSON object named after the probe. Results that are not finite are omitted.
+ * context: a struct probe_sink; probe: name of the probe; quantity: name of the result; value: in SI units. */
 static void put_figure(void *context, const char *probe, const char *quantity, real value)
 {
     struct probe_sink *sink = context;
@@ -64,8 +63,8 @@ static void put_probes(struct json *j, const struct probes *s, const struct obse
     json_close(j, '}');
 }
 
-/* Writes the JSON object `uncertainty` with the half-widths of the error bars of figures (scalar results) to j, if a
- * study of this scene has stored them in r. */
+/* Writes the JSON object `uncertainty` with the half-widths of the error bars of scalar results to j, if a study of
+ * this scene has stored them in r. */
 static void put_error_bars(struct json *j, const struct run_report *r)
 {
     if (r->bars == 0) return;

@@ -1,4 +1,4 @@
-/* Observed order, grid convergence index and verdict of a figure; its intervals are in convergence_interval.c. */
+/* Observed order, grid convergence index and verdict of a result; its intervals are in convergence_interval.c. */
 #include "study/convergence.h"
 
 #include <math.h>
@@ -84,8 +84,8 @@ static void errors_find(struct convergence *c, const double *resolution)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of a figure (scalar result) at the three finest spacing
- * levels l[3] (l[0] the finest) that would result if the error were proportional to h^p, with the spacing h. */
+/* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of a scalar result at the three finest spacing levels
+ * l[3] (l[0] the finest) that would result if the error were proportional to h^p, with the spacing h. */
 static double ratio_at(const struct level_figures *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
@@ -93,7 +93,7 @@ static double ratio_at(const struct level_figures *l, double p)
     return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
 }
 
-/* Returns the order p for which the means m of a figure at the three finest spacing levels l[3] (l[0] the finest) are
+/* Returns the order p for which the means m of a result at the three finest spacing levels l[3] (l[0] the finest) are
  * linear in h^p, with the spacing h. It is found by bisection between -10 and 20. ratio: measured (m2 - m1)/(m1 -
  * m0). */
 static double order_find(const struct level_figures *l, double ratio)
@@ -115,9 +115,9 @@ struct orders {
     double low, seen, high;
 };
 
-/* Computes the observed order of convergence of a figure (a scalar result) from its means at the three finest spacing
- * levels l[3] (l[0] the finest), and the range of orders that the errors of the means allow, into *o. Returns false if
- * the means oscillate by more than their errors. */
+/* Computes the observed order of convergence of a scalar result from its means at the three finest spacing levels l[3]
+ * (l[0] the finest), and the range of orders that the errors of the means allow, into *o. Returns false if the means
+ * oscillate by more than their errors. */
 static bool orders_find(struct orders *o, const struct level_figures *l)
 {
     const double sign =
@@ -132,7 +132,7 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
     return true;
 }
 
-/* Determines verdict, observed order and grid convergence index (Roache 1998) of a figure (a scalar result of the runs)
+/* Determines verdict, observed order and grid convergence index (Roache 1998) of a result (a scalar result of the runs)
  * from its means at the three finest spacing levels in c, and stores them in *c. The order is NAN if the means
  * oscillate or differ by no more than their errors; the index is NAN if the order is NAN or below 1/2. */
 static void convergence_judge(struct convergence *c)

@@ -1,5 +1,4 @@
-/* Draws the pictures of a convergence study: figures (scalar results) against the spacing, and the crack paths of all
- * runs. */
+/* Draws the pictures of a convergence study: scalar results against the spacing, and the crack paths of all runs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,8 +13,8 @@
 #include "study_axis.h"
 #include "study_internal.h"
 
-/* Largest number of figures (scalar results) that are drawn, and of panels side by side; largest number of crack tips
- * followed in one run; largest number of intervals of an axis of spacings. */
+/* Largest number of scalar results that are drawn, and of panels side by side; largest number of crack tips followed in
+ * one run; largest number of intervals of an axis of spacings. */
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16, TICS_MOST = 7 };
 #define SMOOTH 2.0  /* half of the growth over which positions of a path are averaged [spacings] */
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
@@ -38,9 +37,9 @@ status scalar_results_check_replaceable(const char *folder)
     return picture_check_replaceable(convergence_picture(folder, "path").text);
 }
 
-/* ---- figures over the spacing ------------------------------------------------------------------------------------ */
+/* ---- results over the spacing ------------------------------------------------------------------------------------ */
 
-/* Returns the lower end of the 95 % interval of the figure f at spacing level k, in the unit of the figure. That of a
+/* Returns the lower end of the 95 % interval of the result f at spacing level k, in the unit of the result. That of a
  * positive time, length of a crack or speed of its tip is not below 0, as none of these can be. */
 static double interval_begin(const struct scalar_result_study *f, int k)
 {
@@ -49,9 +48,9 @@ static double interval_begin(const struct scalar_result_study *f, int k)
     return positive && f->c.level[k].mean >= 0 ? fmax(begin, 0) : begin;
 }
 
-/* Sends three data blocks of the figure f, a number in summary.json of the runs of the study s, to gnuplot's stream
- * `to`. Their names are $r, $m and $e followed by the number `panel`. $r: spacing and figure of every run. $m: spacing,
- * mean and ends of the 95 % interval of every spacing level. $e: spacing 0 and the extrapolated figure. */
+/* Sends three data blocks of the result f, a number in summary.json of the runs of the study s, to gnuplot's stream
+ * `to`. Their names are $r, $m and $e followed by the number `panel`. $r: spacing and result of every run. $m: spacing,
+ * mean and ends of the 95 % interval of every spacing level. $e: spacing 0 and the extrapolated result. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_index_of_result(&s->table, f->name);
@@ -67,14 +66,14 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
     fprintf(to, "EOD\n$e%d << EOD\n0 %.10g\nEOD\n", panel, f->c.extrapolated / factor);
 }
 
-/* Returns true if the picture shows a curve from the means of a figure (a scalar result) to the extrapolated value at
- * spacing 0: if the figure converges, even slowly, and its order is known. c: convergence of the figure. */
+/* Returns true if the picture shows a curve from the means of a scalar result to the extrapolated value at spacing 0:
+ * if the result converges, even slowly, and its order is known. c: convergence of the result. */
 static bool is_extrapolated(const struct convergence *c)
 {
     return (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
 }
 
-/* Plots the figure f (a scalar result) in panel number `panel` from the data blocks of send_figure: its runs, the means
+/* Plots the result f (a scalar result) in panel number `panel` from the data blocks of send_figure: its runs, the means
  * with their intervals and, if it converges, the curve to spacing 0. to: gnuplot's stream; metre: unit of the spacings
  * [m]. */
 static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel, double metre)
@@ -98,7 +97,7 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
             panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* Sends the distances between tics (labelled marks) of a panel that shows the figure f (a scalar result) to gnuplot,
+/* Sends the distances between tics (labelled marks) of a panel that shows the result f (a scalar result) to gnuplot,
  * such that the numbers do not touch. to: gnuplot's stream; wide, high: size of the panel [pixel]; coarsest: coarsest
  * spacing, in the unit of the horizontal axis. */
 static void send_tics_of_panel(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f,
@@ -121,9 +120,9 @@ static void send_tics_of_panel(FILE *to, const struct convergence_study *s, cons
     study_axis_send(to, "y", &axis, up);
 }
 
-/* Layout of the panels of a picture of figures (scalar results) [pixel]. width, height: size of the picture; columns,
- * rows: numbers of panels; cell_wide, cell_high: size of a panel with its texts; left, right, title, below: margins of
- * a panel for these texts. The key (legend) is on the right or, in narrow pictures, below the panels. */
+/* Layout of the panels of a picture of scalar results [pixel]. width, height: size of the picture; columns, rows:
+ * numbers of panels; cell_wide, cell_high: size of a panel with its texts; left, right, title, below: margins of a
+ * panel for these texts. The key (legend) is on the right or, in narrow pictures, below the panels. */
 struct figures_layout {
     int width, height, columns, rows;
     double cell_wide, cell_high, left, right, title, below;

@@ -1,4 +1,4 @@
-/* Figures of a convergence study: selection, table and printed summary. */
+/* Results of a convergence study: selection, table and printed summary. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,24 +10,24 @@
 #include "convergence_units.h"
 #include "study/uncertainty.h"
 
-/* Largest number of figures (scalar results) that are printed. */
+/* Largest number of scalar results that are printed. */
 enum { PRINTED_MOST = 24 };
 
-/* Factor from the change of a figure (a scalar result), when the horizon is made one spacing longer, to the error that
- * remains in the figure. The error of sums over the neighbours on an irregular lattice does not decrease with the
- * spacing, only with the number m of spacings in the horizon: as about m^(-3/2) (empirical). One step of the horizon
- * thus removes only a third of it. */
+/* Factor from the change of a scalar result, when the horizon is made one spacing longer, to the error that remains in
+ * the result. The error of sums over the neighbours on an irregular lattice does not decrease with the spacing, only
+ * with the number m of spacings in the horizon: as about m^(-3/2) (empirical). One step of the horizon thus removes
+ * only a third of it. */
 #define HORIZON_REST 2.9
 
 /* Largest standard deviation of an order of convergence that is printed. For comparison: an order about which the runs
  * say nothing is uniform from 0.5 to 2, with a standard deviation of 0.43. */
 #define ORDER_KNOWN 0.35
 
-/* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
+/* ---- sensitivity of a result ------------------------------------------------------------------------------------- */
 
-/* Returns by how much a figure (a number in summary.json) of the study s changes if the time step is 10 % longer: b
- * log(1.1), with the slope b of the figure over log(time step). The slope is fitted by least squares to all runs, after
- * the mean of the spacing level is subtracted from each figure. c: means of the levels; value[k]: figure of run k.
+/* Returns by how much a result (a number in summary.json) of the study s changes if the time step is 10 % longer: b
+ * log(1.1), with the slope b of the result over log(time step). The slope is fitted by least squares to all runs, after
+ * the mean of the spacing level is subtracted from each result. c: means of the levels; value[k]: result of run k.
  * Returns NAN if all runs have the same time step or the scene is not dynamic. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
@@ -42,9 +42,9 @@ static double step_moves(const struct convergence_study *s, const struct converg
     return xx > 0 ? xy / xx * log(1.1) : NAN;
 }
 
-/* Returns the change of a figure (a number in summary.json) of the study s if the horizon is one spacing longer: the
- * figure of the run with the longer horizon, which has level -1, minus that of the first run of level 1, which has the
- * same spacing. value[k]: figure of run k. Returns NAN if the study has no run with a longer horizon. */
+/* Returns the change of a result (a number in summary.json) of the study s if the horizon is one spacing longer: the
+ * result of the run with the longer horizon, which has level -1, minus that of the first run of level 1, which has the
+ * same spacing. value[k]: result of run k. Returns NAN if the study has no run with a longer horizon. */
 static double horizon_moves(const struct convergence_study *s, const double *value)
 {
     double longer = NAN, own = NAN;
@@ -58,10 +58,10 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes the error of the figure `name` (a number in summary.json) at each spacing level of the study s that results
+/* Computes the error of the result `name` (a number in summary.json) at each spacing level of the study s that results
  * because cracks grow from particle to particle, into resolution[levels]. It is half a spacing [m] for positions and
  * lengths of cracks; for angles it is the rotation of the crack if its end moves by half a spacing [degree]. Returns
- * false, and stores nothing, for figures that change continuously. */
+ * false, and stores nothing, for results that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -105,8 +105,8 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     return true;
 }
 
-/* Returns true if the figure f (a number in summary.json) differs between the spacing levels or the runs of a study.
- * Energies of mechanisms that the scene does not have are an example of constant figures, which are not reported. */
+/* Returns true if the result f (a number in summary.json) differs between the spacing levels or the runs of a study.
+ * Energies of mechanisms that the scene does not have are an example of constant results, which are not reported. */
 static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;
@@ -263,7 +263,7 @@ static void certain_digits(char *text, size_t capacity, double value, double unc
         snprintf(text, capacity, "%.*f", uncertain > 0 ? 0 : uncertain < -9 ? 9 : -uncertain, value);
 }
 
-/* Returns the name of the parameter that changes the figure f (a scalar result) most: the time step (10 % longer), the
+/* Returns the name of the parameter that changes the result f (a scalar result) most: the time step (10 % longer), the
  * spacing (by the factor sqrt(2)) or the horizon (one spacing longer); "nothing" if none changes it. */
 static const char *mover(const struct scalar_result_study *f)
 {
@@ -272,7 +272,7 @@ static const char *mover(const struct scalar_result_study *f)
     return most == 0 ? "nothing" : most == spacing ? "spacing" : most == step ? "time step" : "horizon";
 }
 
-/* Returns true if the extrapolated value of a figure f that cannot be negative, a crack length or an energy, is
+/* Returns true if the extrapolated value of a result f that cannot be negative, a crack length or an energy, is
  * negative although the means of all levels are positive. */
 static bool limit_is_impossible(const struct scalar_result_study *f)
 {
@@ -283,7 +283,7 @@ static bool limit_is_impossible(const struct scalar_result_study *f)
     return positive && least > 0 && f->c.extrapolated < 0;
 }
 
-/* Prints the orders of convergence of the figure f (a scalar result), and its limit at spacing 0, as part of a
+/* Prints the orders of convergence of the result f (a scalar result), and its limit at spacing 0, as part of a
  * sentence. Prints nothing if the means of the spacing levels oscillate or diverge. */
 static void order_print(const struct scalar_result_study *f)
 {
@@ -300,7 +300,7 @@ static void order_print(const struct scalar_result_study *f)
     printf(", %s%s", limit_is_impossible(f) ? "no limit, because it would be negative: " : "limit ", text);
 }
 
-/* Returns a copy of the figure f (scalar result) with all values converted to the unit in which it is printed. */
+/* Returns a copy of the result f (scalar result) with all values converted to the unit in which it is printed. */
 static struct scalar_result_study figure_in_printed_unit(const struct scalar_result_study *f)
 {
     const struct unit unit = scalar_result_unit(f);
@@ -315,8 +315,8 @@ static struct scalar_result_study figure_in_printed_unit(const struct scalar_res
     return p;
 }
 
-/* Prints the means of a figure (scalar result) at all spacings, how it converges, and its value with its 95 % interval.
- * own: index of the level with the spacing of the scene, -1 if there is none; metre: unit of the spacings. */
+/* Prints the means of a scalar result at all spacings, how it converges, and its value with its 95 % interval. own:
+ * index of the level with the spacing of the scene, -1 if there is none; metre: unit of the spacings. */
 static void figure_print(const struct scalar_result_study *figure, int own, const struct unit *metre)
 {
     const struct scalar_result_study shown = figure_in_printed_unit(figure), *f = &shown;

@@ -1,4 +1,4 @@
-/* Interval that contains the true value of a figure with a given probability (Bayesian).
+/* Interval that contains the true value of a result with a given probability (Bayesian).
  *
  * Model: the means of the levels are m_k = v + a (h_k/h_0)^p + noise, with the value v at spacing 0 that is to be
  * found. The noise consists of the error of the mean, with standard deviation e_k/2, and of a misfit with standard
@@ -9,7 +9,7 @@
  * the means. The posterior is thus a mixture of normal distributions. It widens if the means scatter, oscillate or are
  * consistent with several orders.
  *
- * `cleave bench uncertainty` compares these intervals with figures whose true values are known. */
+ * `cleave bench uncertainty` compares these intervals with results whose true values are known. */
 #include <math.h>
 
 #include "study/convergence.h"
@@ -22,7 +22,7 @@ enum { ORDERS = 7, MISFITS = 10 };
 #define VAGUE 100.0       /* standard deviation of the prior of v, divided by S */
 
 /* Distribution of (v - m_0)/S as a mixture of normal distributions, one for each order and misfit: weight, mean
- * (`centre`), standard deviation, and order p. v: value of a figure at spacing 0; m_0: its mean at the finest level; S:
+ * (`centre`), standard deviation, and order p. v: value of a result at spacing 0; m_0: its mean at the finest level; S:
  * range of the means. */
 struct mixture {
     struct {
@@ -32,9 +32,8 @@ struct mixture {
 
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale S of the means of a figure (a scalar result) at all spacing levels: S = sqrt(range^2 +
- * (error/2)^2), where range is the largest minus the smallest mean and error the largest error of a mean. c: means and
- * errors. */
+/* Returns the scale S of the means of a scalar result at all spacing levels: S = sqrt(range^2 + (error/2)^2), where
+ * range is the largest minus the smallest mean and error the largest error of a mean. c: means and errors. */
 static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;
@@ -70,9 +69,9 @@ static double part_fit(const struct convergence *c, double scale, double p, doub
     return -0.5 * (misfit - v * value - a * slope + spread + log(determinant));
 }
 
-/* Computes in *m the distribution of the value of a figure (a scalar result) at spacing 0. It is a mixture of normal
+/* Computes in *m the distribution of the value of a scalar result at spacing 0. It is a mixture of normal
  * distributions, one for each pair of an order of convergence and a misfit of the means, with weights of sum 1. c:
- * means of the figure; scale: their scale (range_scale). Returns false if it is 0, that is, if all means are equal and
+ * means of the result; scale: their scale (range_scale). Returns false if it is 0, that is, if all means are equal and
  * have no error. */
 static bool mixture_make(struct mixture *m, const struct convergence *c, double scale)
 {

@@ -189,7 +189,7 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
-/* Prints a warning for each figure that w requests (a number in summary.json) and the first run of the study s lacks,
+/* Prints a warning for each result that w requests (a number in summary.json) and the first run of the study s lacks,
  * because its name may be wrong. It is no error, since cracks and tips may still appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
@@ -303,7 +303,7 @@ static void plan_print(const struct convergence_study *s)
 }
 
 /* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads
- * their figures into s->table. Returns REFUSED or FAILED, with a message, if the study cannot be planned, its first run
+ * their results into s->table. Returns REFUSED or FAILED, with a message, if the study cannot be planned, its first run
  * fails, or a summary cannot be read. Returns INTERRUPTED after a stop signal. */
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {

@@ -1,4 +1,4 @@
-/* Units in which a convergence study prints and draws its spacings and figures. */
+/* Units in which a convergence study prints and draws its spacings and results. */
 #ifndef CLEAVE_CONVERGENCE_UNITS
 #define CLEAVE_CONVERGENCE_UNITS
 
@@ -12,7 +12,7 @@ struct unit unit_for_spacings(double coarsest);
 /* Returns the unit in which the spacings of the study s are printed and drawn (unit_for_spacings). */
 struct unit convergence_spacing_unit(const struct convergence_study *s);
 
-/* Returns the unit in which the means and errors of the figure (scalar result) f are printed and drawn. */
+/* Returns the unit in which the means and errors of the scalar result f are printed and drawn. */
 struct unit scalar_result_unit(const struct scalar_result_study *f);
 
 #endif

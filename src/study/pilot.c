@@ -102,7 +102,7 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
 /* Makes one convergence study of every candidate method of the search p. The studies together take the share
  * PILOT_FIRST_SHARE of the time that is left, in equal parts. If the scene is invalid at the spacing of a study, the
  * study is repeated at finer spacings. Returns OK even if a method fails (its reason is stored), INTERRUPTED after a
- * stop signal, or REFUSED, with a message, if the runs lack the requested figure. */
+ * stop signal, or REFUSED, with a message, if the runs lack the requested result. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -155,9 +155,9 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a candidate method of the search p that contradicts the method c: its value of the figure (scalar result)
- * differs by more than the uncertainties of both and the requested accuracy together, so that one of the two values
- * must be wrong. Returns NULL if there is none. */
+/* Returns a candidate method of the search p that contradicts the method c: its value of the scalar result differs by
+ * more than the uncertainties of both and the requested accuracy together, so that one of the two values must be wrong.
+ * Returns NULL if there is none. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {

@@ -7,7 +7,7 @@
 #include "pilot_parts.h"
 #include "scene/spacings.h"
 
-/* ---- the figure -------------------------------------------------------------------------------------------------- */
+/* ---- the result -------------------------------------------------------------------------------------------------- */
 
 /* Returns the result (a number in summary.json) by which pilot runs are judged if the scene names none. Of the array
  * figure[figures] it is the first result of a probe that is larger than its uncertainty; else the time at which cracks
@@ -44,7 +44,7 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
-/* Finds the spacing that a method requires for the requested accuracy of the figure f (a scalar result). It is the
+/* Finds the spacing that a method requires for the requested accuracy of the result f (a scalar result). It is the
  * spacing of the coarsest level, at most the largest allowed spacing, whose run is accurate enough. If there is none,
  * it is extrapolated from the finest level, with the smallest order of convergence that the means allow. Stores
  * spacing, accuracy and duration of the run in *c; c->spacing remains 0 if neither is possible. p: requested accuracy

@@ -20,14 +20,14 @@ struct pilot_candidate {
     const char *name, *method, *model; /* name of its folder; values of the keys `method` and `model`, model NULL if
                                         * there is none */
     double finest, finest_seconds;     /* finest spacing that was run [m]; duration of such a run [s] */
-    double reached;          /* half-width of the error bar at the finest spacing, divided by the figure [1] */
+    double reached;          /* half-width of the error bar at the finest spacing, divided by the result [1] */
     double spacing, seconds; /* spacing that the wanted accuracy requires [m]; duration of such a run [s]; 0:
                               * unknown */
-    double expected;         /* expected half-width at the required spacing, divided by the figure [1] */
-    double value, width;     /* figure and half-width of its error bar at the finest spacing */
+    double expected;         /* expected half-width at the required spacing, divided by the result [1] */
+    double value, width;     /* result and half-width of its error bar at the finest spacing */
     bool seen;               /* a run at the required spacing exists */
-    char failed[300];        /* reason why the method has no figures; "": it has */
-    bool unknown;            /* the runs have no figure of the requested name */
+    char failed[300];        /* reason why the method has no results; "": it has */
+    bool unknown;            /* the runs have no result of the requested name */
 };
 
 /* State of the choice of method and spacing by pilot runs: what is required, the candidates, and their results. */
@@ -37,7 +37,7 @@ struct pilot_search {
     int overrides;
     struct study_options options;        /* options of the studies */
     struct pilot_wish wish;              /* wanted accuracy and time */
-    char folder[PATH_ROOM], figure[128]; /* folder of the pilot runs; name of the figure */
+    char folder[PATH_ROOM], figure[128]; /* folder of the pilot runs; name of the result */
     double begun;                        /* start time on wall_clock_seconds [s] */
     struct pilot_candidate at[4];        /* [n] applicable methods */
     int n;
@@ -45,11 +45,11 @@ struct pilot_search {
 
 /* Lists the methods that are applicable to the scene of `search` in search->at[] and stores their number in search->n.
  * Returns REFUSED if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of
- * the scene has the requested figure. */
+ * the scene has the requested result. */
 status pilot_list_applicable_methods(struct pilot_search *search);
 
-/* Returns the name of the figure (scalar result) whose accuracy the scene requests, or a description of the default
- * figure if it names none. The text belongs to *search or is static. */
+/* Returns the name of the scalar result whose accuracy the scene requests, or a description of the default result if it
+ * names none. The text belongs to *search or is static. */
 const char *pilot_name_of_requested_result(const struct pilot_search *search);
 
 /* Allocates the array choice->override, after releasing an earlier one, and fills it. The first entries are the
@@ -60,7 +60,7 @@ void pilot_combine_overrides(struct pilot *choice, const struct scene_override *
 
 /* Determines, from `study`, the convergence study of the method `candidate`, the particle spacing that the method
  * requires for the accuracy requested in `search`, and stores it with its cost in *candidate (pilot_judge.c). Returns
- * REFUSED if no accuracy can be attributed to the figure (it is missing or zero), FAILED if no figure has values at
+ * REFUSED if no accuracy can be attributed to the result (it is missing or zero), FAILED if no result has values at
  * every spacing. */
 status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
                                         const struct convergence_study *study);

@@ -1,4 +1,4 @@
-/* Draws the pictures of a study: figures (scalar results) against each varied key, and against two keys as maps. */
+/* Draws the pictures of a study: scalar results against each varied key, and against two keys as maps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -59,8 +59,8 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
 }
 
 /* Sends margins, title and axis labels of panel number `panel` (from 0) to gnuplot's stream `to`. up: label of the
- * vertical axis of a map, which also gets a colour bar; NULL if the vertical axis shows the values of a figure (a
- * scalar result). */
+ * vertical axis of a map, which also gets a colour bar; NULL if the vertical axis shows the values of a scalar
+ * result. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
     const int column = panel % p->columns, row = panel / p->columns;
@@ -165,8 +165,8 @@ static void draw_key(FILE *to, const struct study_picture *p)
     putc('\n', to);
 }
 
-/* Sends range and tics of the axis for the figure (scalar result) of panel number `panel` of the picture p to gnuplot's
- * stream `to`. name: `y`, or `cb` for the colour bar of a map. */
+/* Sends range and tics of the axis for the scalar result of panel number `panel` of the picture p to gnuplot's stream
+ * `to`. name: `y`, or `cb` for the colour bar of a map. */
 static void send_figure_axis(FILE *to, const struct study_picture *p, int panel, const char *name)
 {
     struct study_axis axis = study_axis_of_figure(p, panel);
@@ -204,9 +204,9 @@ static status draw_lines(struct study_picture *p)
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Draws each chosen figure (scalar result) of a study as a map over two varied keys. The key with the index p->across
- * is along the horizontal axis, the key with the index `up` along the vertical axis. Returns FAILED, with a message, if
- * gnuplot fails. */
+/* Draws each chosen scalar result of a study as a map over two varied keys. The key with the index p->across is along
+ * the horizontal axis, the key with the index `up` along the vertical axis. Returns FAILED, with a message, if gnuplot
+ * fails. */
 static status draw_study_map(struct study_picture *p, int up)
 {
     const struct varied_key *across = &p->key[p->across].shown, *key_up = &p->key[up].shown;

@@ -49,7 +49,7 @@ void study_value_label(char *text, const struct varied_key *key, int value_index
 /* Returns the number of characters of the longest label (study_value_label) of the values of a varied key. */
 int study_longest_label_length(const struct varied_key *key);
 
-/* Writes the title of a panel that shows the figure `name` of summary.json in `unit` ("" for none) to text[capacity]:
+/* Writes the title of a panel that shows the result `name` of summary.json in `unit` ("" for none) to text[capacity]:
  * in words, such as `tip: speed max [m/s]` for probes.tip.speed_max. */
 void study_figure_title(char *text, size_t capacity, const char *name, const char *unit);
 

@@ -1,4 +1,4 @@
-/* Labels of values and figures in pictures of a study: short and distinct. */
+/* Labels of values and results in pictures of a study: short and distinct. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

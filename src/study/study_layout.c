@@ -88,7 +88,7 @@ static bool words_touch(const struct study_picture *p, const struct varied_key *
 static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
 
 /* Returns the number of characters of the longest number at the axes of all panels: at the horizontal axes if `across`
- * is true, else at the axes of the figures (scalar results), which have at most `most` intervals between tics. */
+ * is true, else at the axes of the scalar results, which have at most `most` intervals between tics. */
 static int numbers_length(const struct study_picture *p, bool across, int most)
 {
     int longest = 0;

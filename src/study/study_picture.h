@@ -1,4 +1,4 @@
-/* Content of one picture of a study: its figures (scalar results), varied keys, points and layout. */
+/* Content of one picture of a study: its scalar results, varied keys, points and layout. */
 #ifndef CLEAVE_STUDY_PICTURE
 #define CLEAVE_STUDY_PICTURE
 
@@ -35,15 +35,14 @@ struct shown_key *shown_keys_make(const struct study *study, const struct varied
 /* Frees the array shown[key_count], which shown_keys_make has allocated, and its texts; `shown` may be NULL. */
 void shown_keys_free(struct shown_key *shown, int key_count);
 
-/* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a figure in the unit
+/* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a result in the unit
  * of its panel, and number of runs. The mean of a point without runs is NAN. */
 struct figure_statistics {
     double mean, scatter;
     int runs;
 };
 
-/* One picture of a study: the study, the figures (scalar results) that it shows, the roles of the varied keys, and the
- * layout. */
+/* One picture of a study: the study, the scalar results that it shows, the roles of the varied keys, and the layout. */
 struct study_picture {
     const struct study_table *table;
     const struct study *study;
@@ -52,13 +51,13 @@ struct study_picture {
     int **value_at;      /* [keys][runs] index of the value of a key in a run; -1: a value that is not shown */
     enum key_role *role; /* [keys] */
     int across, lines;   /* index of the key along the horizontal axis; number of lines, at least 1 */
-    int figure[PANELS_MOST], panels;         /* [panels] index of the figure of each panel in `table`; their number */
-    struct unit unit_of_figure[PANELS_MOST]; /* [panels] unit in which the figure is drawn */
+    int figure[PANELS_MOST], panels;         /* [panels] index of the result of each panel in `table`; their number */
+    struct unit unit_of_figure[PANELS_MOST]; /* [panels] unit in which the result is drawn */
     /* [panels][lines][values of the key along the horizontal axis], set by study_points_compute, owned */
     struct figure_statistics *point[PANELS_MOST];
     bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2 ...; a key of ROLE_CHANCE varies */
     bool seeds;           /* a random seed is the only varied key */
-    const char *header;   /* first line of history.csv, which has the units of figures; borrowed */
+    const char *header;   /* first line of history.csv, which has the units of results; borrowed */
     int columns, wide, high;        /* number of columns of panels; width and height of a panel [pixel] */
     int left, right, below, height; /* margins of a panel; height of the picture [pixel] */
     int legend, strip, key_columns; /* width of the key right of all panels, or its height below them [pixel]; number of
@@ -68,12 +67,12 @@ struct study_picture {
     char note[4][NOTE_ROOM];        /* [notes] lines of text below the panels */
 };
 
-/* Chooses the figures (numbers in summary.json) that the panels of the picture show: figures of cracks first, then of
- * probes, energies, and the duration. Figures that are equal in all runs are left out. Stores them in picture->figure
+/* Chooses the results (numbers in summary.json) that the panels of the picture show: results of cracks first, then of
+ * probes, energies, and the duration. Results that are equal in all runs are left out. Stores them in picture->figure
  * and their number in picture->panels. */
 void panels_choose_figures(struct study_picture *picture);
 
-/* Chooses the figures (numbers in summary.json) with the names figure_name[figure_count] for the panels of the picture.
+/* Chooses the results (numbers in summary.json) with the names figure_name[figure_count] for the panels of the picture.
  * Returns REFUSED if a name is not in picture->table. */
 status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
 
@@ -97,7 +96,7 @@ void values_find_indices_in_runs(int **value_at, const struct study *study, cons
  * with the first value are shown. */
 void roles_assign_to_keys(struct study_picture *picture, int max_lines);
 
-/* Computes the unit of the figure of each panel and the points of its lines, p->unit_of_figure and p->point, from the
+/* Computes the unit of the result of each panel and the points of its lines, p->unit_of_figure and p->point, from the
  * roles of the keys. Replaces points computed before. Release them with study_points_free. */
 void study_points_compute(struct study_picture *p);
 
@@ -112,7 +111,7 @@ void study_points_range(const struct study_picture *p, int panel, double *low, d
  * (p->across) that have points in the panel. The axis is not logarithmic if the values are evenly spaced. */
 struct study_axis study_axis_across(const struct study_picture *p, int panel);
 
-/* Returns the vertical axis of panel number `panel` of the picture p: range and kind for the values of the figure that
+/* Returns the vertical axis of panel number `panel` of the picture p: range and kind for the values of the result that
  * the panel shows, in the unit of the panel. */
 struct study_axis study_axis_of_figure(const struct study_picture *p, int panel);
 
@@ -129,7 +128,7 @@ int study_intervals_up(const struct study_picture *p);
 int study_intervals_across(const struct study_picture *p, const struct study_axis *axis);
 
 /* Returns true if every point of every panel of the picture p has a value, i.e. if at least one of the runs combined to
- * the point has the figure that the panel shows. */
+ * the point has the result that the panel shows. */
 bool study_points_complete(const struct study_picture *p);
 
 /* Writes the title of line number `line` of the picture p to text[capacity], such as `60, 1`: the values of those keys

@@ -1,4 +1,4 @@
-/* Points of the pictures of a study: means and scatter of a figure over the runs of each point, in the unit of its
+/* Points of the pictures of a study: means and scatter of a result over the runs of each point, in the unit of its
  * panel. */
 #include <math.h>
 
@@ -18,9 +18,9 @@ static int line_of(const struct study_picture *p, int run)
     return line;
 }
 
-/* Computes the points of a panel of p: mean and scatter over the runs of each point. value[runs]: figure (scalar
- * result) of the panel in each run, in SI units; factor: unit of the panel in SI units. Returns an array [lines][values
- * of the key along the horizontal axis], which the caller releases with memory_free. */
+/* Computes the points of a panel of p: mean and scatter over the runs of each point. value[runs]: scalar result of the
+ * panel in each run, in SI units; factor: unit of the panel in SI units. Returns an array [lines][values of the key
+ * along the horizontal axis], which the caller releases with memory_free. */
 static struct figure_statistics *means_find(const struct study_picture *p, const double *value, double factor)
 {
     const int across = p->key[p->across].shown.values;
@@ -43,7 +43,7 @@ static struct figure_statistics *means_find(const struct study_picture *p, const
     return point;
 }
 
-/* Returns the unit in which the picture p shows the figure (scalar result) with the index `figure` in p->table. */
+/* Returns the unit in which the picture p shows the scalar result with the index `figure` in p->table. */
 static struct unit figure_unit(const struct study_picture *p, int figure)
 {
     const double *value = p->table->value[figure];

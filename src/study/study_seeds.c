@@ -1,4 +1,4 @@
-/* Prints means and error bars of the figures of a study that varies a random seed alone. */
+/* Prints means and error bars of the results of a study that varies a random seed alone. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,9 +7,9 @@
 #include "study/convergence.h"
 #include "study_picture.h"
 
-/* Prints mean, standard deviation and half of the 95 % interval of the mean of a figure (scalar result) in the runs of
- * a study to `to`. name: name of the figure; value[cases]: its value in each run; header: header line of history.csv,
- * for its unit. Prints nothing for fewer than two values. */
+/* Prints mean, standard deviation and half of the 95 % interval of the mean of a scalar result in the runs of a study
+ * to `to`. name: name of the result; value[cases]: its value in each run; header: header line of history.csv, for its
+ * unit. Prints nothing for fewer than two values. */
 static void mean_print(FILE *to, const char *header, const char *name, const double *value, int cases)
 {
     char text[UNIT_ROOM];

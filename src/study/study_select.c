@@ -1,4 +1,4 @@
-/* Selects what a picture of a study shows: figures, and the roles of the varied keys. */
+/* Selects what a picture of a study shows: results, and the roles of the varied keys. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "scene/words.h"
 #include "study_picture.h"
 
-/* Returns true if figure f (a number in summary.json) of the table t differs between the runs of a study by more than
+/* Returns true if result f (a number in summary.json) of the table t differs between the runs of a study by more than
  * round-off. */
 static bool figure_varies(const struct study_table *t, int f)
 {

@@ -1,4 +1,4 @@
-/* Collects the figures of all runs of a study in a table. */
+/* Collects the results of all runs of a study in a table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,8 +13,8 @@
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Position in the table of a study while the table is filled. row: index of the current run; next: index of the figure
- * (scalar result) that is expected next, because most runs have their figures in the same order. */
+/* Position in the table of a study while the table is filled. row: index of the current run; next: index of the scalar
+ * result that is expected next, because most runs have their results in the same order. */
 struct filled {
     struct study_table *table;
     int row, next;
@@ -33,9 +33,9 @@ static int figure_add(struct study_table *t, const char *name)
     return t->figures++;
 }
 
-/* Stores one number of a summary in the table, in the row of the current run. A figure (scalar result) that is not in
- * the table yet gets a new column. context: pointer to a struct filled; key: name of the figure; value: the number.
- * Called by summary_visit_numbers for each number of a summary. */
+/* Stores one number of a summary in the table, in the row of the current run. A scalar result that is not in the table
+ * yet gets a new column. context: pointer to a struct filled; key: name of the result; value: the number. Called by
+ * summary_visit_numbers for each number of a summary. */
 static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;
@@ -53,7 +53,7 @@ status study_table_read(struct study_table *t, const struct study *s)
     for (int k = 0; k < s->n; k++) {
         const struct path folder = study_case_folder(s, &s->at[k]);
         struct filled f = {.table = t, .row = k};
-        /* A stopped run also has a summary, but with figures of a part of the scene. */
+        /* A stopped run also has a summary, but with results of a part of the scene. */
         if (s->at[k].state != CASE_DONE && s->at[k].state != CASE_DONE_BEFORE) continue;
         if (!path_is_file(path_join(folder.text, "summary.json").text)) continue;
         const status read = summary_visit_numbers(folder.text, number_take, &f);

@@ -1,4 +1,4 @@
-/* Units of the figures of summary.json, which are all in SI. The unit of a figure that is also a column of history.csv
+/* Units of the results of summary.json, which are all in SI. The unit of a result that is also a column of history.csv
  * is read from the header of that file; this table has the others. */
 #include <math.h>
 #include <stdio.h>
@@ -8,8 +8,8 @@
 #include "output/output_files.h"
 #include "convergence_units.h"
 
-/* Units of figures (numbers in summary.json). begin, end: beginning and end of the last part of a figure's name (after
- * its last point); unit: unit of the figure. The first entry that matches a name applies. */
+/* Units of results (numbers in summary.json). begin, end: beginning and end of the last part of a result's name (after
+ * its last point); unit: unit of the result. The first entry that matches a name applies. */
 static const struct {
     const char *begin, *end, *unit;
 } unit_of_name[] = {

@@ -1,4 +1,4 @@
-/* Error bars of the figures of a run from an existing convergence study of its scene. */
+/* Error bars of the results of a run from an existing convergence study of its scene. */
 #include "study/uncertainty.h"
 
 #include <math.h>
@@ -70,7 +70,7 @@ static void columns_find(struct bar_columns *c, char *header)
     }
 }
 
-/* Reads a line of converge.csv into *bar: the name of a figure, and the half-width of its error bar at the level whose
+/* Reads a line of converge.csv into *bar: the name of a result, and the half-width of its error bar at the level whose
  * spacing is nearest to `spacing` [m]. c: columns of the table. Returns false if the spacing of no level agrees with
  * `spacing` to within the relative tolerance SAME_LEVEL. Modifies `line`. */
 static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *line, double spacing)
