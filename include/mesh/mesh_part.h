@@ -115,8 +115,8 @@ void reference_frame_update_motion_and_stress(struct reference_frame *r, struct 
  * of particles, which `loads` lists. */
 void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
-/* Updates positions and velocities of the material points in point_list[point_count] (indices) from the nodes, except
- * those in coarse cells, then those of the mirror images of particles, which `loads` lists. */
+/* Updates positions and velocities of the material points of p in point_list[point_count] (indices) from the nodes of
+ * the mesh of r, except those in coarse cells, then those of the mirror images of particles, which `loads` lists. */
 void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
                                           const int32_t *point_list, int64_t point_count);
 

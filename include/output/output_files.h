@@ -61,8 +61,8 @@ bool path_is_file(const char *path);
 /* Returns true if `path` is a folder or a link to one. */
 bool path_is_folder(const char *path);
 
-/* Sets the message `cannot write PATH: cause; remedy` and returns FAILED. cause: value of errno after the failed call;
- * 0 if unknown. */
+/* Sets the message `cannot write PATH: cause; remedy` for the file `path` and returns FAILED. cause: value of errno
+ * after the failed call; 0 if unknown. */
 status file_report_write_failure(const char *path, int cause);
 
 /* Checks that the file `path` may be replaced or removed. Returns REFUSED, with a message, if it is an input of the

@@ -162,14 +162,14 @@ static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const str
 }
 
 /* Returns the index of node k (from 0) of a row of nodes of a cell, less the index of the first node of the row. A row
- * is four nodes along x or, for linear shapes in 2D and 3D, all corners of the cell. */
+ * is four nodes along x or, for linear shape functions (shape) in 2D and 3D, all corners of the cell. */
 static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
 {
     return HAS_CORNERS(dim, shape) ? k % 2 + k / 2 % 2 * g->stride[1] + k / 4 * g->stride[2] : k;
 }
 
 /* Adds the values a of the ROW nodes of a row to a nodal array of grid g. to: entry of the first node of the row in
- * this array. */
+ * this array; shape: shape function, which determines the row. */
 static ALWAYS_INLINE void grid_add_node_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
                                             const enum shape shape)
 {
@@ -321,7 +321,7 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
 }
 
 /* Transposes the weights and slopes of a row in the stencil s from one lane per point to one lane per node (s->from_N,
- * s->from_D), for maps that add to nodes. Does nothing for linear shapes in 2D and 3D. */
+ * s->from_D), for maps that add to nodes. Does nothing for linear shape functions (shape) in 2D and 3D. */
 static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int dim, const enum shape shape)
 {
 #if ROW_NODES == 4
@@ -334,8 +334,8 @@ static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int di
 }
 
 /* Returns weights and slopes of the nodes of a row at point number `at` of the stencil s, one node per lane.
- * stencil_transpose must have been called. h: node distance [m]. For linear shapes in 2D and 3D weights and slopes are
- * computed anew, which is cheaper than transposing. */
+ * stencil_transpose must have been called. h: node distance [m]. For linear shape functions (shape) in 2D and 3D
+ * weights and slopes are computed anew, which is cheaper than transposing. */
 static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil *s, int at, real h, const int dim,
                                                       const enum shape shape)
 {
@@ -356,7 +356,7 @@ static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil 
 }
 
 /* Returns the factor [1] by which the weights s->N are multiplied in the row of nodes number k1 along y and k2 along z,
- * for all points of stencil s, one per lane. */
+ * for all points of stencil s, one per lane. shape: shape function. */
 static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil *s, int k1, int k2, const int dim,
                                                        const enum shape shape)
 {
@@ -367,7 +367,7 @@ static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil
 }
 
 /* Returns the derivative [1/m] of the factor stencil_row_factors along axis d (1 or 2, across the row of nodes), for
- * all points of stencil s, one per lane. k1, k2: number of the row along y and z. */
+ * all points of stencil s, one per lane. k1, k2: number of the row along y and z; shape: shape function. */
 static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_stencil *s, int k1, int k2, int d,
                                                              const int dim, const enum shape shape)
 {
@@ -378,7 +378,7 @@ static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_s
 }
 
 /* Returns the factor [1] by which the weights N are multiplied in the row of nodes number k1 along y and k2 along z,
- * for point number `at` of stencil s. */
+ * for point number `at` of stencil s. shape: shape function. */
 static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
                                              const enum shape shape)
 {
@@ -400,7 +400,7 @@ static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s,
 }
 
 /* Returns the signed distances [m] along axis d from point number `at` of stencil s to the nodes of a row, one node per
- * lane. d: an axis along which the nodes of a row differ; h: node distance [m]. */
+ * lane. d: an axis along which the nodes of a row differ; h: node distance [m]; shape: shape function. */
 static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_stencil *s, int at, real h, int d,
                                                            const int dim, const enum shape shape)
 {

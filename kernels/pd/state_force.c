@@ -235,9 +235,9 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     if (b->state.past[g] && !limit->softening) state_blend_breaking_rows(b, p, limit, g);
 }
 
-/* Sets the states (pressure, spring stiffness, rotation) of mirror images to the states of their source particles, with
- * rotations reflected at planes of symmetry. Images in clamped planes have no state: clamp_force.c adds their reaction
- * to the source. rotates: true in models with rotations. */
+/* Sets the states (pressure, spring stiffness, rotation) of mirror images in b->state to the states of the particles of
+ * p that they mirror, with rotations reflected at planes of symmetry. Images in clamped planes have no state:
+ * clamp_force.c adds their reaction to the force on the mirrored particle. rotates: true in models with rotations. */
 static void state_of_images(struct bonds *b, const struct particles *p, int dim, bool rotates)
 {
     for (int64_t g = p->n; g < p->n_all; g++) {

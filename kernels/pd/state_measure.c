@@ -20,8 +20,8 @@ struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
 
-/* Returns positions and states (pressure, spring stiffness, rotation) of the eight particles of block g of eight rows.
- * rotates: true in models with rotations of particles; otherwise `rotation` is not set. */
+/* Returns positions and states (pressure, spring stiffness, rotation) of the eight particles of p in block g of eight
+ * rows of b. rotates: true in models with rotations of particles; otherwise `rotation` is not set. */
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
                                                    const int dim, const bool rotates)
 {

@@ -21,9 +21,9 @@ static bool image_rotates(const struct bond_source *s, const struct particles *p
     return clamp;
 }
 
-/* Returns an array [n_all - n] with 1 for images across clamped planes (planes at which all motion is prevented) and 0
- * for others; NULL if no image is in a clamped plane. s: planes to which the images belong. The caller frees the array
- * with memory_free. */
+/* Returns an array [p->n_all - p->n] with 1 for mirror images across clamped planes (planes at which all motion is
+ * prevented) and 0 for others; NULL if no image is in a clamped plane. s: planes to which the images belong. The caller
+ * frees the array with memory_free. */
 static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
 {
     bool any = false;

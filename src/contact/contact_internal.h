@@ -209,11 +209,10 @@ real contact_face_energy_of_particle(const struct contact *c, const struct parti
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 
-/* Returns a correcting force of a contact, a derivative of an energy by the gap in the unit of stiffness times gap,
- * which removes the energy that leap-frog integration adds when contact begins or ends; 0 if no energy is to be
- * removed. The contact has the energy 1/4 stiffness gap^2, gap < 0. balance: account of this contact, updated if
- * `step_was_made` is true, i.e. if a time step was made since the last call; otherwise the last force is returned
- * again. */
+/* Returns a correction of the contact force, in the unit of stiffness times gap, which removes the energy that
+ * leap-frog integration adds when contact begins or ends; 0 if no energy is to be removed. The contact has the energy
+ * 1/4 stiffness gap^2, gap < 0. balance: account of this contact, updated if `step_was_made` is true, i.e. if a time
+ * step was made since the last call; otherwise the last force is returned again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
 
 /* Returns the initial account of a contact on a new list of pairs, i.e. the sum of the energy errors of leap-frog from

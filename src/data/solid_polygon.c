@@ -8,7 +8,7 @@
 /* Returns the z component of the cross product a x b of two plane vectors. */
 static real cross2(const real *a, const real *b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/* Computes the plane vector to = a - b. */
+/* Computes the difference a - b of two vectors in the plane into to[2]. */
 static void minus2(const real *a, const real *b, real to[2])
 {
     to[0] = a[0] - b[0];

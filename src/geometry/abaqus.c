@@ -200,7 +200,8 @@ static status instance_read(struct deck *d)
 
 /* ---- the deck ------------------------------------------------------------------------------------------------- */
 
-/* Declared here because keywords include files, whose keywords it reads in turn. */
+/* Reads all keywords of the input file d; defined below, and declared here because a keyword may include another file,
+ * whose keywords are read in turn. */
 static status keywords_read(struct deck *d);
 
 /* Calls read(d) for the file that the parameter INPUT of the current keyword names, sought in the folder of the file

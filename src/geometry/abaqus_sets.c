@@ -84,8 +84,9 @@ static status generate_line(struct deck *d, int set, const struct scope *part)
     return OK;
 }
 
-/* Finds the set called `name` of `part`, the part of an instance, or if `part` is NULL or has none, of the current part
- * of deck d or what is outside parts. Returns its index, or -1 if there is none. */
+/* Returns the index of the set of nodes (of_nodes is true) or elements called `name` in the input file d; -1 if there
+ * is none. The set is one of `part`, the part of an instance, if it has such a set; else one of the part that is being
+ * read or, outside parts, of the file. */
 static int set_index(const struct deck *d, const struct scope *part, const char *name, bool of_nodes)
 {
     char whole[2 * FIELD];
@@ -154,9 +155,9 @@ static void nodes_of_element_add(struct deck *d, int set, int64_t k, void (*add)
 /* Appends `label` to set number `set` of deck d. */
 static void label_append(struct deck *d, int set, int64_t label) { element_mesh_add_to_set(d->m, set, label); }
 
-/* Adds the nodes of the elements that are in the set called `name` so far to set number `set`, for *NSET with the
- * parameter ELSET. part: of the keyword's instance, NULL: none. Returns REFUSED if there is no such set, or if there
- * are too many members. */
+/* Adds the nodes of the elements that are in the element set called `name` so far to set number `set` of the input file
+ * d, for *NSET with the parameter ELSET. part: part of the instance that the keyword names; NULL: none. Returns REFUSED
+ * if there is no such set, or if there are too many members. */
 static status set_join_nodes_of(struct deck *d, int set, const struct scope *part, const char *name)
 {
     const int64_t first = d->scope[d->now].element;

@@ -241,8 +241,8 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
     return OK;
 }
 
-/* Reads side set number `number` (from 1) of the file: creates a set of elements and adds an element for each side. An
- * empty side set has no arrays. Returns REFUSED for unknown elements or sides. */
+/* Reads side set number `number` (from 1) of the file of x: creates a set of elements and adds an element for each
+ * side. An empty side set has no arrays. Returns REFUSED for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension_length(&x->file, "num_side_ss", number);

@@ -100,7 +100,8 @@ static status format_refuse(const struct gmsh *g, const char *version)
         version);
 }
 
-/* Reads the header of the file. Returns REFUSED unless the version is 2.2 or 4.1, and numbers are as here. */
+/* Reads the header of the file of g. Returns REFUSED unless the version is 2.2 or 4.1 and, in binary files, numbers
+ * have the byte order and sizes of this machine. */
 static status format_read(struct gmsh *g)
 {
     char version[16];

@@ -58,8 +58,9 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
 /* Largest share of the points of a grid, as its reciprocal, that is sorted apart from the others. */
 enum { LEFT_MOST = 4 };
 
-/* Sorts the material points of the grid f by cells as field_sort does, where only those have left their cells that its
- * order marks; the box of the grid contains the others. */
+/* Sorts the material points of the grid f by cells. If few points have left their cells, as the order of f marks them,
+ * and the box of the grid contains these, moves only them in the order; else sorts all points by field_sort, whose
+ * arguments and status are the same. */
 static status field_sort_left(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};

@@ -225,8 +225,8 @@ static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *
 
 /* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
-/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in partial cells,
- * which have a stiffness matrix of their own. */
+/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in the partial cells
+ * of the mesh, which have a stiffness matrix of their own. */
 static void ends_free(struct mesh *mesh)
 {
     memory_free(mesh->ends);
@@ -279,8 +279,8 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-/* Lists the points with state-based PD-MPM bonds in all partial cells (cells with a stiffness matrix of their own),
- * group by group of LANES such cells. c: has the partial stresses of the points. */
+/* Lists the points with state-based PD-MPM bonds in all partial cells of the mesh (cells with a stiffness matrix of
+ * their own), group by group of LANES such cells. c: has the partial stresses of the points. */
 static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;

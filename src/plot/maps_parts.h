@@ -54,7 +54,8 @@ static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
 struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width);
 
 /* Returns REFUSED, with the number of panels that fit, if the panels have no room in a picture of the size that the
- * user has chosen. A single panel is not refused. Arguments as of maps_layout_choose. */
+ * user has chosen. A single panel is not refused. shown: what the map shows; panel_count: number of panels;
+ * height_over_width: shape of the part of the body that is drawn [1]. */
 status maps_layout_check_panels_fit(const struct maps_shown *shown, int panel_count, double height_over_width);
 
 /* Returns true if a map of the quantity `map` has a colour bar; maps of fragments and of named

@@ -128,7 +128,8 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
-/* Type of functions that draw pictures of the selected frames. cloud[frames->shown]: their drawn particles. */
+/* Type of functions that draw pictures of the selected frames, as the request r asks. cloud[frames->shown]: particles
+ * of each frame that are drawn. */
 typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames,
                               const struct plotted_particles *cloud);
 

@@ -163,7 +163,8 @@ static struct value_range shifted_range(const struct history *h, int column, dou
 
 static double largest_magnitude_of(struct value_range r) { return fmax(fabs(r.low), fabs(r.high)); }
 
-/* Returns the kinetic energy at the start [J] if it would flatten the curves of all other energies, else 0. */
+/* Returns the kinetic energy at the start of the history h [J] if it would flatten the curves of all other energies,
+ * else 0. */
 static double flattening_energy(const struct history *h)
 {
     const int kinetic = history_find_column(h, "kinetic");
@@ -176,8 +177,8 @@ static double flattening_energy(const struct history *h)
     return start > HEAVY * most && most > NOTHING * start ? start : 0;
 }
 
-/* Selects for drawing the energies whose largest value is at least ENERGY_SHOWN of the largest one of all, and chooses
- * their unit. */
+/* Selects in e for drawing the energies whose largest value in the history h is at least ENERGY_SHOWN times the largest
+ * one of all, and chooses their unit. */
 static void choose_energies(struct energies *e, const struct history *h)
 {
     const double start = flattening_energy(h);

@@ -52,8 +52,9 @@ static void say_categories(const struct categories *k)
     putchar('\n');
 }
 
-/* Prints which field was drawn to the file `path`, with the number `frames` of the `listed` frames, the number of
- * particles and the range of the colours of `view` in SI units. Returns FAILED if standard output cannot be written. */
+/* Prints which field the request r has drawn to the file `path`, with the number `frames` of the `listed` frames, the
+ * number of particles and the range of the colours of `view` in SI units. Returns FAILED if standard output cannot be
+ * written. */
 static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames, int listed,
                         int64_t particles)
 {

@@ -122,7 +122,7 @@ static void faces_complete(const struct faces *f, double x[2][2], bool is[2], do
     }
 }
 
-/* Returns the length [pixel] of which LINE_HALF and GAP_SEEN are shares, in an image of the given size [pixel]. */
+/* Returns the length [pixel] to which LINE_HALF and GAP_SEEN refer, in an image of width x height [pixel]. */
 static double line_scale(int width, int height) { return fmin(width, FLAT * height); }
 
 /* Returns half the width [pixel] of a line in an image of the given size [pixel]. */

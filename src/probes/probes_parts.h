@@ -173,8 +173,8 @@ struct pulse_shares {
     real reflected, transmitted, energy_change;
 };
 
-/* Stores the largest initial speed of the body as the incident amplitude of the PULSE probe q. Returns REFUSED if
- * nothing moves at the start. */
+/* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q. Returns REFUSED
+ * if nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
 
 /* Returns the reflected and transmitted amplitudes of the PULSE probe q, relative to its incident amplitude, and the
@@ -210,9 +210,9 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 /* Names and units of the quantities that a SIF probe reports: K_I, K_II, J, contour_spread. */
 extern const struct column sif_figure[SIF_FIGURES];
 
-/* Finds the crack tip of the SIF probe q, its integration contours, and the material around the tip. Returns REFUSED if
- * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
- * another crack tip or material. */
+/* Finds in run o the crack tip of the SIF probe q, its integration contours, and the material around the tip. Returns
+ * REFUSED if the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or
+ * contain another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
 /* Frees w, the crack tip and the contours of a SIF probe, which sif_probe_find_tip_and_contours has made; w may be
@@ -245,8 +245,8 @@ static inline real sif_probe_result(const struct probe *q, int figure)
  * of angular momentum and kinetic energy. */
 extern const struct column rigid_figure[RIGID_FIGURES];
 
-/* Stores the angular momentum and the kinetic energy of the particles of the RIGID probe q at the start. Returns
- * REFUSED if the scene is not plane. */
+/* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q at the start of run o.
+ * Returns REFUSED if the scene is not plane. */
 status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
 /* Computes the rotation angle value[0] of the body of a RIGID probe [rad], its largest absolute principal stress
@@ -255,8 +255,8 @@ status rigid_probe_store_initial_motion(struct probe *q, const struct observed_r
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
 
 /* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
- * probe q relative to the values at the start [1]; both should be conserved. NAN if the value at the start is 0. Call
- * this function when the velocities at the time of the sample are known. */
+ * probe q, from the particles p, relative to the values at the start [1]; both should be conserved. NAN if the value at
+ * the start is 0. Call this function when the velocities at the time of the sample are known. */
 void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */

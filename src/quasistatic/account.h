@@ -16,8 +16,9 @@ struct account {
  * particle of the body [N]; 0 before the first solution. The caller frees the arrays. */
 void applied_forces_copy(real **applied, const struct statics *s, const struct particles *particles);
 
-/* Copies the present positions, displacements and forces of s into *account, for work_account_end_and_estimate_error.
- * The storage is freed by work_account_end_and_estimate_error or work_account_free. */
+/* Copies the present positions of `particles` and the displacements and forces of s into *account, for
+ * work_account_end_and_estimate_error. The storage is freed by work_account_end_and_estimate_error or
+ * work_account_free. */
 void work_account_start(struct account *account, const struct statics *s, const struct particles *particles);
 
 /* Adds the work of supports and of applied forces of s since work_account_start to that of the loads: the mean of the

@@ -96,9 +96,9 @@ void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct part
  * sets `ended` of the tip if it has reached a surface of the body p or another crack. */
 void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct particles *p, int tip);
 
-/* Computes the stress-intensity factors of the tip of `cracks` that has grown most among those that can still grow, and
- * stores them in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call
- * sif_cracks_initialise_and_can_grow before. */
+/* Computes the stress-intensity factors of the tip of `cracks` that has grown most among those that can still grow,
+ * from the particles p, and stores them in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are
+ * in contact. Call sif_cracks_initialise_and_can_grow before. */
 void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                                bool faces_in_contact, real K[2]);
 

@@ -114,7 +114,7 @@ static bool missing(struct compile *c, const char *expected)
 
 /* ---- grammar ----------------------------------------------------------------------------------------------------- */
 
-/* Declared here because a factor may be a sum in brackets. */
+/* Compiles a sum from the text of c; defined below, and declared here because a factor may be a sum in brackets. */
 static bool compile_sum(struct compile *c);
 
 static bool deeper(struct compile *c, int levels)

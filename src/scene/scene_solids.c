@@ -254,7 +254,8 @@ status read_regions(struct reader *r, const struct yaml_node *root)
 
 /* ---- lists of solids --------------------------------------------------------------------------------------------- */
 
-/* Declared here because the operand of an operation may be a group of solids, each of which it reads. */
+/* Reads a solid from node n into *s; defined below, and declared here because the operand of an operation may be a
+ * group of solids. signed_before: as at the definition. */
 static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before);
 
 /* Reads the operand of add, subtract or intersect into s: one solid, or a group if the operand is a list or has

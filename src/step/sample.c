@@ -64,7 +64,8 @@ static bool is_free(const struct scene *s, const struct reference_frame *frame)
 }
 
 /* Stores names and units of the history columns of angular momentum of scene s in column[], unless it is NULL. Returns
- * the number of columns, which is 0 if a load acts on the bodies, so that angular momentum need not be conserved. */
+ * the number of columns, which is 0 if a load acts on the bodies, so that angular momentum need not be conserved.
+ * frame: mesh of the run. */
 static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};

@@ -288,9 +288,9 @@ status divergence_check_particles(const struct run *e, bool check_peridynamic, b
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
-/* Returns FAILED, with a message, if a cell of the mesh of `reference` is inverted. Tests only every INVERSION_STEPS
- * steps (of `clock`) and at the end. An inverted cell resists deformation like an intact one, so that neither energy
- * nor speed reveals it. */
+/* Returns FAILED, with a message, if a cell of the mesh of `reference` with points of p is inverted. Tests only every
+ * INVERSION_STEPS steps (of `clock`) and at the end. An inverted cell resists deformation like an intact one, so that
+ * neither energy nor speed reveals it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
@@ -309,9 +309,9 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
-/* Returns FAILED, with a message, if the formula of a load of l has a value that is not finite. Such a value makes the
- * impulse of the loads infinite or NaN; only then the formulas are evaluated, at the times of the last steps of
- * `clock`. At the end of the run they are always evaluated once. */
+/* Returns FAILED, with a message, if the formula of a load of l has a value that is not finite at a particle of p. Such
+ * a value makes the impulse of the loads infinite or NaN; only then the formulas are evaluated, at the times of the
+ * last steps of `clock`. At the end of the run they are always evaluated once. */
 static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
     const real *impulse = l->impulse;
