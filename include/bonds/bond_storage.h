@@ -110,10 +110,10 @@ struct clamp_end {
 struct clamped {
     int64_t n;                /* number of bonds; arrays have LANES more entries, of weight 0 */
     int64_t *entry;           /* [n] entry of the bond in the bond arrays */
-    int32_t *from, *to;       /* [n] particle of the row; image */
+    int32_t *from, *to;       /* [n] particle of the row; mirror image */
     real *inverse_length, *w; /* [n] as stored, before the last sweep [1/m], [1] */
     bool stale;               /* weights have changed since they were copied */
-    real *reaction[DIM_MAX];  /* [n] force on the image, from the energy of the row alone [N] */
+    real *reaction[DIM_MAX];  /* [n] force on the mirror image, from the energy of the row alone [N] */
     int64_t held;             /* particles that receive reactions */
     int32_t *particle;        /* [held] these particles, ascending */
     int64_t *first;           /* [held + 1] range of `end` for each of them */

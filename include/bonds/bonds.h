@@ -86,8 +86,8 @@ real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const str
 
 /* Copies what load has done to bonds from the bonds `old_bonds` of the particles `old_particles` to the bonds b of p,
  * another set of particles: which bonds are broken or have softened, counts and energies of rows, and damage.
- * new_index: index in p of each particle of `old_particles`, images included; -1: the particle is not in p. limit:
- * critical stretches and softening by pair of materials. In both sets peridynamic particles must have all their
+ * new_index: index in p of each particle of `old_particles`, mirror images included; -1: the particle is not in p.
+ * limit: critical stretches and softening by pair of materials. In both sets peridynamic particles must have all their
  * neighbours. */
 void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                         const struct bonds *old_bonds, const struct particles *old_particles,
@@ -208,9 +208,9 @@ struct column_copy {
  * its stencil, a pattern of bonds that many blocks share. Does not change b. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t column);
 
-/* A bond of a particle as stored. nbr: particle or image to which the bond leads; inverse_length: 1/r [1/m], negative
- * if load has broken the bond; w: weight [1], 0 if the bond is broken or cut by a pre-crack; entry: index of the bond
- * in the bond arrays, for example plastic_stretch. */
+/* A bond of a particle as stored. nbr: particle or mirror image to which the bond leads; inverse_length: 1/r [1/m],
+ * negative if load has broken the bond; w: weight [1], 0 if the bond is broken or cut by a pre-crack; entry: index of
+ * the bond in the bond arrays, for example plastic_stretch. */
 struct bond {
     int64_t entry;
     int32_t nbr;

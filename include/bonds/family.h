@@ -139,8 +139,8 @@ static inline struct state_modulus state_based_moduli_of_material(const struct m
                                   (with_rotations ? 2 : D + 2) * D * m->shear};
 }
 
-/* Inputs of bonds_make besides the particles: rules of neighbourhoods, limits, `materials` materials, cracks, images.
- * All pointers are borrowed. */
+/* Inputs of bonds_make besides the particles: rules of neighbourhoods, limits, `materials` materials, cracks, mirror
+ * images. All pointers are borrowed. */
 struct bond_source {
     struct family family;            /* rules and sizes of neighbourhoods */
     const struct cells *cells;       /* search over reference positions, cell edge >= cutoff */

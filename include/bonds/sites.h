@@ -28,8 +28,8 @@ struct site_map {
  * state; -1 if its position is not a site of the lattice. */
 int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle);
 
-/* Creates the map `map` from lattice sites to the particles and images of p. source: inputs of the bonds (spacing,
- * cutoff). Returns false, with nothing to release, if the particles are not on a lattice. Release with
+/* Creates the map `map` from lattice sites to the particles and mirror images of p. source: inputs of the bonds
+ * (spacing, cutoff). Returns false, with nothing to release, if the particles are not on a lattice. Release with
  * site_map_free. */
 bool site_map_make_if_on_lattice(struct site_map *map, const struct bond_source *source, const struct particles *p);
 
@@ -45,7 +45,7 @@ struct site_map *site_map_share_or_make(struct site_map *existing, const struct 
  * is NULL. */
 void site_map_release(struct site_map *map);
 
-/* Lists in neighbour[], ascending, the particles and images of p within the cutoff of the particle with index
+/* Lists in neighbour[], ascending, the particles and mirror images of p within the cutoff of the particle with index
  * `particle`, by means of the map `map` from lattice sites to particles. `neighbour` must have room for map->most
  * entries. Returns their number, or -1 if images are among them: these cannot be listed in ascending order, and the
  * caller must search. */

@@ -32,8 +32,8 @@ struct surface_weights {
                          those of its class */
     real *factor;     /* [classes offsets] factor on the weight of a bond [1] */
     real *weighted;   /* [classes] sum w r^2 of the neighbourhood, of reference particles [m^2] */
-    int64_t apart[2]; /* if REFUSED: a particle, and its first neighbour or image that is not a whole number of spacings
-                         away */
+    int64_t apart[2]; /* if REFUSED: a particle, and its first neighbour or mirror image that is not a whole number of
+                         spacings away */
 };
 
 /* Computes the factors on the weights of bonds near faces, for particles p on a lattice, by least squares with bounds.

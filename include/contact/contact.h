@@ -109,7 +109,7 @@ struct contact_near {
  * where v[k] is the velocity of particle k. */
 struct contact_term {
     int n;
-    int32_t *particle;      /* [n] images included */
+    int32_t *particle;      /* [n] mirror images included */
     real (*along)[DIM_MAX]; /* [n] derivative of the gap by the position [1]; form `surface`: [1/m] */
     real stiffness;         /* [N/m], form `surface`: [J] */
 };
@@ -120,10 +120,10 @@ struct contact_term {
 struct contact {
     struct contact_law law;
     bool made;         /* a search has been done, so that the rows exist */
-    int64_t n, rows;   /* number of listed particles, images included; number of rows: listed particles of the body,
-                          which are first in the list */
+    int64_t n, rows;   /* number of listed particles, mirror images included; number of rows: listed particles of the
+                          body,   which are first in the list */
     int32_t *particle; /* [n] indices of the listed particles, ascending */
-    int32_t *root;     /* [n] row of a particle; of an image the row of the particle of which it is an image */
+    int32_t *root;     /* [n] row of a particle; of a mirror image the row of the particle of which it is an image */
     real *size;        /* [n] spacing of each particle [m] */
     real *rise;        /* [n] height of the surface of the body above the particle, minus 1/2 [spacings] */
     real *at[DIM_MAX]; /* [n] positions at the last search [m] */

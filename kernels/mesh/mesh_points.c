@@ -139,8 +139,7 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
 }
 
 /* Computes for points with state-based bonds in group `group` of eight partial cells (with missing or unequal points)
- * the rotation p->end_rotation of their cell and its share p->end_strain [1] in the mean strain over their bonds.
- * finite: true for finite strain. */
+ * the rotation p->end_rotation of their cell and its share p->end_strain [1] in the mean strain of their bonds. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -424,9 +423,8 @@ static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct ela
     return cells_tension(m, &s, NULL, dim);
 }
 
-/* Sets FLAG_STRESSED of the points in `run`, a row of consecutive cells of the mesh, whose principal stress exceeds
- * their conversion stress. Examines only cells in which an upper bound of the stress exceeds it. m: elastic constants
- * [material]; finite: true for finite strain. */
+/* Sets FLAG_STRESSED of the points in `run`, a row of consecutive cells, whose principal stress exceeds their
+ * conversion stress; skips cells where its upper bound does not. m: constants [material]; finite: finite strain. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, const int dim, const bool finite)
 {
@@ -439,8 +437,8 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
 }
 
 /* Sets mark[cell] = 1 for the cells of `run` (a row of consecutive cells) in which the principal stress of a point may
- * exceed the conversion stress times `share` [1]. mark: [nodes of the mesh]; m: elastic constants [material]; finite:
- * true for finite strain. */
+ * exceed the conversion stress times `share` [1]. mark: indexed by cell; m: constants [material]; finite: finite
+ * strain. */
 static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                          real share, uint8_t *mark, const int dim, const bool finite)
 {
@@ -453,9 +451,8 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
 }
 
 /* Sets FLAG_STRESSED of points in eight partial cells (points missing or several materials) whose principal stress
- * exceeds the conversion stress. Skips cells whose upper bound of it, places_tension, is below, unless the bound does
- * not hold (several materials, mean dilatation). group: number of the eight cells of the mesh; m: constants [material];
- * finite: true for finite strain. */
+ * exceeds the conversion stress. Skips cells where its upper bound places_tension is below, if that holds (one
+ * material, no mean dilatation). group: number of the cells; m: constants [material]; finite: finite strain. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {

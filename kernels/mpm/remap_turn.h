@@ -57,9 +57,9 @@ static ALWAYS_INLINE void turn_gather_arms(const struct grid *g, const struct ce
     }
 }
 
-/* Interpolates gain[dim] and arm[e][d] from the nodes of g to the points of stencil s of cell c as turn_gather_arms
- * does, for linear shapes in 2D and 3D. There sum N (x_I - x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in
- * the cell (in node distances). */
+/* Computes the change gain[dim] of the velocities of the points of stencil s of cell c and the moments arm[e][d] of the
+ * nodal changes about them from the nodes of g, as turn_gather_arms does, for linear shape functions in 2D and 3D.
+ * There sum N (x_I - x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in the cell (in node distances). */
 static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const struct cell *c,
                                                   const struct cell_stencil *s, row_of_points *gain,
                                                   row_of_points arm[DIM_MAX][DIM_MAX], const int dim)

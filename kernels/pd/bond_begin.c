@@ -52,7 +52,7 @@ static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
-    const int64_t other = b->row_of[bond->nbr]; /* images have no rows */
+    const int64_t other = b->row_of[bond->nbr]; /* mirror images have no rows */
     if (bond->w == 0 || bond_is_softening(b, g, bond->entry)) return false;
     if (other >= 0 && due_of(b, other / LANES) == DUE_NOT) return false;
     c->i = i, c->j = bond->nbr;

@@ -331,8 +331,8 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
                 stretch, weak->word, weak->too_little);
     if (stretch > PARTS_AT_GRIP)
         fprintf(out,
-                "accuracy       metal is pulled to %.3g times its length: beyond about %.2g times its points separate "
-                "beside driven ones; pull it by wider parts that do not yield%s\n",
+                "accuracy       metal is pulled to %.3g times its length: beyond about %.2g times its material points "
+                "separate beside those whose motion is prescribed; pull it by wider parts that do not yield%s\n",
                 stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 

@@ -88,7 +88,7 @@ static void print_surface(const struct scene *s, const struct material *m)
            surface.tension, surface.biaxial, surface.shear);
     if (isfinite(surface.compression)) printf(", %.4g Pa in uniaxial compression", surface.compression);
     if (s->dim == 3) printf(", %.4g Pa in hydrostatic tension", surface.hydrostatic);
-    printf(", from a strength surface; strains are averaged over %.4g m (%d means over families)\n",
+    printf(", from a strength surface; strains are averaged over %.4g m (%d means over neighbourhoods)\n",
            scene_strength_surface_radius(s, m), m->surface_means);
     say_horizon(s, m);
     printf("; with a horizon of %.4g m or more the stress does not reach the surface",

@@ -189,8 +189,8 @@ static void reach_widen(int32_t *reach, int32_t distance)
 }
 
 /* Increases room->reach to the largest difference of the indices of two bonded particles in block g of eight rows (the
- * bonds of eight particles). Images do not count, as they have no rows. regular: true if the bonds are in room->regular
- * (found from the lattice map), false if they are in room->row (found by search). pass: the bonds. */
+ * bonds of eight particles). Mirror images do not count, as they have no rows. regular: true if the bonds are in
+ * room->regular (found from the lattice map), false if they are in room->row (found by search). pass: the bonds. */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;

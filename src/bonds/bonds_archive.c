@@ -27,7 +27,7 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
 
 /* Saves to the archive a if a->saving, else restores from it: which blocks of eight rows (the bonds of eight particles)
  * have a broken or softened bond, and the weights of all bonds in these. Other blocks have the weights with which they
- * are made. Returns FAILED if the archive cannot be read or written or lacks one of both. */
+ * are made. Returns FAILED if the archive cannot be read or written, or lacks one of these entries. */
 static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;

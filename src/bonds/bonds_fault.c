@@ -22,11 +22,11 @@ static const char *rows_fault(const struct bonds *b)
  * a constant text that names the first fault; NULL if there is none. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
-    if (!b->stencil[g]) return "an implicit row block has no stencil";
+    if (!b->stencil[g]) return "a block of eight rows stores no columns and has no stencil";
     if (b->stencil[g]->columns != b->column_count[g])
-        return "a row block and its stencil have different numbers of columns";
+        return "a block of eight rows and its stencil have different numbers of columns";
     for (int l = 0; l < LANES && b->broken; l++)
-        if (b->broken[g * LANES + l] > 0) return "an implicit row block has a broken bond";
+        if (b->broken[g * LANES + l] > 0) return "a block of eight rows that follows a stencil has a broken bond";
     return NULL;
 }
 
@@ -55,7 +55,7 @@ static const char *reach_fault(const struct bonds *b, int64_t row)
         const int64_t to = b->row_of[it.bond.nbr];
         const int64_t away = to < 0 ? 0 : to / LANES - row / LANES;
         if (it.bond.w != 0 && (away > b->reach || -away > b->reach))
-            return "a bond reaches more row blocks than allowed";
+            return "a bond reaches more blocks of eight rows than allowed";
     }
     return NULL;
 }

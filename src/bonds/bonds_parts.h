@@ -69,8 +69,8 @@ void bond_row_set_softening_state(struct row *row, const struct row_maker *maker
 #define SURFACE_NEAR 0.8
 
 /* Copies the softening state of the bonds in row `previous_row` of `previous_bonds` to row `row` of b, the row of the
- * same particle. new_index: index in p of each particle and image of `previous_bonds`, -1 if it is not in p; limit:
- * critical stretches and softening by pair of materials. */
+ * same particle. new_index: index in p of each particle and mirror image of `previous_bonds`, -1 if it is not in p;
+ * limit: critical stretches and softening by pair of materials. */
 void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
                                  const int32_t *new_index);

@@ -30,9 +30,9 @@ void bond_row_buffer_free(struct row *row)
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Lists the particles and images of the body of particle i within its cutoff in found[capacity], in ascending order,
- * without i. Returns their number. A number above `capacity` means that the list is incomplete. s: cutoff and cells of
- * the search. */
+/* Lists the particles and mirror images of the body of particle i within its cutoff in found[capacity], in ascending
+ * order, without i. Returns their number. A number above `capacity` means that the list is incomplete. s: cutoff and
+ * cells of the search. */
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found,
                          int capacity)
 {
@@ -149,14 +149,14 @@ static real elastic_strain_along(const struct particles *p, const struct materia
     return sum;
 }
 
-/* Returns the initial plastic state of the bond between material points i and j (j may be an image): 0 if neither has
- * yielded. Its plastic stretch is the part of the present stretch that the points' stress does not explain elastically,
- * its plastic path the mean of their plastic strains. A bar then carries the stress of its points to the last digit. s:
- * has the elastic constants; r: reference length of the bond [m]. The value is symmetric in i and j. */
+/* Returns the initial plastic state of the bond between material points i and j (j may be a mirror image): 0 if
+ * neither has yielded. Its plastic stretch is the part of the present stretch that the points' stress does not explain
+ * elastically, its plastic path the mean of their plastic strains. A bar then carries the stress of its points to the
+ * last digit. s: has the elastic constants; r: reference length of the bond [m]. The value is symmetric in i and j. */
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
-    const int32_t other = j < p->n ? j : i; /* images store no stress */
+    const int32_t other = j < p->n ? j : i; /* mirror images store no stress */
     real e[DIM_MAX], length2 = 0;
     if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0)
         return (struct bond_plasticity){0, 0};

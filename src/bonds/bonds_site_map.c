@@ -1,6 +1,6 @@
 /* Rows of bonds of particles on a lattice: a map of its sites gives the neighbours of eight consecutive particles
  * without a search, and their lengths and weights are computed side by side. Bits equal those of single rows; irregular
- * places (ends of lattice rows, cracks, images) are left to the search. */
+ * places (ends of lattice rows, cracks, mirror images) are left to the search. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ enum { HALF_MOST = 16 }; /* largest reach of bonds for which blocks of eight row
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
 /* Returns the index in `map` of the lattice site at the reference position of particle number `particle` (or of an
- * image); -1 if the position is not a lattice site. */
+ * mirror image); -1 if the position is not a lattice site. */
 int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle)
 {
     int64_t site = 0;
@@ -34,9 +34,9 @@ int64_t site_map_lattice_site_of_particle(const struct site_map *map, const stru
     return site;
 }
 
-/* Computes the smallest box of lattice sites that contains the particles and images of p and a margin of l->reach sites
- * (length of the longest bond): its lower corner without the margin, l->low [m], and the index strides l->stride.
- * Returns the number of sites in the box, or 0 if there are too many for a map. */
+/* Computes the smallest box of lattice sites that contains the particles and mirror images of p and a margin of
+ * l->reach sites (length of the longest bond): its lower corner without the margin, l->low [m], and the index strides
+ * l->stride. Returns the number of sites in the box, or 0 if there are too many for a map. */
 static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;
@@ -72,9 +72,10 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
     return true;
 }
 
-/* Enters all particles and images in the array l->at of the map of lattice sites: their index plus 1 (0: no particle).
- * Returns false if the map cannot be used, because a particle or image is off the lattice or shares its site with
- * another, because there are several bodies, or because the particles are not numbered in the order of their sites. */
+/* Enters all particles and mirror images in the array l->at of the map of lattice sites: their index plus 1 (0: no
+ * particle). Returns false if the map cannot be used, because a particle or image is off the lattice or shares its site
+ * with another, because there are several bodies, or because the particles are not numbered in the order of their
+ * sites. */
 static bool sites_fill(struct site_map *l, const struct particles *p)
 {
     bool regular = true;
@@ -117,7 +118,7 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
 
 /* Returns true if all particles of the body have the same volume, mass and material, and reference positions that are
  * exact multiples of a step: equal distances are then equal to the last bit. l: map, with the spacing of the lattice.
- * Images are not tested, as regular_bonds leaves them out. */
+ * Mirror images are not tested, as regular_bonds leaves them out. */
 static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;

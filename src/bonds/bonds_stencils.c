@@ -173,10 +173,9 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
         copy->nbr[l] = copy->first + l, copy->inverse_length[l] = copy->w[l] == 0 ? 0 : of->inverse_length;
 }
 
-/* Returns true if bonds b of block number row_block of eight rows may lead to images;
- * false only if none does. Images follow all particles, and the columns of a stencil ascend by their neighbours, up to
- * the padding of less than eight lanes: no column leads to an image if the last one ends two blocks before the
- * images. */
+/* Returns true if bonds b of block number row_block of eight rows may lead to mirror images; false only if none does.
+ * Images follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of less than
+ * eight lanes: no column leads to an image if the last one ends two blocks before the images. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = bond_row_block_column_count(b, row_block);

@@ -401,9 +401,9 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
 
 /* ---- start ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the smallest stretch at which bonds of particle or image j may begin to soften [1]. If the stress of the
- * particle has reached its strength surface (failure criterion in stress), this is LEAST_ONSET times its strain at the
- * tensile strength; otherwise it is INFINITY. e: bonds, particles and their stresses. */
+/* Returns the smallest stretch at which bonds of particle or mirror image j may begin to soften [1]. If the stress of
+ * the particle has reached its strength surface (failure criterion in stress), this is LEAST_ONSET times its strain at
+ * the tensile strength; otherwise it is INFINITY. e: bonds, particles and their stresses. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
     const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);

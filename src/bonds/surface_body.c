@@ -212,7 +212,7 @@ static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
 }
 
 /* Sets near[i] to 1 for the particles i near faces: those without a neighbour at some lattice offset within the cutoff,
- * and their neighbours. Images are examined too, because particles of the body may be their neighbours.
+ * and their neighbours. Mirror images are examined too, because particles of the body may be their neighbours.
  * near[particles]: 0 before; b: particles, after whole_mark; map: map from lattice sites to particles. */
 static void near_mark(uint8_t *near, const struct near_faces *b, const struct site_map *map)
 {

@@ -30,7 +30,7 @@ struct near_faces {
     int64_t n;
     int32_t *particle;  /* [n] ascending */
     int32_t *place;     /* [p->n] index in `particle`, -1: no face nearby */
-    int32_t *neighbour; /* [n offsets] particle or image; -1: none, or cut by a crack */
+    int32_t *neighbour; /* [n offsets] particle or mirror image; -1: none, or cut by a crack */
     uint8_t *whole;     /* [p->n] 1: no neighbour is missing */
 };
 
@@ -46,8 +46,8 @@ struct seen {
 struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t entry);
 
 /* Returns the particle of the body that belongs to entry `entry` of the particle arrays: `entry` itself or, for a
- * mirror image, its source, with the axes that the mirrors in between reverse (bit d: axis d). b: particles near
- * faces. */
+ * mirror image, the particle that it mirrors, with the axes that the mirrors in between reverse (bit d: axis d). b:
+ * particles near faces. */
 static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
 {
     return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);

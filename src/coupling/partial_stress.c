@@ -49,7 +49,7 @@ real segment_fraction_in_cube(const real *segment_start, const real *segment_end
 struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = image};
-    while (r.root >= p->n) { /* X of this image: reflection of X of its source along one axis */
+    while (r.root >= p->n) { /* X of this mirror image: reflection of X of its source along one axis */
         int64_t source = s->image[r.root - p->n].source;
         for (int d = 0; d < p->dim; d++) {
             if (p->X[d][source] == p->X[d][r.root]) continue;

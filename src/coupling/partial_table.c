@@ -392,8 +392,9 @@ void partial_table_update_strain_responses(struct partial_table *t, const struct
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* A row whose bonds may cross the cell of a point. j: particle or image of the row; place: number of its site relative
- * to the point; response: entry of its bond responses. A bond starts within its length of any cell that it crosses. */
+/* A row whose bonds may cross the cell of a point. j: particle or mirror image of the row; place: number of its site
+ * relative to the point; response: entry of its bond responses. A bond starts within its length of any cell that it
+ * crosses. */
 struct crossing_row {
     int32_t j, place, response;
 };
@@ -454,8 +455,8 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists the particles and images whose bonds may cross the cell of material point i in `to`, in ascending order. l: map
- * from lattice sites to particles, in which the sites of table t are looked up; s: list of the images. Sites are
+/* Lists the particles and mirror images whose bonds may cross the cell of material point i in `to`, in ascending order.
+ * l: map from lattice sites to particles, in which the sites of table t are looked up; s: list of the images. Sites are
  * visited in the order of the particles, so that only images have to be inserted between others. Returns the number of
  * listed particles, at most t->vectors + 1. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
@@ -471,9 +472,9 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists the particles and images whose bonds may cross the cell of material point i in `to`, in ascending order, found
- * by a neighbour search: for particles without a map of lattice sites. t: table of bond responses; s: cells of the
- * search; near: working memory. Returns the number of listed particles. */
+/* Lists the particles and mirror images whose bonds may cross the cell of material point i in `to`, in ascending order,
+ * found by a neighbour search: for particles without a map of lattice sites. t: table of bond responses; s: cells of
+ * the search; near: working memory. Returns the number of listed particles. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

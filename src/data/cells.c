@@ -74,8 +74,8 @@ void cells_free(struct cells *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Sorts the indices found[n] in ascending order by insertion, which is fast because only the images at the end of the
- * list are out of order. */
+/* Sorts the indices found[n] in ascending order by insertion, which is fast because only the mirror images at the end
+ * of the list are out of order. */
 static void sort_ascending(int32_t *found, int n)
 {
     for (int k = 1; k < n; k++) {
@@ -223,9 +223,9 @@ int cells_neighbour_count_bound(const struct cells *c, real radius)
     return (int)most;
 }
 
-/* Lists in near->at the particles and images of p whose reference position is within `radius` [m] of that of particle
- * i, and stores their number in near->n. The list grows as needed. c: search cells; itself: true to include particle i;
- * any_order: true if the list need not be sorted. */
+/* Lists in near->at the particles and mirror images of p whose reference position is within `radius` [m] of that of
+ * particle i, and stores their number in near->n. The list grows as needed. c: search cells; itself: true to include
+ * particle i; any_order: true if the list need not be sorted. */
 static void cells_find(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
                        real radius, bool itself, bool any_order)
 {

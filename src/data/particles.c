@@ -70,7 +70,7 @@ const struct particle_field particle_fields[] = {
     TRIAL(mesh_stress, real, if_mesh_stress, "Pa", "stress of points of a mesh in the axes of their cell"),
     FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
     FIELD(end_rotation, real, if_rotates, "1", "rotation of a point at the end of bonds"),
-    FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
+    FIELD(end_pull, real, if_ends, "J", "derivative of its neighbourhood's energy by that strain"),
     FIELD(end_moment, real, if_moment, "N m", "moment of its bonds about it"),
     FIELD(low_since, real, if_return, "s", "since when the stress of a peridynamic particle is low"),
     FIELD(strength, real, if_strength, "1", "factor on the critical stretch"),
@@ -297,7 +297,7 @@ void particles_rebuild_lists_by_kind(struct particles *p)
 
 /* Returns true if a particle of p is marked for conversion from material point to peridynamic particle: it lost a bond,
  * has a high stress, or is near another body. Eight particles are tested at a time; entries behind the last particle
- * are images, which never have these flags. */
+ * are mirror images, which never have these flags. */
 bool particles_any_is_flagged_for_conversion(const struct particles *p)
 {
     uint64_t any = 0;

@@ -18,7 +18,7 @@ void run_parts_free(struct run *e);
  * both. */
 struct predecessor {
     struct run *run;
-    int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
+    int32_t *now; /* [particles and mirror images of `run`] their indices in the new run; -1: not in the new run */
 };
 
 /* Creates the run e of the scene s without the particles of the cells listed in `omitted_cells`: cells inside a body

@@ -37,15 +37,15 @@ static void warn_of_different_starts(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds a warning to *to about each material of scene s that flows but is not heated, so that its temperature stays that
- * of the start. */
+/* Adds a warning to *to about each material of scene s that yields but is not heated, so that its temperature stays
+ * that of the start. */
 static void warn_of_flow_without_heat(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {
         const struct material *a = &s->material[m];
         if (!a->law.given || law_heats_material(&a->law)) continue;
         warnings_add_if_new(to,
-                            "material %s flows but is not heated, so its temperature stays at %.5g K: give it "
+                            "material %s yields but is not heated, so its temperature stays at %.5g K: give it "
                             "johnson_cook with specific_heat if its heat matters",
                             a->name, scene_initial_temperature(s, a));
     }

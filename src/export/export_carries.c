@@ -107,7 +107,7 @@ static void pd_settings(struct lammps_settings *to, const struct scene *s, bool 
                  "neighbours at the edge of the horizon count by their share within it: stiffness is calibrated anew, "
                  "wave speeds differ by a few percent");
     settings_add(to, s->calibration == CALIBRATION_VMPD, "pd.calibration", "lattice",
-                 "stiffness is that of a full family on the lattice");
+                 "stiffness is that of a full neighbourhood on the lattice");
     settings_add(to, s->surface != SURFACE_NONE, "pd.surface", "none",
                  "bonds near faces keep their plain weight: faces are softer, thin parts bend more");
     settings_add(to, s->shells != SHELLS_UNIFORM, "pd.weights", "uniform",
@@ -115,7 +115,7 @@ static void pd_settings(struct lammps_settings *to, const struct scene *s, bool 
     settings_add(to, s->influence != (state ? INFLUENCE_INVERSE : INFLUENCE_ONE), "pd.influence",
                  state ? "inverse" : "one", "the weight of a bond is another function of its length");
     settings_add(to, state && s->bulk, "pd.normalisation", "local",
-                 "constants come from the family that a particle has, so those of particles at faces differ");
+                 "constants come from the neighbourhood that a particle has, so those of particles at faces differ");
     settings_add(to, scene_bonds_break(s) && s->last_force != LAST_FORCE_WHOLE, "pd.last_force", "whole",
                  "a bond acts for the whole step in which it breaks: it breaks one step later, which decides between "
                  "two almost equal paths of a crack");

@@ -107,7 +107,8 @@ static void readme_write(FILE *to, const struct exported *x)
                 k ? "" : "\nThe results differ from those of the scene as it was, by LAMMPS' rules:\n",
                 x->settings.of[k].key, x->settings.of[k].value, x->settings.of[k].effect);
     if (lammps_keeps_weighted_volume_of_intact_family(x->s))
-        fputs("\nThe results differ once bonds break: families of LAMMPS keep the weight of their broken bonds, those "
+        fputs("\nThe results differ once bonds break: neighbourhoods of LAMMPS keep the weight of their broken bonds, "
+              "those "
               "of Cleave\ndo not. check.csv agrees to round-off only until the first bond breaks.\n",
               to);
     if (x->bond_style)

@@ -24,7 +24,7 @@ static void join_ends(int32_t *leader, const struct bonds *b, const struct parti
         int32_t own = fragment_leader(leader, i);
         for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);) {
             const int32_t j = it.bond.nbr;
-            if (it.bond.w == 0 || j >= p->n || leader[j] == own) continue; /* images belong to other particles */
+            if (it.bond.w == 0 || j >= p->n || leader[j] == own) continue; /* mirror images belong to other particles */
             const int32_t other = fragment_leader(leader, j);
             if (own < other)
                 leader[other] = own;

@@ -48,7 +48,7 @@ void tips_compute_crack_extents(const struct crack_tips *t, const struct particl
 struct tip_search {
     const struct particles *p;
     const struct cells *c;
-    int32_t *found; /* result of the last search, particles and images */
+    int32_t *found; /* result of the last search, particles and mirror images */
     int room;
 };
 

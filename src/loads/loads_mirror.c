@@ -63,7 +63,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
 
 void loads_update_mirror_images(const struct loads *l, struct particles *p)
 {
-    for (int64_t k = 0; k < l->images; k++) { /* all sources first: corners have images of images */
+    for (int64_t k = 0; k < l->images; k++) { /* all sources first: corners have mirror images of images */
         const int axis = l->load[l->image[k].load].boundary->axis;
         const int64_t i = l->image[k].source;
         if (i < p->n) p->x[axis][i] = stepped(l, axis, p->x[axis][i]);

@@ -1,11 +1,11 @@
-/* Exposed points of the mesh, whose motion is needed in every step: with bonds, loads or images. */
+/* Exposed points of the mesh, whose motion is needed in every step: with bonds, loads or mirror images. */
 #include "mesh/active_nodes.h"
 #include "base/memory.h"
 #include "bonds/sites.h"
 #include "mesh_parts.h"
 
-/* Flags of the exposed points (with bonds, loads or images, so that their motion is needed in every step), [particles],
- * and of the cells that contain such points, [cells]. */
+/* Flags of the exposed points (with bonds, loads or mirror images, so that their motion is needed in every step),
+ * [particles], and of the cells that contain such points, [cells]. */
 struct exposure {
     uint8_t *point, *cell;
 };

@@ -10,10 +10,10 @@ static real wave_speed(const struct exact *e) { return sqrt(e->young / e->densit
 static real plastic_speed(const struct exact *e) { return sqrt(e->tangent / e->density); }
 static real length(const struct exact *e) { return e->right - e->left; }
 
-/* Returns the distance of coordinate X [m] from the loaded end of the bar e [m]. */
+/* Returns the distance [m] of coordinate X [m] from the loaded end of the bar e. */
 static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->right - X : X - e->left; }
 
-/* Returns the coordinate of the point at distance s [m] from the loaded end of the bar e [m]. */
+/* Returns the coordinate [m] of the point at distance s [m] from the loaded end of the bar e. */
 static real exact_position(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
 
 /* Returns the reflection factor of the end of bar e opposite to the loaded end: 1 if it is fixed, -1 if it is free. */

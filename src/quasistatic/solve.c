@@ -94,10 +94,11 @@ static void warn_large_rotation(struct warnings *to, const struct bonds *b, cons
             falsified = real_max(falsified, 0.5 * (moved2 / length2 - square(stretch)));
             largest = real_max(largest, fabs(stretch));
         }
-    snprintf(text, sizeof text,
-             "bonds rotate by up to %.2g degrees, which makes stretches wrong by up to %.2g %% of the largest one, "
-             "because solver: cg is for small displacements; use smaller loads, or solver: static or relaxation",
-             sqrt(2 * falsified) * 180 / acos(-1), 100 * falsified / largest);
+    snprintf(
+        text, sizeof text,
+        "bonds rotate by up to %.2g degrees, so stretches are wrong by up to %.2g %% of the largest one: solver: cg "
+        "is for small displacements only; use smaller loads, or solver: static or relaxation",
+        sqrt(2 * falsified) * 180 / acos(-1), 100 * falsified / largest);
     if (falsified > TURN_STRAIN_MOST * largest) warnings_add_and_print(to, text);
 }
 

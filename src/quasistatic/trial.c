@@ -47,6 +47,6 @@ void trial_equilibrium_end(struct run *e, struct memory_archive *m, bool kept, c
                        e->optional); /* a nested trial may have saved a different one */
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
-    loads_update_mirror_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
+    loads_update_mirror_images(&e->loads, &e->part); /* stretches of bonds to mirror images need their positions */
     reactions_compute_and_store(e->statics, &e->part, &e->loads);
 }

@@ -83,7 +83,7 @@ static status write_history(struct page *p, const char *folder, const char *head
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the corners of the pre-cracks of scene s to the JSON of the page p [m]. */
+/* Writes the corners [m] of the pre-cracks of scene s to the JSON of the page p. */
 static void write_pre_cracks(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "cracks", '[');

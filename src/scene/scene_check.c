@@ -430,13 +430,14 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *model = yaml_node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
-        return fault(r, surface, "the correction moments needs a regular lattice in 2D or 3D; set pd.surface: %s",
+        return fault(r, surface, "the correction `moments` needs a regular lattice in 2D or 3D; set pd.surface: %s",
                      s->model == MODEL_BOND ? "volume or none" : "none");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
-        return fault(r, surface,
-                     "with model: %s the correction moments needs method: pd and pd.normalisation: bulk; set these, or "
-                     "pd.surface: none",
-                     node_text(r, model));
+        return fault(
+            r, surface,
+            "with model: %s the correction `moments` needs method: pd and pd.normalisation: bulk; set these, or "
+            "pd.surface: none",
+            node_text(r, model));
     if (s->dim == 1 && s->calibration != CALIBRATION_LATTICE && s->influence == INFLUENCE_INVERSE_SQUARE)
         return fault(
             r, scene_check_below(root, "pd", "influence"),

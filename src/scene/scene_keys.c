@@ -169,12 +169,13 @@ const struct key keys[] = {
     KEY("pd.volume", KEY_CHOICE, UNIT_NONE, AT(scene, volume), ANY, "whole",
         "volume share of neighbours at the edge of the horizon", .words = "whole|ramp|cut-ramp"),
     KEY("pd.calibration", KEY_CHOICE, UNIT_NONE, AT(scene, calibration), ANY, "lattice",
-        "what determines the stiffness of bonds: a full family on the lattice (exact), the continuum integral or vmpd "
+        "what determines the stiffness of bonds: a full neighbourhood on the lattice (exact), the continuum integral "
+        "or vmpd "
         "(not exact, least of all with influence inverse square)",
         .words = "lattice|continuum|vmpd"),
     KEY("pd.surface", KEY_CHOICE, UNIT_NONE, AT(scene, surface), ANY,
         "(moments with method pd; volume in load steps of bonds that break)",
-        "weights of bonds near faces: moments: from moments of families, with which thin bodies bend, twist and "
+        "weights of bonds near faces: moments: from moments of neighbourhoods, with which thin bodies bend, twist and "
         "stretch correctly (lattices only); volume: from the volume of neighbours",
         .words = "none|volume|moments"),
     KEY("pd.weights", KEY_CHOICE, UNIT_NONE, AT(scene, shells), ANY, "(isotropic; calibration not lattice: uniform)",
@@ -185,7 +186,8 @@ const struct key keys[] = {
         .words = "one|gaussian|inverse|inverse square|linear"),
     KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY,
         "(bulk with mospd and irregularity 0, and with pd.surface moments, else local)",
-        "ospd and mospd: constants from the family that a particle has (local), or from a full family (bulk)",
+        "ospd and mospd: constants from the neighbourhood that a particle has (local), or from a full neighbourhood "
+        "(bulk)",
         .words = "local|bulk"),
     KEY("pd.last_force", KEY_CHOICE, UNIT_NONE, AT(scene, last_force), ANY, "moment",
         "last force of a bond that breaks: it acts until the moment, within a step, at which its stretch is critical; "

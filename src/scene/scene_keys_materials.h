@@ -41,7 +41,8 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         "the same by the strength in equal tension in two directions; between a half of tensile_strength and it"),
     KEY("material.strength_radius", KEY_REAL, UNIT_LENGTH, AT(material, strength_radius), ABOVE(0),
         "(0.65 E G_c/tensile_strength^2 in plane stress, 0.9 of it in plane strain and solid)",
-        "radius over which the strain is averaged for a strength surface, at least: by n means over families, which "
+        "radius over which the strain is averaged for a strength surface, at least: by n means over neighbourhoods, "
+        "which "
         "reach horizon sqrt(n + 0.3)"),
     KEY("material.yield_stress", KEY_REAL, UNIT_PRESSURE, AT(material, yield_stress), ABOVE(0), "inf",
         "stress at which it yields (von Mises; bonds yield one by one, so that plates of them carry 1.4, solids 1.8 "

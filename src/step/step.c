@@ -78,7 +78,7 @@ static void zone_damp(struct run *e, struct step *now)
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (!now->damps) return;
     e->damped += interface_zone_damp_and_return_half_energy(&e->coupling->zone, &e->part, e->coupling->damping_share);
-    loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
+    loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of mirror images */
 }
 
 /* Stores the velocities of run e before the forces of this step, from which the energy loss by bulk damping is

@@ -33,7 +33,7 @@ static void test_vortex_gradient(void **state)
 }
 
 /* Checks that for small strains the laws agree with Hooke's law: mesh exactly, bonds within 1.2 % of C11 and 3.5 % of
- * the others (anisotropy of a family of 3.015 spacings); a rotation of the body rotates the stress. */
+ * the others (anisotropy of a neighbourhood of 3.015 spacings); a rotation of the body rotates the stress. */
 static void test_vortex_laws(void **state)
 {
     (void)state;

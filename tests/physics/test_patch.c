@@ -21,7 +21,7 @@ static bool inside(const struct particles *p, int64_t i, const int *count, real 
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Lattices whose middle particle has a complete family, in every space. */
+/* Lattices whose middle particle has a complete neighbourhood, in every space. */
 static const struct cloud_plan lattice[] = {
     {.space = SPACE_LINE, .count = {15}, .horizon = 3},
     {.space = SPACE_PLANE_STRESS, .count = {9, 9}, .horizon = 3.015},

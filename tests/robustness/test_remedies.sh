@@ -143,10 +143,10 @@ remedied -s solver=relaxation
 refused 'so friction has no effect' "$plate" -s contact.friction=0.3
 remedied -s contact.friction=0
 remedied -s contact.between=all
-refused 'the correction moments needs a regular lattice in 2D or 3D; set pd.surface: volume or none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1
+refused 'the correction `moments` needs a regular lattice in 2D or 3D; set pd.surface: volume or none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1
 remedied -s pd.surface=volume
 remedied -s pd.surface=none
-refused 'the correction moments needs a regular lattice in 2D or 3D; set pd.surface: none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1 -s model=ospd
+refused 'the correction `moments` needs a regular lattice in 2D or 3D; set pd.surface: none' "$plate" -s pd.surface=moments -s particles.irregularity=0.1 -s model=ospd
 remedied -s pd.surface=none
 refused 'cannot be used in space plane stress' "$plate" -s 'material.viscosity={}'
 remedied -s 'space=plane strain'

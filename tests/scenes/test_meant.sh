@@ -55,7 +55,7 @@ silent "a start in kelvin" 'T_room' "$glass" -s method=mpm -s cracks=[] -s "$hot
 two="materials=[{name: a, $(echo "$hot 875}" | sed 's/.*={//'), {name: b, young: 200 GPa, density: 7800, yield_stress: 300 MPa}, {name: c, $(echo "$hot 875}" | sed 's/.*={//; s/T_melt/T_room: 400 K, T_melt/')]"
 sed 's/^body:.*/&\nparts: [{region: {disc: {centre: [0, 0], radius: 5 mm}}, material: b}, {region: {disc: {centre: [30 mm, 0], radius: 5 mm}}, material: c}]/; /^material:/d' "$glass" >"$work/two.yaml"
 says "two temperatures at the start" '^warning: materials a and c start at 293.15 K and 400 K, their T_room' "$work/two.yaml" -s method=mpm -s cracks=[] -s "$two"
-says "a metal that is not heated" '^warning: material b flows but is not heated, so its temperature stays at 293.15 K' "$work/two.yaml" -s method=mpm -s cracks=[] -s "$two"
+says "a metal that is not heated" '^warning: material b yields but is not heated, so its temperature stays at 293.15 K' "$work/two.yaml" -s method=mpm -s cracks=[] -s "$two"
 says "a yield stress in MPa" '^warning: material material: its yield stress over Young.s modulus is 4.17e-09 (300 Pa over 7.2e+10 Pa), below 2e-05' "$glass" \
     -s material.yield_stress=300
 says "a yield stress in GPa" "its yield stress over Young.s modulus is 4.17 .*, above 0.3" "$glass" -s material.yield_stress=300GPa
@@ -311,7 +311,7 @@ silent "a traction beside a face that is held" "$idle" "$plate" -s "$(loaded all
 # A layer of three of 20 rows, which shortens the plate by 2.25 mm: 20/17.75 = 1.127, its cube 1.43.
 rests() { test=$1 what=$2; shift 2; "$test" "$what" 'the layer behind its face' "$plate" -s solver=cg -s 'boundary.b={name: b, traction: [0, 1 MPa], face: y+}' "$@"; }
 rests says "a layer of a short body"
-holds "its stiffness: $(cat "$work/said")" grep -q 'boundary a: .* of 0.02 m by 0.00225 m along y. .* +13 % in tension, +43 % in bending; set depth: 1 mm' "$work/said"
+holds "its stiffness: $(cat "$work/said")" grep -q 'boundary a: .* of 0.02 m acts as if it were 0.00225 m shorter along y. .* +13 % in tension, +43 % in bending; set depth: 1 mm' "$work/said"
 rests silent "a layer of one row" -s 'boundary.a={name: a, fixed: all, face: y-, depth: 1 mm}'
 # From the corner at 20 mm to 8 m: sqrt(2) 7.98 m.
 solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }

@@ -1,4 +1,4 @@
-/* Small bodies for tests of kernels: a regular or irregular lattice with its family, cells and bonds. */
+/* Small bodies for tests of kernels: a regular or irregular lattice with its neighbourhood, cells and bonds. */
 #ifndef CLEAVE_TESTS_CLOUD
 #define CLEAVE_TESTS_CLOUD
 
@@ -121,8 +121,8 @@ static inline void cloud_exact(struct particle_cloud *c)
         for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
 }
 
-/* Stores all bonds of b explicitly: replaces the shared stencils, which give the bonds of regular row blocks (eight
- * particles stored together), by lists of neighbours. */
+/* Stores all bonds of b explicitly: replaces the shared stencils, which give the bonds of regular blocks of eight rows
+ * (the bonds of eight particles), by lists of neighbours. */
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)

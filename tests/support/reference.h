@@ -9,7 +9,7 @@
 #include "bonds/bonds.h"
 #include "base/memory.h"
 
-/* ==== families ===================================================== */
+/* ==== neighbourhoods ===================================================== */
 
 /* Computes the vector from particle i to particle j, with the positions x[dim][..] [m], and stores it in relative[dim].
  * Returns the length of the vector [m]. */
@@ -20,8 +20,8 @@ static inline real reference_relative(real *const *x, int dim, int64_t i, int64_
     return sqrt(r2);
 }
 
-/* Returns true if particle j is in the family f of particle i: another particle of the same body whose distance in the
- * reference configuration is at most the cutoff. */
+/* Returns true if particle j is in the neighbourhood f of particle i: another particle of the same body whose distance
+ * in the reference configuration is at most the cutoff. */
 static inline bool reference_bonded(const struct particles *p, const struct family *f, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], cutoff = f->horizon + (f->volume == VOLUME_RAMP ? 0.5 * f->spacing : 0);
@@ -30,7 +30,7 @@ static inline bool reference_bonded(const struct particles *p, const struct fami
 }
 
 /* Returns beta, the fraction of the volume of a neighbour at distance r [m] that counts as within the horizon; 1 if the
- * family f counts whole volumes. */
+ * neighbourhood f counts whole volumes. */
 static inline real reference_beta(const struct family *f, real r)
 {
     if (f->volume == VOLUME_WHOLE) return 1;
@@ -66,8 +66,8 @@ static inline real reference_sigma(const struct family *f)
     return sum;
 }
 
-/* Returns the micro-modulus c [N/m^6] of the bonds of material m, with which a uniform dilatation of a full family (all
- * neighbours within the horizon exist) stores the energy of the elastic material. */
+/* Returns the micro-modulus c [N/m^6] of the bonds of material m, with which a uniform dilatation of a full
+ * neighbourhood (all neighbours within the horizon exist) stores the energy of the elastic material. */
 static inline real reference_modulus(const struct family *f, const struct material *m)
 {
     real E = m->young, nu = m->poisson, sigma = reference_sigma(f);

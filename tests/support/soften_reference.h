@@ -13,7 +13,7 @@ struct soften_reference {
     enum softening law;
     real *most, *onset, *critical; /* largest stretch, 0: not begun; s_0 and s_c of each bond [1] */
     bool *ended;
-    bool *due;   /* [row blocks] a bond was beyond its onset in the last step, or was not allowed to begin */
+    bool *due;   /* [row_blocks] a bond was beyond its onset in the last step, or was not allowed to begin */
     real jumped; /* energy lost at once by bonds that began late [J] */
     real broken; /* energy of ended bonds [J] */
 };
@@ -133,11 +133,11 @@ static inline real soften_reference_dilatation(const struct soften_reference *r,
     return trace;
 }
 
-/* Starts the softening of all bonds whose stretch is beyond their onset and whose row blocks (eight particles stored
- * together), of both particles, are due to be examined. Bonds at which the dilatation shows that no tensile stress acts
- * do not start; their row blocks remain due, all others are not. Adds the energy that bonds lose at once because they
- * start beyond their onset to r->jumped. w: matrix of reference_table; stiffness: force of a bond of weight 1, divided
- * by its stretch [N]; block[i]: row block of particle i. */
+/* Starts the softening of all bonds whose stretch is beyond their onset and whose blocks of eight rows (the bonds of
+ * eight particles), of both particles, are due to be examined. Bonds at which the dilatation shows that no tensile
+ * stress acts do not start; their blocks remain due, all others are not. Adds the energy that bonds lose at once
+ * because they start beyond their onset to r->jumped. w: matrix of reference_table; stiffness: force of a bond of
+ * weight 1, divided by its stretch [N]; block[i]: block of particle i. */
 static inline void soften_reference_begin(struct soften_reference *r, const struct particles *p, const real *w,
                                           real stiffness, const int64_t *block)
 {
@@ -165,8 +165,8 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
 }
 
 /* Computes force and energy of all particles and stores them in row[n] (the stress remains 0). Ends bonds that have
- * begun to soften and whose stretch is beyond the end of the softening curve, marks the row blocks (eight particles
- * stored together) of bonds beyond their onset as due, and updates the largest stretches. w, stiffness, block: as for
+ * begun to soften and whose stretch is beyond the end of the softening curve, marks the blocks of eight rows (the bonds
+ * of eight particles) of bonds beyond their onset as due, and updates the largest stretches. w, stiffness, block: as for
  * soften_reference_begin, which must have been called before. */
 static inline void soften_reference_step(struct soften_reference *r, const struct particles *p, const real *w,
                                          real stiffness, const int64_t *block, struct reference_row *row)

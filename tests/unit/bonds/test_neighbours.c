@@ -149,7 +149,8 @@ static bool case_cut(const struct particle_cloud *c, int64_t i, int64_t j)
     return c->source.cracks > 0 && reference_cut(c->source.crack, a, b, c->p.dim);
 }
 
-/* Returns true if the family of particle i of c (particles within the cutoff) contains a peridynamic particle. */
+/* Returns true if the neighbourhood of particle i of c (particles within the cutoff) contains a peridynamic
+ * particle. */
 static bool touches_pd(const struct particle_cloud *c, int64_t i)
 {
     for (int64_t j = 0; j < c->p.n; j++)
@@ -235,7 +236,7 @@ static void check_rows(const struct particle_cloud *c)
     }
     int64_t rows = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        bool wanted = false; /* eight consecutive particles form a row block */
+        bool wanted = false; /* eight consecutive particles form a block of eight rows */
         for (int64_t j = i / LANES * LANES; j < i / LANES * LANES + LANES && j < p->n; j++)
             wanted = wanted || p->kind[j] == KIND_PD || touches_pd(c, j);
         assert_int_equal(c->bonds.row_of[i] >= 0, wanted);
@@ -269,8 +270,8 @@ static void test_rows(void **state)
     }
 }
 
-/* Compares `columns` columns of a row block (bonds of eight particles) of b, from column number `column` on, with those
- * of the bonds `new`, from column number `of` on. */
+/* Compares `columns` columns of a block of eight rows (bonds of eight particles) of b, from column number `column` on,
+ * with those of the bonds `new`, from column number `of` on. */
 static void check_row_block_like_new(const struct bonds *b, int64_t column, const struct bonds *new, int64_t of,
                                      int64_t columns)
 {
@@ -284,7 +285,8 @@ static void check_row_block_like_new(const struct bonds *b, int64_t column, cons
 }
 
 /* Checks that the rows of c, rebuilt from the bonds `old`, agree with rows created from scratch, except for bonds
- * broken by load. Returns the number of row blocks (bonds of eight particles) with as many bonds as before. */
+ * broken by load. Returns the number of blocks of eight rows (bonds of eight particles) with as many bonds as
+ * before. */
 static int64_t check_like_new(struct particle_cloud *c, const struct bonds *old)
 {
     struct bonds *b = &c->bonds;

@@ -1,5 +1,5 @@
-/* Row blocks that follow a stencil: which they are, their implied bonds, bitwise equal results of every kernel compared
- * with explicitly stored bonds, and their rebuilding. */
+/* Blocks of eight rows that follow a stencil: which they are, their implied bonds, bitwise equal results of every
+ * kernel compared with explicitly stored bonds, and their rebuilding. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -55,16 +55,17 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* Returns true if row block `row_block` (bonds of eight particles) is at an end of the body c: eight neighbours in a
- * row may then begin before the first particle or end after the last, and such row blocks store their bonds. */
+/* Returns true if block `row_block` of eight rows (bonds of eight particles) is at an end of the body c: eight
+ * neighbours in a row may then begin before the first particle or end after the last, and such blocks store their
+ * bonds. */
 static bool at_an_end(const struct particle_cloud *c, int64_t row_block)
 {
     return fmin(apart(&c->p, 0, row_block * LANES), apart(&c->p, c->p.n - 1, row_block * LANES + 7)) <
            c->source.family.cutoff;
 }
 
-/* Checks which row blocks (bonds of eight particles) follow a stencil shared by several row blocks: lines of 32
- * particles are four row blocks each, all on the lattice; those in the middle follow one. */
+/* Checks which blocks of eight rows (bonds of eight particles) follow a stencil shared by several blocks: lines of 32
+ * particles are four blocks each, all on the lattice; those in the middle follow one. */
 static void test_who_follows(void **state)
 {
     (void)state;
@@ -121,9 +122,9 @@ static void make_again(struct particle_cloud *c)
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-/* Checks that data copied from row blocks (bonds of eight particles) with equal surroundings agree with data computed
- * for each row block: bonds, triggers, volumes of neighbours and the critical step. A heavier corner, which affects
- * none of these, prevents copying. */
+/* Checks that data copied from blocks of eight rows (bonds of eight particles) with equal surroundings agree with data
+ * computed for each block: bonds, triggers, volumes of neighbours and the critical step. A heavier corner, which
+ * affects none of these, prevents copying. */
 static void test_twins(void **state)
 {
     (void)state;
@@ -178,8 +179,8 @@ static struct made make_all(struct particle_cloud *c, enum pd_model model)
     return m;
 }
 
-/* Returns the number of inner row blocks of b (bonds of eight particles) whose columns store no weights, since all
- * weights are 1. */
+/* Returns the number of inner blocks of eight rows of b (bonds of eight particles) whose columns store no weights,
+ * since all weights are 1. */
 static int64_t count_units(const struct bonds *b)
 {
     int64_t units = 0;
@@ -199,11 +200,11 @@ static void test_same_bits(void **state)
             exact_cloud(&implicit, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             exact_cloud(&open, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             follow_nothing(&open.bonds);
-            const real most = dim == 2 ? 0.013 : 0.0104; /* some row blocks stay complete */
+            const real most = dim == 2 ? 0.013 : 0.0104; /* some blocks of eight rows stay complete */
             shake(&implicit, most), shake(&open, most);
             struct made a = make_all(&implicit, models[k]), b = make_all(&open, models[k]);
             assert_true(a.value[0] > 0);                    /* some bonds have broken, */
-            assert_true(count_folded(&implicit.bonds) > 0); /* and some row blocks still follow a stencil */
+            assert_true(count_folded(&implicit.bonds) > 0); /* and some blocks of eight rows still follow a stencil */
             assert_true(weighed || count_units(&implicit.bonds) > 0);
             assert_null(bonds_describe_first_inconsistency(&implicit.bonds)),
                 assert_null(bonds_describe_first_inconsistency(&open.bonds));
@@ -240,14 +241,14 @@ static void test_fault(void **state)
                         "the first neighbour of a column differs from its common value");
     b->common[column].first--;
     b->reach = 0;
-    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond reaches more row blocks than allowed");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond reaches more blocks of eight rows than allowed");
     b->row_of[b->particle[9]] = 3;
     assert_string_equal(bonds_describe_first_inconsistency(b), "row_of is not the inverse of `particle`");
     particle_cloud_free(&c);
 }
 
-/* Checks that a bond that changes makes its row block (bonds of eight particles) store its bonds explicitly, and no
- * other row block. */
+/* Checks that a bond that changes makes its block of eight rows (bonds of eight particles) store its bonds explicitly,
+ * and no other block. */
 static void test_who_leaves(void **state)
 {
     (void)state;
@@ -262,8 +263,8 @@ static void test_who_leaves(void **state)
     particle_cloud_free(&c);
 }
 
-/* Checks that a row block (bonds of eight particles) with changed weights, which no stencil has, stays explicit when
- * rows around it are rebuilt. */
+/* Checks that a block of eight rows (bonds of eight particles) with changed weights, which no stencil has, stays
+ * explicit when rows around it are rebuilt. */
 static void test_who_stays_out(void **state)
 {
     (void)state;

@@ -349,9 +349,9 @@ static void test_steps(void **state)
     contact_end(e, &s);
 }
 
-/* Checks the stiffness k of a pair of lattice particles against closed forms: 5/6 E A/D in 1D (families of 3 spacings:
- * E A/D is 6 k1, and k is 15/3.015 k1), and 0.51 E h per column in 2D. Tolerance 3 %: weights by direction change the
- * micro-modulus. */
+/* Checks the stiffness k of a pair of lattice particles against closed forms: 5/6 E A/D in 1D (neighbourhoods of 3
+ * spacings: E A/D is 6 k1, and k is 15/3.015 k1), and 0.51 E h per column in 2D. Tolerance 3 %: weights by direction
+ * change the micro-modulus. */
 static void test_stiffness(void **state)
 {
     (void)state;

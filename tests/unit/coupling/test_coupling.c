@@ -43,7 +43,7 @@ static void set_stress(struct particle_cloud *c, const real strain[DIM_MAX][DIM_
 
 /* Returns the largest nodal force, divided by the area of a cell's face [Pa], in a body with the interface k under the
  * uniform displacement gradient `strain`; nodes at free edges are left out. stress[]: receives the stress of the points
- * [Pa]. Checks that peridynamic particles with complete families have no force in either coupling. */
+ * [Pa]. Checks that peridynamic particles with complete neighbourhoods have no force in either coupling. */
 static real interface_residual(const struct interface *k, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     struct patch s = {0};
@@ -141,8 +141,8 @@ static void test_interface_3d(void **state)
     assert_true(interface_residual(&i, strain, S) / S[0] > 0.2);
 }
 
-/* Checks the share of its stress that a material point transfers to the grid in a bar with families of three spacings:
- * 1/4, 2/3, 11/12 by distance from the interface, to round-off. */
+/* Checks the share of its stress that a material point transfers to the grid in a bar with neighbourhoods of three
+ * spacings: 1/4, 2/3, 11/12 by distance from the interface, to round-off. */
 static void test_share_given(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void shares_make(struct particle_cloud *c, struct partial_stress *partial
 }
 
 /* Checks that partial stresses from tables of bonds on a lattice agree with sums over the bonds, and that no tables are
- * used for families too large for them (a horizon of 8 spacings: 2108 bonds). */
+ * used for neighbourhoods too large for them (a horizon of 8 spacings: 2108 bonds). */
 static void test_wide_families(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Reversion to material points: energy and momentum of a block that reverts under uniform strain, stress of families
- * incomplete at surfaces, selection of the particles that may revert, and their insertion into a mesh. */
+/* Reversion to material points: energy and momentum of a block that reverts under uniform strain, stress of
+ * neighbourhoods incomplete at surfaces, selection of the particles that may revert, and their insertion into a
+ * mesh. */
 #include "coupling/reversion.h"
 
 #include "tests/support/cloud.h"
@@ -148,9 +149,9 @@ static void test_wave(void **state)
     }
 }
 
-/* Tests the reversion of a whole body: a particle at a corner, with a quarter or an eighth of a family, gets the stress
- * of a particle in the middle, and the volume of the uniform deformation gradient. Tolerance: weights of bonds are in
- * single precision. */
+/* Tests the reversion of a whole body: a particle at a corner, with a quarter or an eighth of a neighbourhood, gets the
+ * stress of a particle in the middle, and the volume of the uniform deformation gradient. Tolerance: weights of bonds
+ * are in single precision. */
 static void test_surfaces(void **state)
 {
     (void)state;
@@ -171,7 +172,7 @@ static void test_surfaces(void **state)
         assert_int_equal(choose(&s, &list), p->n);
         real middle[SYM_MAX], most = 0;
         const int n = symmetric_component_count(p->dim);
-        for (int64_t i = 0; i < p->n; i++) /* a complete family has its plain virial stress */
+        for (int64_t i = 0; i < p->n; i++) /* a complete neighbourhood has its plain virial stress */
             if (s.c.bonds.family_volume[i] > 0.999 * s.c.source.family.full)
                 for (int c = 0; c < n; c++) middle[c] = p->stress[c][i], most = real_max(most, fabs(middle[c]));
         assert_true(most > 0);
@@ -259,7 +260,7 @@ static void test_dwell_and_gap(void **state)
         assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60); /* three on either side also stay */
         memory_free(list);
     }
-    /* At the end of the bar, where a family is half of a complete one, a given bond stress counts twice. */
+    /* At the end of the bar, where a neighbourhood is half of a complete one, a given bond stress counts twice. */
     setting_never(&s);
     for (int k = 0; k < 2; k++) {
         p->stress[0][30] = 0, p->stress[0][0] = (k ? 0.24 : 0.3) * s.elastic[0].trigger;

@@ -260,7 +260,7 @@ static void test_response(void **state)
             const struct response other = bond_force_derivative_by_strain(&c->p, &c->bonds, &c->source, j, &back);
             assert_true(one.central == 0 && other.central == 0);
             assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
-            if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have complete families */
+            if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have complete neighbourhoods */
             const struct state_modulus *m = &b.modulus[i % 2], *n = &b.modulus[j % 2];
             const real scale = it.bond.w * square(CLOUD_SPACING) * full;
             is_near("vector", one.vector, scale * (m->B + n->B), 1e-6 * one.vector);

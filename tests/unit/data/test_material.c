@@ -71,9 +71,9 @@ static real shell(int dim, real r, real section)
     return dim == 1 ? 2 * section : dim == 2 ? 2 * pi * r * section : 4 * pi * r * r;
 }
 
-/* Checks the micro-moduli of a continuum and of a discrete family by an integral: the energy per volume of all bonds
- * under uniform expansion s, 1/2 integral of c s^2 r/2 dV, is that of a material with the Poisson's ratio of bonds: E
- * s^2/2, 2 k2 s^2, 9/2 K s^2. */
+/* Checks the micro-moduli of a continuum and of a discrete neighbourhood by an integral: the energy per volume of all
+ * bonds under uniform expansion s, 1/2 integral of c s^2 r/2 dV, is that of a material with the Poisson's ratio of
+ * bonds: E s^2/2, 2 k2 s^2, 9/2 K s^2. */
 static void micro_modulus(void **state)
 {
     (void)state;

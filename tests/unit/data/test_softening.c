@@ -46,9 +46,9 @@ static void test_energy(void **state)
     }
 }
 
-/* Compares the strengths of families with linear softening with independent quadratures over 1440 (plane) and 2000
- * (space) directions in steps of strain of 0.01, to three digits. Closed forms for equal biaxial tension: 1/(1 - nu) in
- * the plane at any kappa; for shear at kappa = 1: 1/(1 + nu), at 4: 0.864. */
+/* Compares the strengths of neighbourhoods with linear softening with independent quadratures over 1440 (plane) and
+ * 2000 (space) directions in steps of strain of 0.01, to three digits. Closed forms for equal biaxial tension: 1/(1 -
+ * nu) in the plane at any kappa; for shear at kappa = 1: 1/(1 + nu), at 4: 0.864. */
 static void test_strength(void **state)
 {
     (void)state;

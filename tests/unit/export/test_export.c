@@ -117,8 +117,8 @@ static void exclusions_are_the_crack(void **state)
     out_remove();
 }
 
-/* Checks the bond coefficients written for LAMMPS against the micro-modulus 8 k2/sum r V beta of a full family, with k2
- * = E/(2 (1 - nu)) and nu = 1/3 (Silling and Askari 2005). */
+/* Checks the bond coefficients written for LAMMPS against the micro-modulus 8 k2/sum r V beta of a full neighbourhood,
+ * with k2 = E/(2 (1 - nu)) and nu = 1/3 (Silling and Askari 2005). */
 static void coefficients(void **state)
 {
     double sum = 0, c, cutoff, stretch;

@@ -1,5 +1,5 @@
-/* Script for LAMMPS, line by line: coefficients of bonds and families compared with the literature; formulas of loads
- * and driven particles, evaluated as LAMMPS does, compared with functions of time. */
+/* Script for LAMMPS, line by line: coefficients of bonds and neighbourhoods compared with the literature; formulas of
+ * loads and driven particles, evaluated as LAMMPS does, compared with functions of time. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>

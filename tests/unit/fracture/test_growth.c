@@ -21,7 +21,8 @@ struct stage {
 };
 
 /* Creates s, an irregular plate of 24 x 24 spacings with the bond model `model`; its crack starts near the middle and
- * runs obliquely, through no particle. local: true if state-based families are normalised by their intact bonds. */
+ * runs obliquely, through no particle. local: true if state-based neighbourhoods are normalised by their intact
+ * bonds. */
 static void stage_lay(struct stage *s, enum pd_model model, bool local)
 {
     memset(s, 0, sizeof *s);

@@ -1,5 +1,5 @@
 /* Bonds that soften: cycles of one bond compared with closed forms, all lanes compared with a plain implementation,
- * energy, both ends of a bond, a uniformly strained family, a line torn apart, and compression. */
+ * energy, both ends of a bond, a uniformly strained neighbourhood, a line torn apart, and compression. */
 #include <omp.h>
 
 #include "kernels/kernels.h"
@@ -242,13 +242,13 @@ static void test_ends(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* ---- a uniformly strained family --------------------------------------------------------------------------------- */
+/* ---- a uniformly strained neighbourhood -------------------------------------------------------------------------- */
 
 #define SMALL 1e-5 /* onset, so that the sum is linear in it */
 
-/* Returns the stress of a full family f on a lattice under the strains `axial` (along x) and `lateral`, and in *across
- * the lateral stress, from a sum over its vectors: sigma = 1/2 c sum V f(s) r n n, with f by linear softening. c:
- * micro-modulus. */
+/* Returns the stress of a full neighbourhood f on a lattice under the strains `axial` (along x) and `lateral`, and in
+ * *across the lateral stress, from a sum over its vectors: sigma = 1/2 c sum V f(s) r n n, with f by linear softening.
+ * c: micro-modulus. */
 static real lattice_stress(const struct family *f, real c, real axial, real lateral, real *across)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);

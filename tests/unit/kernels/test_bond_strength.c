@@ -20,7 +20,7 @@ struct surface_body {
 };
 
 /* Creates in `space` the body s with random positions within `shake` spacings of the lattice, and its bonds. means:
- * number of times that strains are averaged over families; cracked: true to cut it beyond its first third by a
+ * number of times that strains are averaged over neighbourhoods; cracked: true to cut it beyond its first third by a
  * crack. */
 static void body_make(struct surface_body *s, enum space space, real shake, int means, bool cracked)
 {

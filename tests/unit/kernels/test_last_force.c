@@ -108,7 +108,7 @@ static real burst_kinetic(const struct burst *b, real *const *before)
 }
 
 /* Returns the energy that a bursting body of `dim` dimensions has lost after `duration` with steps of `dt` [s], divided
- * by the fracture energy. model: bond model; local: true if families are normalised by their intact bonds. */
+ * by the fracture energy. model: bond model; local: true if neighbourhoods are normalised by their intact bonds. */
 static real burst_lost(int dim, enum pd_model model, bool local, real dt, real duration)
 {
     struct burst b;
@@ -137,8 +137,8 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
     return (kinetic + elastic + fracture - start) / fracture;
 }
 
-/* Returns the root mean square of the energy loss (burst_lost) with `model` (local: of families) over five runs with
- * steps of 0.9 to 1.1 times `step` [1e-7 s]. */
+/* Returns the root mean square of the energy loss (burst_lost) with `model` (local: of neighbourhoods) over five runs
+ * with steps of 0.9 to 1.1 times `step` [1e-7 s]. */
 static real burst_error(int dim, enum pd_model model, bool local, real step)
 {
     enum { RUNS = 5 };
@@ -152,7 +152,7 @@ static real burst_error(int dim, enum pd_model model, bool local, real step)
 
 /* Checks the order of the energy error of bursting bodies: a quarter of the step reduces the error to a sixteenth
  * (second order): factors of 12 to 20 measured (5.5 with ospd local in 2D, whose first error is small by chance); half
- * forces with families have first order, a factor of 4. */
+ * forces with neighbourhoods have first order, a factor of 4. */
 static void test_bursts(void **state)
 {
     (void)state;

@@ -210,8 +210,8 @@ static void test_turned_stress(void **state)
 }
 
 /* Returns the energy of the ordinary model under `load` in `dim` dimensions, divided by the classical one, from the
- * sums of its definition over a full family of the lattice with unit weights: W = D^2 (lambda' - G) S^2/2 + D (D + 2) G
- * sum e^2/(2 q), S = sum r e/q, q = sum r^2 (Silling et al. 2007). m: material. */
+ * sums of its definition over a full neighbourhood of the lattice with unit weights: W = D^2 (lambda' - G) S^2/2 + D (D
+ * + 2) G sum e^2/(2 q), S = sum r e/q, q = sum r^2 (Silling et al. 2007). m: material. */
 static real lattice_ratio(const struct material *m, enum patch_load load, int dim)
 {
     const int reach = 3, top = dim == 3 ? reach : 0;
@@ -267,7 +267,7 @@ static void test_ospd_spaces(void **state)
 static const enum pd_model models[] = {PD_OSPD, PD_MOSPD};
 
 /* Creates in `space` the body b, irregular and cut along x = 4.5 spacings, whose bonds follow `model`. local: true if
- * families are normalised by their intact bonds. */
+ * neighbourhoods are normalised by their intact bonds. */
 static void cracked_make(struct body *b, enum space space, enum pd_model model, bool local)
 {
     struct cloud_plan plan = {
@@ -293,9 +293,9 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
 }
 
 /* Checks f = -dE/dx by central differences with step 1e-6 of a spacing, for the model `model` in the space `space`;
- * local: true if families are normalised by their intact bonds. Tolerance 1e-6 of the largest force: truncation error
- * (1e-6)^2 over strains of 0.02, and round-off 1e-16 E/(1e-6). Also checks that momentum and angular momentum of the
- * forces are round-off. */
+ * local: true if neighbourhoods are normalised by their intact bonds. Tolerance 1e-6 of the largest force: truncation
+ * error (1e-6)^2 over strains of 0.02, and round-off 1e-16 E/(1e-6). Also checks that momentum and angular momentum of
+ * the forces are round-off. */
 static void gradient_case(enum space space, enum pd_model model, bool local)
 {
     struct body b;
@@ -373,8 +373,8 @@ static void test_rotation(void **state)
 }
 
 /* Checks the weighted volume Q inside a lattice with a particle whose volume differs from that of its cell: Q of a full
- * family is the sum over its bonds, up to the single precision of weights. Without the local normalisation a particle
- * at a corner has the same Q. */
+ * neighbourhood is the sum over its bonds, up to the single precision of weights. Without the local normalisation a
+ * particle at a corner has the same Q. */
 static void test_volumes(void **state)
 {
     (void)state;

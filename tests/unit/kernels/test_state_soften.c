@@ -1,5 +1,5 @@
 /* Bonds of state-based models that soften: forces compared with differences of the potential, both ends of a bond, rows
- * that are made again, the peak of uniform tension, two halves of a lattice that are separated, families under
+ * that are made again, the peak of uniform tension, two halves of a lattice that are separated, neighbourhoods under
  * pressure. */
 #include <omp.h>
 
@@ -79,8 +79,8 @@ static real kept_of(const struct bonds *b, int64_t row, const struct bond *bond)
     return onset * (end - k) / ((end - onset) * k);
 }
 
-/* Returns the potential of the family of row `row` of a (bonds of one particle) at the present positions [J], written
- * from the formulas of state_soften.c. w: weights without damage (weights_of). */
+/* Returns the potential of the neighbourhood of row `row` of a (bonds of one particle) at the present positions [J],
+ * written from the formulas of state_soften.c. w: weights without damage (weights_of). */
 static real row_potential(const struct state_body *a, const real *w, int64_t row)
 {
     const struct bonds *b = &a->s.c.bonds;
@@ -209,8 +209,8 @@ enum { SIDE = 13 };
 
 /* Compares the peak stress of a block in uniaxial tension, in small steps and with the lateral strain at which the
  * middle particle has no lateral stress (secant iteration on its stress), with E s_0 phi, within the anisotropy of a
- * lattice, 5 %. SIDE: particles along an edge; families of all particles in the family of the middle one are
- * complete. */
+ * lattice, 5 %. SIDE: particles along an edge; neighbourhoods of all particles in the neighbourhood of the middle one
+ * are complete. */
 static void test_strength(void **state)
 {
     (void)state;
@@ -277,8 +277,8 @@ static void test_separation(void **state)
     }
 }
 
-/* Checks families under pressure of which bonds are stretched: damage sets no energy free there, and does not grow; the
- * fracture energy never falls, up to the second order of a step. */
+/* Checks neighbourhoods under pressure of which bonds are stretched: damage sets no energy free there, and does not
+ * grow; the fracture energy never falls, up to the second order of a step. */
 static void test_pressure(void **state)
 {
     (void)state;

@@ -15,7 +15,7 @@ enum { THREADS_MOST = 7 };
 
 static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* Long enough for every thread to have row blocks that only its own part reads. */
+/* Long enough for every thread to have blocks of eight rows that only its own part reads. */
 static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 61}};
 
 struct body {
@@ -24,8 +24,8 @@ struct body {
     uint8_t *loaded;
 };
 
-/* Deactivates every third row block of b (bonds of eight particles of p) except the first: its particles have no new
- * forces, do not move, and keep the states of their families in the model `model`. */
+/* Deactivates every third block of eight rows of b (bonds of eight particles of p) except the first: its particles have
+ * no new forces, do not move, and keep the states of their neighbourhoods in the model `model`. */
 static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model model)
 {
     if (model >= PD_OSPD) state_precompute_table[p->dim][model](b, p);

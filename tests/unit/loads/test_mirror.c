@@ -191,7 +191,7 @@ static void count_looks(void *context, const int32_t *list, int64_t n)
 
 /* Tests a point beside a mirror that is converted with its horizon: its images and their neighbours behave as in the
  * whole body, where all four symmetric points are marked. The bonds are updated for each converted particle and its
- * family, once each. */
+ * neighbourhood, once each. */
 static void test_mirror_convert(void **state)
 {
     (void)state;
@@ -226,8 +226,8 @@ static void test_mirror_convert(void **state)
 
 /* ---- bonds that break -------------------------------------------------------------------------------------------- */
 
-/* Creates the families of q with Poisson's ratio 0.2 in `space`, for a `model` that allows it. modulus: receives the
- * constants of state-based models. */
+/* Creates the neighbourhoods of q with Poisson's ratio 0.2 in `space`, for a `model` that allows it. modulus: receives
+ * the constants of state-based models. */
 static void quarter_families(struct quarter *q, enum space space, enum pd_model model, struct state_modulus *modulus)
 {
     static const int axis[] = {0, 1};

@@ -453,7 +453,7 @@ static void probe_of_a_break(void **state)
     assert_near(figure(&l, "right", "x"), 25, 1e-12);
     assert_near(figure(&l, "right", "bonds"), 3, 0);
 
-    /* Energy of the intact bonds under stretch e: 1/2 E e^2 for a complete family, less at ends and cuts. */
+    /* Energy of the intact bonds under stretch e: 1/2 E e^2 for a complete neighbourhood, less at ends and cuts. */
     bonds_free(&bar.bonds);
     bar_bond(&bar);
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] = p->X[0][i] * 1.001;

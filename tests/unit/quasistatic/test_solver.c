@@ -153,7 +153,7 @@ static void test_integrals(void **state)
 /* Two positions on the bar [m], between which strains are measured. */
 static const real quarter_place[2] = {0.205, 0}, far_place[2] = {0.805, 0};
 
-/* Checks sigma/E = 1e-6 in the interior. The families at the free end are incomplete over a horizon: with surface
+/* Checks sigma/E = 1e-6 in the interior. The neighbourhoods at the free end are incomplete over a horizon: with surface
  * correction the displacement of the last particle exceeds F x/(E A) by 0.13 % of the bar's elongation. */
 static void test_bar_traction(void **state)
 {

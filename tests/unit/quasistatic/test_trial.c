@@ -19,7 +19,7 @@ static const char plate[] =
     "boundary:\n  - {fixed: all, region: {box: {from: [0, 0], to: [2 mm, 6 mm]}}}\n"
     "  - {traction: [1 MPa, 0], face: x+, time: {ramp: {until: 2 s}}}\noutput: {frames: 0}\n";
 
-/* Returns the number of slots of bonds in the columns of the row blocks. */
+/* Returns the number of slots of bonds in the columns of the blocks of eight rows. */
 static int64_t bond_slots(const struct run *e) { return e->bonds.columns * LANES; }
 
 /* Adds `more` to the plastic stretch of all bonds of e [1]. */

@@ -1,5 +1,5 @@
-/* Active set: forces at rest are exactly zero, results are bitwise equal with and without it, row blocks become
- * inactive, and events activate them. */
+/* Active set: forces at rest are exactly zero, results are bitwise equal with and without it, blocks of eight rows
+ * become inactive, and events activate them. */
 #include <math.h>
 #include <omp.h>
 #include <string.h>

@@ -299,7 +299,7 @@ static void pressure_shrinks_a_body(void **state)
         if (fabs(X - 1e-3) < 1e-6 && fabs(p->X[1][i] - 19e-3) < 1e-6) high = u;
         if (fabs(X + 1e-3) < 1e-6 && fabs(p->X[1][i] - 19e-3) < 1e-6) low = u;
     }
-    /* In the middle of 20 spacings; families near faces are incomplete. */
+    /* In the middle of 20 spacings; neighbourhoods near faces are incomplete. */
     if (!(fabs((low - high) / 2e-3 / (1.25 * 0.5 * 1e-6) - 1) < 0.04)) fail_msg("%g", (low - high) / 1.25e-9);
     run_end(&a);
 }
