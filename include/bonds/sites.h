@@ -41,8 +41,8 @@ void site_map_free(struct site_map *map);
 struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *source,
                                         const struct particles *p);
 
-/* Removes one user of a site map shared by several sets of bonds; the last user releases the map. Does nothing if `map`
- * is NULL. */
+/* Removes one user of a map from lattice sites to particles that several sets of bonds share; the last user releases
+ * the map. Does nothing if `map` is NULL. */
 void site_map_release(struct site_map *map);
 
 /* Lists in neighbour[], ascending, the particles and mirror images of p within the cutoff of the particle with index

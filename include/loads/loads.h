@@ -493,9 +493,9 @@ void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_vel
 void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const struct boundary *boundary,
                                          int boundaries, real duration, real ramp_time);
 
-/* Computes the displacement of every driven component at full load l (pseudo-time `ramp_time` [s]). displacement:
- * [dim][p->n] [m]; driven_components: [p->n], bit d: component d is driven. Of overlapping loads the later one in the
- * scene is used, as in dynamic runs. */
+/* Computes the prescribed displacement of every driven component at full load l (pseudo-time `ramp_time` [s]).
+ * displacement: [dim][p->n] [m]; driven_components: [p->n], bit d: component d is driven. Of overlapping loads the
+ * later one in the scene is used, as in dynamic runs. */
 void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
                                         real *const *displacement, uint8_t *driven_components);
 

@@ -74,9 +74,9 @@ bool reference_frame_is_possible(const struct reference_frame *r, const struct p
                                  const struct grid_method *mpm);
 
 /* Makes the mesh of the bodies of run e in the reference frame, and finds exposed points (material points with bonds,
- * loads or mirror images) and loaded nodes. source: partial stresses and slits of this mesh, its other members are
- * ignored; caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards. Returns
- * REFUSED or FAILED, with a message, as mesh_make does. */
+ * loads or mirror images) and loaded nodes. source: partial stresses and slits (pre-cracks) of this mesh, its other
+ * members are ignored; caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards.
+ * Returns REFUSED or FAILED, with a message, as mesh_make does. */
 status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
 /* Returns the critical time step of the cells of the mesh in the reference frame r [s], INFINITY if there is none. If

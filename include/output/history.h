@@ -29,8 +29,8 @@ status history_read_file(struct history *h, const char *path);
 /* Frees the names and values of the table *h, which history_read or history_read_file has allocated. */
 void history_free(struct history *h);
 
-/* Returns the index of the column of h called `name` (without unit), or -1 if there is none. A column that was renamed
- * in a later version of Cleave is found by both names. */
+/* Returns the index of the column of the history h called `name` (without unit), or -1 if there is none. A column that
+ * was renamed in a later version of Cleave is found by both names. */
 int history_find_column(const struct history *h, const char *name);
 
 /* Returns the value in row `row` and column `column` of the table h, both counted from 0, in SI units; NAN if `column`

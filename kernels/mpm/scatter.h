@@ -18,7 +18,7 @@ static ALWAYS_INLINE bool prefetch_next_point(const int32_t *list, int k, int64_
 static ALWAYS_INLINE void prefetch_line(const real *at) { __builtin_prefetch(at, 0, 3); }
 
 /* Prefetches mass, position, velocity and spin of the point list[k + ORDER_AHEAD] of p, once per cache line. turn:
- * spins of the points (transfer_data.turn), turn[2] NULL: no spins. */
+ * spins (angular velocities) of the points (transfer_data.turn); turn[2] NULL: no spins. */
 static ALWAYS_INLINE void points_prefetch_motion(const struct particles *p, real *const *turn, const int32_t *list,
                                                  int k, const int dim)
 {

@@ -77,9 +77,9 @@ static int layer_run(const struct layer_map *m, const int64_t *from, int axis, i
     return run;
 }
 
-/* Returns the number of particle layers across the body at the site with the indices at[dim] in m: the smallest of the
- * counts along the axes. A count that ends at a plane of symmetry is doubled. For parts that are slanted to the axes
- * the number is up to 1.4 times too large. */
+/* Returns the number of particle layers across the body at the lattice site with the indices at[dim] in m: the smallest
+ * of the counts along the axes. A count that ends at a plane of symmetry is doubled. For parts that are slanted to the
+ * axes the number is up to 1.4 times too large. */
 static double site_layers(const struct layer_map *m, const int64_t *at)
 {
     double least = RUNS_MOST;

@@ -269,9 +269,9 @@ static int64_t neck_cell(const struct necks *k, const struct uneven *u)
     return k->rows[cell] > 0 ? cell : -1;
 }
 
-/* Tests whether a neck is narrower beside the point X[dim] [m]: moves X along `axis` in the direction `way` (-1 or 1)
- * in steps of 1/FINE spacing, until the piece ends or X has moved two spacings. Returns true if the width of the piece
- * at the last point inside is less than 0.95 times `width`, the width of the neck [m]. */
+/* Tests whether a neck (narrow part of a body) is narrower beside the point X[dim] [m]: moves X along `axis` in the
+ * direction `way` (-1 or 1) in steps of 1/FINE spacing, until the piece ends or X has moved two spacings. Returns true
+ * if the width of the piece at the last point inside is less than 0.95 times `width`, the width of the neck [m]. */
 static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
 {
     struct chord chord = {X[k->axis], width};

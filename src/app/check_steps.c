@@ -179,8 +179,8 @@ static void advise_lengths(const struct run *e, FILE *out)
     }
 }
 
-/* Returns the extent along `axis` of the particles of `part` on which load l acts [columns of particles]; 0 if the load
- * extends over the whole width of the body. scene: spacing. */
+/* Returns the extent along `axis` of the particles of `part` on which load l acts [number of particles side by side]; 0
+ * if the load extends over the whole width of the body. scene: spacing. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;
@@ -194,7 +194,7 @@ static int support_width(const struct scene *scene, const struct particles *part
 }
 
 /* Writes a remark to `out` for each support of run e that is meant as a pin or roller but constrains rotation: it holds
- * more columns of particles than a pin, but too few for a grip. */
+ * more rows of particles side by side than a pin, but too few for a grip. */
 static void advise_supports(const struct run *e, FILE *out)
 {
     for (int b = 0; b < e->loads.n; b++) {

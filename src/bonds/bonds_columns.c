@@ -37,8 +37,8 @@ static struct holes_by_size holes_sort(struct bond_holes *all)
     return s;
 }
 
-/* Takes `columns` columns from the smallest hole of s (range of unused columns) that has as many, and returns the first
- * of them; -1 if there is no such hole or `columns` is 0. The rest of the hole remains a hole. */
+/* Takes `columns` columns (each of eight bonds) from the smallest hole of s (range of unused columns) that has as many,
+ * and returns the first of them; -1 if there is no such hole or `columns` is 0. The rest of the hole remains a hole. */
 static int64_t hole_take(struct holes_by_size *s, int32_t columns)
 {
     int32_t size = columns;

@@ -44,8 +44,8 @@ void stencil_free(struct stencil *stencil)
 /* ---- stencil of one block of eight rows -------------------------------------------------------------------------- */
 
 /* Stores the reference vector of the bonds from particle i + l to particle j + l, l = 0 .. 7, in the stencil column
- * `to`, whose bits to->intact must be set. Returns false if the intact bonds do not all have the same vector to the
- * last bit. */
+ * `to` (eight bonds, one of each of eight particles), whose bits to->intact must be set. Returns false if the intact
+ * bonds do not all have the same vector to the last bit. */
 static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)
 {
     int one = 0, same = 1;

@@ -317,10 +317,10 @@ static bool has_come_far(const struct contact *c)
     return !(c->moved < far) || contact_rigid_has_moved_by_distance(c, far);
 }
 
-/* Requests a contact search (c->due) if one of particle_count particles, which have just become peridynamic, is in the
- * first layer at a face. particle_list: their indices; b, family: bonds and their complete neighbourhood, by which such
- * particles are recognised. A particle elsewhere with a few broken bonds does not require a search at once; the next
- * search lists it. With the contact distance of LAMMPS, any particle requests a search. */
+/* Requests a contact search before the next step (c->due) if one of particle_count particles, which have just become
+ * peridynamic, is in the first layer at a face. particle_list: their indices; b, family: bonds and their complete
+ * neighbourhood, by which such particles are recognised. A particle elsewhere with a few broken bonds does not require
+ * a search at once; the next search lists it. With the contact distance of LAMMPS, any particle requests a search. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *particle_list, int64_t particle_count)
 {

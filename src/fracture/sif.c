@@ -197,9 +197,9 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
 }
 
 /* Returns the weight of the inertial part of the interaction integral at the distance r [m] from the tip [1]. It
- * increases gradually from 0 to 1 around r = tip->core, and is 1 everywhere for a tip at rest or without a core. A
- * sharp edge would let particles enter and leave the sum as the tip moves, and the stress-intensity factors would
- * oscillate with the period of a spacing. */
+ * increases gradually from 0 to 1 around r = tip->core, the radius of a core around a moving tip, and is 1 everywhere
+ * for a tip at rest or without a core. A sharp edge would let particles enter and leave the sum as the tip moves, and
+ * the stress-intensity factors would oscillate with the period of a spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};

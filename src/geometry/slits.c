@@ -41,7 +41,8 @@ static struct sheet sheet_of(const struct hull *h, int64_t face)
     return s;
 }
 
-/* Compares two faces a and b (struct sheet) for array_sort, by the x coordinate of their centres. */
+/* Compares two faces a and b (struct sheet) by the x coordinate of their centres, for array_sort: returns -1, 0 or
+ * 1. */
 static int by_centre(const void *a, const void *b)
 {
     const struct sheet *p = a, *q = b;

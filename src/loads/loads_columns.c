@@ -264,7 +264,7 @@ static void loads_columns_free(struct columns *c)
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
 /* Returns how far particle j of p is behind particle i along the normal of the face of boundary b, divided by their
- * mean width; negative if j is in front. c: columns of the face, with the widths. */
+ * mean width; negative if j is in front. c: lines of particles behind the face, with their widths. */
 static real behind(const struct columns *c, const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return (loads_columns_height(b, p, i) - loads_columns_height(b, p, j)) /
@@ -311,12 +311,13 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* Adds the area of column `column` of c to the areas f of its exposed particle [m^2], the first one from outside. A
- * tangential traction acts on the face, half a spacing outside this particle, and its moment would be wrong by this
- * distance. (The shear stress in a plate of n particles per side would be 1 + 1.3/n times too large.) So for tangential
- * components the exposed particle gets 3/2 of the area and the next one in the column -1/2, which preserves force and
- * moment. If there is no next particle or `two` is false, the first one gets all. selected[p->n]: 1 for particles in
- * the region of b; area: of the column [m^2], or 0 to use the volume of the exposed particle over its width. */
+/* Adds the area of column `column` of c, a line of particles behind the face, to the areas f of its exposed particle
+ * [m^2], the first one from outside. A tangential traction acts on the face, half a spacing outside this particle, and
+ * its moment would be wrong by this distance. (The shear stress in a plate of n particles per side would be 1 + 1.3/n
+ * times too large.) So for tangential components the exposed particle gets 3/2 of the area and the next one in the
+ * column -1/2, which preserves force and moment. If there is no next particle or `two` is false, the first one gets
+ * all. selected[p->n]: 1 for particles in the region of b; area: of the column [m^2], or 0 to use the volume of the
+ * exposed particle over its width. */
 static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {

@@ -66,7 +66,7 @@ static void modes_terms(struct mode_terms *t, int dim)
 
 /* ---- stiffness of one cell --------------------------------------------------------------------------------------- */
 
-/* Parameters of the computation of stiffness matrices of partial cells. */
+/* Parameters of the computation of stiffness matrices of partial cells, which have missing or unequal points. */
 struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;
@@ -364,8 +364,9 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
-/* Returns the address of the first number of partial cell `cell` in the array `from`, which has `each` numbers for
- * every partial cell, such as stiffnesses, interleaved for LANES cells. Returns NULL if `from` is NULL. */
+/* Returns the address of the first number of partial cell `cell` (with missing or unequal points) in the array `from`,
+ * which has `each` numbers for every such cell, such as stiffnesses, interleaved for LANES cells. Returns NULL if
+ * `from` is NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
@@ -473,8 +474,9 @@ void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p
     memory_free(previous_cells->stiffness);
 }
 
-/* Ends the sharing of stiffness by groups of partial cells of which one has changed. Sets mesh->alike[g] = g for each
- * group g with changed[g], and for each group that uses the stiffness of such a group. changed: [groups]. */
+/* Ends the sharing of stiffness by groups of LANES partial cells (missing or unequal points) of which one has changed.
+ * Sets mesh->alike[g] = g for each group g with changed[g], and for each group that uses the stiffness of such a group.
+ * changed: [groups]. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_partial_cell_group_count(mesh) - 1; g >= 0; g--)

@@ -182,7 +182,8 @@ static void gather(const struct projection *m, const real *value, const real *fr
 }
 
 /* Returns the mass of each point around node I of the mesh of m [kg] if all of them exist and have the same mass.
- * Returns 0 if not, if a slit is near, or if the value at the node is not an unknown of the projection. */
+ * Returns 0 if not, if a slit (a gap for a pre-crack) is near, or if the value at the node is not an unknown of the
+ * projection. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;

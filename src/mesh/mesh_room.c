@@ -19,8 +19,8 @@ static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_p
     return beyond;
 }
 
-/* Sets mark[I] to 1 for the cells of `mesh` outside the body and for cells at slits, which are faces of the body, else
- * to 0. Cells beyond a plane of symmetry, mirror[mirrors], are inside. */
+/* Sets mark[I] to 1 for the cells of `mesh` outside the body and for cells at slits (pre-cracks), which are faces of
+ * the body, else to 0. Cells beyond a plane of symmetry, mirror[mirrors], are inside. */
 static void outside_mark(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *mark)
 {
     const int64_t cells = mesh->slits.split ? mesh->slits.first : mesh->grid.n;

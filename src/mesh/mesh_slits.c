@@ -289,8 +289,8 @@ static int64_t extra_index(const struct mesh *mesh, int64_t k)
     return mesh->slits.first + k / row_room(g) * g->count[0] + k % row_room(g);
 }
 
-/* Returns the array [2^dim] of the corner nodes of cell I in mesh->slits. If the cell has none yet, it gets one with
- * the corners of cell `at` of the grid. */
+/* Returns the array [2^dim] of the corner nodes of cell I, which a slit (pre-crack) divides, in mesh->slits. If the
+ * cell has none yet, it gets one with the corners of cell `at` of the grid. */
 static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
 {
     struct mesh_slits *s = &mesh->slits;

@@ -122,7 +122,7 @@ void history_free(struct history *h)
     *h = (struct history){0};
 }
 
-/* Returns the index of the column of h with exactly the name `name`; -1 if there is none. */
+/* Returns the index of the column of the history h with exactly the name `name`; -1 if there is none. */
 static int column_called(const struct history *h, const char *name)
 {
     for (int k = 0; k < h->columns; k++)

@@ -79,8 +79,8 @@ struct scale {
     char label[64];
 };
 
-/* Extends the range s->low..s->high by the finite values in the column of h with the name `column`. Adds nothing if
- * `column` is NULL. */
+/* Extends the range s->low..s->high by the finite values in the column of the history h with the name `column`. Adds
+ * nothing if `column` is NULL. */
 static void extend(struct scale *s, const struct history *h, const char *column)
 {
     int at = column ? history_find_column(h, column) : -1;

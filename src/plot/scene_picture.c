@@ -309,9 +309,9 @@ static void draw_marks(struct marks *m)
     marks_draw_symbols_of_probes(m);
 }
 
-/* Draws the particles c and the marks m of a scene in the view v on the picture `sheet`. metre: unit of the axes; data:
- * gnuplot commands with the data of the marks; elements: arguments of the plot command for the marks. Returns FAILED,
- * with a message, if gnuplot fails. */
+/* Draws the particles c and the marks m of a scene in the view v to the picture `sheet` (file and size). metre: unit of
+ * the axes; data: gnuplot commands with the data of the marks; elements: arguments of the plot command for the marks.
+ * Returns FAILED, with a message, if gnuplot fails. */
 static status draw_collected(struct sheet sheet, const struct marks *m, const struct view *v,
                              const struct plotted_particles *c, const struct unit *metre, const char *data,
                              const char *elements)
@@ -328,8 +328,9 @@ static status draw_collected(struct sheet sheet, const struct marks *m, const st
     return gnuplot_close(&g);
 }
 
-/* Draws the run e, whose particles are in the cloud c, on the picture `sheet`. title: title of the picture, or NULL for
- * the name of the scene with the number of particles. Returns FAILED, with a message, if gnuplot fails. */
+/* Draws the run e, whose particles are in the cloud c, to the picture `sheet` (file and size). title: title of the
+ * picture, or NULL for the name of the scene with the number of particles. Returns FAILED, with a message, if gnuplot
+ * fails. */
 static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c, const char *title)
 {
     char *elements = NULL, *data = NULL;

@@ -213,8 +213,8 @@ static bool reaction_is_measured(const struct probes *s, const char *boundary)
     return measured;
 }
 
-/* Writes the name of the columns of a support to name[NAME_MAX_LENGTH]: that of its boundary, preceded by `reaction_`
- * if a probe of s has that name. */
+/* Writes the name that the columns of a support have in history.csv to name[NAME_MAX_LENGTH]: that of its boundary,
+ * preceded by `reaction_` if a probe of s has that name. */
 static void support_name(const struct probes *s, const char *boundary, char name[NAME_MAX_LENGTH])
 {
     bool taken = false;

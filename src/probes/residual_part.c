@@ -13,8 +13,8 @@ static bool in_patch(const struct scene *s, const real *x)
 }
 
 /* Raises *most to the largest absolute force component on node I of grid g [N], if the node is in the region of a PATCH
- * probe of scene s. at: index of the node of the regular grid at the same position; it differs from I if I is an extra
- * node, which a slit has added. */
+ * probe of scene s. at: index of the node of the regular grid at the same position; it differs from I if I is a second
+ * node at the same position, on the other side of a pre-crack. */
 static void node_keep(const struct scene *s, const struct grid *g, int64_t I, int64_t at, real *most)
 {
     real x[DIM_MAX];

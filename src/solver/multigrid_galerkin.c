@@ -41,7 +41,7 @@ struct product {
 
 /* ---- patterns ---------------------------------------------------------------------------------------------------- */
 
-/* Compares the column numbers *a and *b, for sorting: returns -1, 0 or 1. */
+/* Compares the numbers *a and *b of columns of a matrix, for sorting: returns -1, 0 or 1. */
 static int compare_columns(const void *a, const void *b)
 {
     const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;

@@ -138,9 +138,9 @@ static unsigned asked_of(const struct scene *scene, int k)
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame of run e of each series in `due`, and for the body also rigid bodies and profiles. due: set of series
- * as bits, bit 0 for the whole body, bit k for region k. Frames at t = 0 have no contact forces. Returns FAILED, with a
- * message, if a value is not finite or a file cannot be written. */
+/* Writes a frame of run e of each series of frames in `due`, and for the body also rigid bodies and profiles. due:
+ * series whose time of output has come, as bits: bit 0 for the whole body, bit k for region k. Frames at t = 0 have no
+ * contact forces. Returns FAILED, with a message, if a value is not finite or a file cannot be written. */
 static status write_frames(struct run *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_can_crack(e->scene);

@@ -197,7 +197,7 @@ static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *
 }
 
 /* Returns the colour of mesh cell I: cells of one colour share no node, so that threads can add to nodes. Cells beside
- * slits have a common extra colour, 2^dim, and are processed serially. */
+ * slits (pre-cracks with nodes on both sides) have a common extra colour, 2^dim, and are processed serially. */
 static int cell_colour(const struct mesh *mesh, int64_t I)
 {
     const struct grid *g = &mesh->grid;
@@ -208,8 +208,8 @@ static int cell_colour(const struct mesh *mesh, int64_t I)
 }
 
 /* Adds the viscous forces of all mesh cells to the nodal forces f[dim][grid.n] [N]: in parallel for cells of one colour
- * (which share no node), colour by colour; serially for cells beside slits. P: tensors of the points computed by
- * viscous_stress, [dim dim][points] [N m]. */
+ * (which share no node), colour by colour; serially for cells beside slits (pre-cracks). P: tensors of the points
+ * computed by viscous_stress, [dim dim][points] [N m]. */
 static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
 {
     const int colours = 1 << mesh->grid.dim;
