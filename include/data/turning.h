@@ -2,8 +2,9 @@
  *
  * FLIP transfers the change dv_I of a node to points around the centre of mass c_I of their contributions to the node,
  * while the force acted at the node: at faces and interfaces, where c_I is not x_I, the angular momentum m_I (x_I -
- * c_I) x dv_I is lost, and the second map gives the node the velocity of c_I, so that a rotating body strains at its
- * faces. Two blocks set rotating by a collision lost 43 % of it in 400 us. The loss of point p is
+ * c_I) x dv_I is lost, and the second map (from points with new velocities back to nodes) gives the node the velocity
+ * of c_I, so that a rotating body strains at its faces. Two blocks set rotating by a collision lost 43 % of it in 400
+ * us. The loss of point p is
  *     lack_p = m_p sum_I N (x_I - x_p) x dv_I.
  * Points are therefore grouped by about 6 by 6 (by 6) neighbours of the reference configuration. A group receives the
  * lack of its points as a rotation about its centre of mass, and its points extrapolate their velocity to nodes with

@@ -51,8 +51,8 @@ static void add_corners(real *field, int cx, int cy, const real *sum)
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* First map of a step: adds mass, momentum and internal force of the points of one cell to its four nodes. p: all
- * points and nodes. cx, cy: indices of the cell along x and y. */
+/* Transfer from points to nodes at the beginning of a step: adds mass, momentum and internal force of the points of one
+ * cell to its four nodes. p: all points and nodes. cx, cy: indices of the cell along x and y. */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -72,7 +72,7 @@ static void cell_scatter(struct microbench_points *p, int cx, int cy)
     add_corners(p->fx, cx, cy, fx), add_corners(p->fy, cx, cy, fy);
 }
 
-/* Second map of a step, for the points of one cell: adds the change of the nodal velocities (in p->fx, fy) to the
+/* Second transfer of a step, for the points of one cell: adds the change of the nodal velocities (in p->fx, fy) to the
  * velocities of the points, then adds the momentum of the points to the nodes again. cx, cy: indices of the cell along
  * x and y. */
 static void cell_remap(struct microbench_points *p, int cx, int cy)
@@ -101,8 +101,8 @@ static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, i
     p->volume[i] *= 1 + xx + yy;
 }
 
-/* Third map of a step: updates position, stress and volume of the points (of p) in one cell from the nodal velocities.
- * cx, cy: indices of the cell along x and y. */
+/* Transfer from nodes to points at the end of a step: updates position, stress and volume of the points (of p) in one
+ * cell from the nodal velocities. cx, cy: indices of the cell along x and y. */
 static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -159,7 +159,7 @@ static void nodes_move(struct microbench_points *p)
     }
 }
 
-/* Divides the momentum of all nodes of p by their mass, after the second map: px, py are then velocities. */
+/* Divides the momentum of all nodes of p by their mass, after the second transfer: px, py are then velocities. */
 static void nodes_remapped(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
