@@ -13,6 +13,7 @@
 
 #include "base/memory_stream.h"
 #include "faults.h"
+#include "output/output_hdf5.h"
 #include "scene/scene_read.h"
 
 #ifndef __linux__
@@ -402,7 +403,10 @@ int __wrap_main(int argc, char **argv)
     setenv("GOMP_SPINCOUNT", "2000", 1);         /* the program would restart itself to set it */
     setenv("HWLOC_SYNTHETIC", "core:2 pu:1", 1); /* probing the machine would take longer than these runs */
     count = mmap(NULL, FAULT_CALLS * sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (of_all) sweeps = whole_sweeps, sweep_count = COUNT_OF(whole_sweeps);
+    if (of_all)
+        sweeps = whole_sweeps, sweep_count = COUNT_OF(whole_sweeps);
+    else
+        hdf_prepare(); /* once, not in each of these runs: calls of libraries do not fail in them */
     const int failed = of_all ? cmocka_run_group_tests(whole, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
     if (failed == 0 && chdir("..") == 0) remove_tree(folder);
     return failed;
