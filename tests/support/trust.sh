@@ -15,7 +15,9 @@ calm()
 {
     to=$1; shift
     "$cleave" run -q -o "$to" "$@" >"$work/out" 2>"$work/err" || { fail "$to: status $?: $(cat "$work/err")"; return; }
-    if grep -q -v '^warning: ' "$work/err" || [ -s "$work/out" ]; then fail "$to: says $(cat "$work/err" "$work/out")"; else pass; fi
+    if [ -s "$work/out" ] || { [ -s "$work/err" ] && grep -q -v '^warning: ' "$work/err"; }; then
+        fail "$to: says $(cat "$work/err" "$work/out")"
+    else pass; fi
     numbers "$to"
 }
 
