@@ -91,6 +91,8 @@ $(COLD:%=$(BUILD)/src/%/%.o): OPTIMISE := -O1
 # The program, and every test with all of the engine, is linked by gold in a third of the time of GNU's usual linker, and for fixed
 # addresses: a start (there are thousands in the tests) has no 11,000 addresses to change first, and takes an eighth less time.
 QUICK    := $(or $(call there,-fuse-ld=gold),$(call there,-fuse-ld=lld)) $(call there,-no-pie)
+# Loops on one thread need no team (src/base/team_of_one.c).
+QUICK    += $(call there,-Xlinker --wrap=GOMP_parallel)
 
 # Short lines unless V=1.
 Q = $(if $(V),,@echo "  $(if $(filter %.o,$@),CC,LD)  $@";)

@@ -263,11 +263,10 @@ static void duration_text(char *text, size_t size, double seconds)
  * the previous line. last: true after the last step, when the line is always printed on a terminal. */
 static void progress(struct run *e, bool last)
 {
+    if (e->report->quiet) return;
     bool terminal = isatty(STDERR_FILENO);
     double now = wall_clock_seconds();
-    if (e->report->quiet ||
-        (!last && now - e->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)))
-        return;
+    if (!last && now - e->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)) return;
     if (last && !terminal) return;
     e->report->last_progress = now;
     double rate = (double)(e->clock.step - e->report->step_started) / real_max(now - e->report->started, 1e-9);
