@@ -54,12 +54,12 @@ static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct
     const int n = dim * (dim + 1) / 2;
     row_of_points stress[SYM_MAX];
     for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
-    const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim);
-    points_store(p->volume, point, volume + volume * trace, dim);
-    if (__builtin_expect(t->laws, 0))
-        flow_points_append(due, point, points, L, stress, volume + volume * trace, dim);
-    else
-        for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
+    const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim),
+                        after = volume + volume * trace;
+    points_store(p->volume, point, after, dim);
+    const bool flows = __builtin_expect(t->laws, 0), at_once = POINTS_LANES == 8;
+    if (flows && !at_once) flow_points_append(due, point, points, L, stress, after, dim);
+    for (int c = 0; c < n && !flows; c++) points_store(p->stress[c], point, stress[c], dim);
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) {
             const row_of_points stretch = points_load(p->stretch[d], point, dim);
@@ -73,6 +73,8 @@ static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct
         const int32_t i = point[k];
         if (near >> k & 1 && stress_converts(&t->elastic[p->material[i]], p, i, own, dim)) p->flag[i] |= FLAG_STRESSED;
     }
+    if (flows && at_once)
+        flow_points_map(p, t, point, points, (const lanes *)L, (lanes *)stress, *(const lanes *)&after, dim);
 }
 
 /* Multiplies the rotations p->end_rotation of a few points, one per lane, by the rotation of a step of dt [s], the
@@ -178,7 +180,7 @@ static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *
 /* Motion of a few points of a cell, one per lane, between interpolation and update. point: numbers of the points; x:
  * positions [m]; velocity [m/s]; L: velocity gradients dv_a/dx_b at [a dim + b] [1/s]. */
 struct points_motion {
-    int32_t point[POINTS]; /* padded with the last point */
+    int32_t point[POINT_NUMBERS]; /* from points_list */
     row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
 };
 
@@ -195,7 +197,7 @@ static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid 
         points_interpolate_velocity_linear(g, c, &s, bonded, m->velocity, m->L, dim, transfer);
     else
         points_interpolate_velocity(g, c, &s, bonded, m->velocity, m->L, dim, shape, transfer);
-    for (int k = 0; k < POINTS; k++) m->point[k] = s.point[k];
+    for (int k = 0; k < POINT_NUMBERS; k++) m->point[k] = s.point[k];
     for (int d = 0; d < dim; d++) m->x[d] = s.x[d];
 }
 
@@ -229,20 +231,20 @@ static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct part
     points_subtract_from_mean(p, t, list, n, change);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         row_of_points more;
-        for (int l = 0; l < POINTS; l++) more[l] = change[int_min(k + l % AT_ONCE(dim), n - 1)];
+        for (int l = 0; l < POINTS; l++) more[l] = change[k + points_entry_of_lane(l, points_at_once(n - k, dim))];
         points_add_dilatation_rate(&motion[k / AT_ONCE(dim)], more, dim);
     }
 }
 
 /* Averages the rates of dilatation of the n <= MEAN_POINTS points `list` of p in a cell (dilatation.h), after storing
- * the rates before averaging in t->dilatation. motion: motion of these points, AT_ONCE of them in each entry, whose
- * velocity gradients are changed. */
+ * the rates before averaging in t->dilatation unless materials yield. motion: motion of these points, AT_ONCE of them
+ * in each entry, whose velocity gradients are changed. */
 static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles *p, const struct transfer_data *t,
                                                           const int32_t *list, struct points_motion *motion, int n,
                                                           const int dim)
 {
     row_of_points sum = points_broadcast(0), volume = points_broadcast(0);
-    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+    for (int k = 0; k < n && !t->laws; k += AT_ONCE(dim)) {
         const struct points_motion *m = &motion[k / AT_ONCE(dim)];
         points_store(t->dilatation, m->point, points_dilatation_rate(m, dim), dim);
     }

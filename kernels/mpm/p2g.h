@@ -11,8 +11,6 @@
 #ifndef CLEAVE_KERNELS_P2G
 #define CLEAVE_KERNELS_P2G
 
-#include <string.h>
-
 #include "kernels/kernels.h"
 #include "dilatation.h"
 #include "maps.h"
@@ -59,6 +57,20 @@ static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct 
     }
 }
 
+/* Stress that a few points of a cell transmit to the grid, one per lane. */
+struct points_stress {
+    int32_t point[POINT_NUMBERS];  /* numbers of the points (points_list) */
+    row_of_points stress[SYM_MAX]; /* symmetric components [Pa] */
+    row_of_points volume;          /* [m^3] */
+};
+
+/* What a few points of a cell give to nodes, one per lane, stored once so that each point broadcasts its own. */
+struct points_given {
+    row_of_points mass, v[DIM_MAX], f[DIM_MAX]; /* [kg], [m/s], [N] */
+    row_of_points pull[SYM_MAX];                /* stress times volume, symmetric components [N m] */
+    row_of_points slope[DIM_MAX * DIM_MAX];     /* velocity gradient by which velocities are extrapolated [1/s] */
+};
+
 /* Returns true if, in the transfer t, points extrapolate their velocity to the positions of the nodes by a velocity
  * gradient: with APIC, and if points rotate in groups (data/turning.h). */
 static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
@@ -66,46 +78,61 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
+/* Loads the stress that the n points `list` of p (n <= AT_ONCE) transmit to the grid into *s. t: inputs of the
+ * transfer. */
+static ALWAYS_INLINE void points_load_stress(struct points_stress *s, const struct particles *p,
+                                             const struct transfer_data *t, const int32_t *list, int n, const int dim)
+{
+    const int components = dim * (dim + 1) / 2;
+    points_list(s->point, list, n, dim);
+    s->volume = points_load(p->volume, s->point, dim);
+    for (int c = 0; c < components; c++)
+        s->stress[c] = t->momentum_only ? points_broadcast(0) : points_load(p->stress[c], s->point, dim);
+    if (t->momentum_only || !t->partial || !t->partial->index) return;
+    for (int k = 0; k < AT_ONCE(dim); k++) {
+        real own[SYM_MAX];
+        point_stress_on_grid(p, t->partial, s->point[k], own, dim);
+        for (int c = 0; c < components; c++) s->stress[c][k] = own[c];
+    }
+}
+
+/* Loads what the points of s give to nodes into *q. p: particles; t: inputs of the transfer; continued: result of
+ * `continues`. */
+static ALWAYS_INLINE void points_load_given(struct points_given *q, const struct particles *p,
+                                            const struct transfer_data *t, const struct points_stress *s, const int dim,
+                                            const enum transfer transfer, const bool continued)
+{
+    q->mass = points_load(p->mass, s->point, dim);
+    for (int d = 0; d < dim; d++)
+        q->v[d] = points_load(p->v[d], s->point, dim), q->f[d] = points_load(p->f[d], s->point, dim);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) q->pull[c] = s->stress[c] * s->volume;
+    if (continued && transfer == TRANSFER_FLIP) rotating_velocity_gradients(t, s->point, 0.5 * t->dt, q->slope, dim);
+    for (int k = 0; k < dim * dim && transfer == TRANSFER_APIC; k++)
+        q->slope[k] = points_load(p->gradient[k], s->point, dim);
+}
+
 /* Adds mass, momentum and force of point `at` of stencil s (weights of a few points of p) to the sums `sum` of its cell
- * of grid g. t: inputs of the transfer, with the shape function `shape` and the scheme `transfer`. Factors of the
- * directions along a row, equal for all rows, are computed once. turn: velocity gradients of the points of the stencil,
- * by which they extrapolate their velocity to nodes, from rotating_velocity_gradients [1/s]; not read for APIC, nor
- * where points do not rotate. pressure: mean stress that is added to the stress of the point [Pa], from
- * points_mean_stress_changes; NULL: none. */
+ * of grid g. q: what the points give; t: inputs of the transfer, with the shape function `shape`; continued: true if
+ * points extrapolate their velocity to nodes (`continues`). Factors of the directions along a row, equal for all rows,
+ * are computed once. */
 static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
                                         const struct transfer_data *t, const struct cell_stencil *s,
-                                        const row_of_points *turn, const real *pressure, int at, const int dim,
-                                        const enum shape shape, const enum transfer transfer)
+                                        const struct points_given *q, int at, const int dim, const enum shape shape,
+                                        const bool continued)
 {
     const int along = ROW_DIMS(dim, shape);
-    const int64_t i = s->point[at];
     const struct touch row = stencil_row_weights(s, at, g->h, dim, shape);
-    real stress[SYM_MAX];
-    if (t->momentum_only)
-        memset(stress, 0, sizeof stress);
-    else
-        point_stress_on_grid(p, t->partial, i, stress, dim);
-    for (int d = 0; d < dim && pressure; d++) stress[d] += *pressure;
-    const real m = p->mass[i], volume = p->volume[i];
-    for (int k = 0; k < dim * (dim + 1) / 2; k++) stress[k] *= volume;
-    const row_of_nodes mass = m * row.N;
-    row_of_nodes momentum[DIM_MAX], force[DIM_MAX], pull[SYM_MAX];
-    real slope[DIM_MAX][DIM_MAX] = {{0}};
-    const bool continued = continues(t, dim, transfer);
-    row_of_nodes far[DIM_MAX];
+    const row_of_nodes mass = q->mass[at] * row.N;
+    row_of_nodes momentum[DIM_MAX], force[DIM_MAX], pull[SYM_MAX], far[DIM_MAX];
     for (int e = 0; e < along && continued; e++) far[e] = stencil_distances_in_row(s, at, g->h, e, dim, shape);
-    for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = stress[k] * row.N;
+    for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = q->pull[k][at] * row.N;
 #pragma GCC unroll 3
     for (int d = 0; d < dim; d++) {
-        row_of_nodes speed = row_broadcast(p->v[d][i]);
-#pragma GCC unroll 3
-        for (int e = 0; e < dim && continued; e++) {
-            slope[d][e] = transfer == TRANSFER_APIC ? p->gradient[d * dim + e][i] : turn[d * dim + e][at];
-            if (e < along) speed += slope[d][e] * far[e];
-        }
+        row_of_nodes speed = row_broadcast(q->v[d][at]);
+        for (int e = 0; e < along && continued; e++) speed += q->slope[d * dim + e][at] * far[e];
         momentum[d] = mass * speed;
-        force[d] = p->f[d][i] * row.N;
-        for (int e = 0; e < along; e++) force[d] -= stress[symmetric_component_index(d, e, dim)] * row.D[e];
+        force[d] = q->f[d][at] * row.N;
+        for (int e = 0; e < along; e++) force[d] -= q->pull[symmetric_component_index(d, e, dim)][at] * row.D[e];
     }
     FOR_TOUCHED(s, at, dim, shape)
     {
@@ -116,7 +143,8 @@ static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, con
             row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
                 if (continued)
-                    carried += slope[d][e] * mass * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2);
+                    carried +=
+                        q->slope[d * dim + e][at] * mass * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2);
                 pushed -=
                     pull[symmetric_component_index(d, e, dim)] * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
             }
@@ -127,7 +155,7 @@ static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, con
     if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_add_skew_stress_force(sum, p, t, s, &row, at, dim, shape);
 }
 
-/* Prefetches the data of p that p2g_add_point will read of the point list[k + ORDER_AHEAD], once per cache line. t:
+/* Prefetches the data of p that p2g_add_points will read of the point list[k + ORDER_AHEAD], once per cache line. t:
  * inputs of the transfer. */
 static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const struct transfer_data *t,
                                              const int32_t *list, int k, const int dim, const enum transfer transfer)
@@ -141,69 +169,81 @@ static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const st
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
-/* Computes by how much the mean stress of each of the n <= MEAN_POINTS points list[k] of p in a cell changes if points
- * of the same body and material get one mean stress (dilatation.h). change[MEAN_POINTS]: receives the changes [Pa]; t:
- * constants of the materials. */
-static NEVER_INLINE void points_mean_stress_changes(const struct particles *p, const struct transfer_data *t,
-                                                    const int32_t *list, int n, real *change, const int dim)
+/* Replaces the mean stress of the n <= MEAN_POINTS points list[k] of p in a cell by that of the points of the same body
+ * and material (dilatation.h). t: constants of the materials; stress: their stress, AT_ONCE of them in each entry. */
+static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, const struct transfer_data *t,
+                                                     const int32_t *list, struct points_stress *stress, int n,
+                                                     const int dim)
 {
-    const bool alike = points_all_share_mean_dilatation(p, list, n) && !(t->partial && t->partial->index);
+    const int passes = (n + AT_ONCE(dim) - 1) / AT_ONCE(dim);
+    real change[MEAN_POINTS];
     row_of_points sum = points_broadcast(0), volume = points_broadcast(0);
-    if (alike && !t->elastic[p->material[list[0]]].mean_dilatation) {
-        for (int k = 0; k < n; k++) change[k] = 0;
-        return;
-    }
-    for (int k = 0; k < n && alike; k += AT_ONCE(dim)) {
-        const int points = points_at_once(n - k, dim);
-        int32_t point[POINTS];
-        for (int l = 0; l < POINTS; l++) point[l] = list[k + int_min(l, points - 1)];
+    for (int k = 0; k < passes; k++) {
         row_of_points mean = points_broadcast(0);
-        for (int d = 0; d < dim; d++) mean += points_load(p->stress[d], point, dim);
+        for (int d = 0; d < dim; d++) mean += stress[k].stress[d];
         mean *= 1.0 / dim;
-        const row_of_points own = points_keep_first_lanes(points_load(p->volume, point, dim), points);
+        const row_of_points own = points_keep_first_lanes(stress[k].volume, points_at_once(n - k * AT_ONCE(dim), dim));
         volume += own, sum += own * mean;
-        *(points_anywhere *)(change + k) = mean;
+        *(points_anywhere *)(change + k * AT_ONCE(dim)) = mean;
     }
-    if (alike) {
-        const real mean = points_sum(sum) / points_sum(volume);
-        for (int k = 0; k < n; k++) change[k] = mean - change[k];
+    if (!points_all_share_mean_dilatation(p, list, n))
+        points_subtract_from_mean(p, t, list, n, change);
+    else if (!t->elastic[p->material[list[0]]].mean_dilatation)
         return;
+    else {
+        const real mean = points_sum(sum) / points_sum(volume);
+        for (int k = 0; k < passes * AT_ONCE(dim); k++) change[k] = mean - change[k];
     }
-    for (int k = 0; k < n; k++) {
-        real stress[SYM_MAX];
-        point_stress_on_grid(p, t->partial, list[k], stress, dim);
-        change[k] = (dim == 2 ? stress[0] + stress[1] : stress[0] + stress[1] + stress[2]) / dim;
+    for (int k = 0; k < passes; k++)
+        for (int d = 0; d < dim; d++) stress[k].stress[d] += *(const points_anywhere *)(change + k * AT_ONCE(dim));
+}
+
+/* Adds mass, momentum and force of the n points `list` of p (n <= AT_ONCE) in cell c to its sums `sum`. stress: their
+ * stress; other arguments as those of p2g_add_points_of_cell. */
+static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, const struct cell *c,
+                                         const struct particles *p, const struct transfer_data *t,
+                                         const struct points_stress *stress, const int32_t *list, int n, const int dim,
+                                         const enum shape shape, const enum transfer transfer, const bool continued)
+{
+    struct cell_stencil s;
+    struct points_given q;
+    cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    stencil_transpose(&s, dim, shape);
+    points_load_given(&q, p, t, stress, dim, transfer, continued);
+    for (int at = 0; at < n; at++) {
+        p2g_prefetch_point(p, t, list, at, dim, transfer);
+        p2g_add_point(sum, g, p, t, &s, &q, at, dim, shape, continued);
     }
-    points_subtract_from_mean(p, t, list, n, change);
 }
 
 /* Adds mass, momentum and force of the points list[n] of p in one cell to the nodes of the grid g. t: inputs of the
  * transfer, with the shape function `shape` and the scheme `transfer`; averaged: result of
- * transfer_uses_mean_dilatation. */
+ * transfer_uses_mean_dilatation; if true, the stress of up to MEAN_POINTS points is loaded before it is averaged. */
 static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const struct particles *p,
                                                  const struct transfer_data *t, const int32_t *list, int n,
                                                  const int dim, const enum shape shape, const enum transfer transfer,
                                                  const bool averaged)
 {
+    enum { MOST = MEAN_POINTS / POINTS };
     const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
-    real change[MEAN_POINTS];
+    const int most = averaged ? MEAN_POINTS : AT_ONCE(dim);
+    struct points_stress stress[MOST];
     cell_sums sum;
     FOR_ROWS(dim, shape)
     for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_broadcast(0);
-    for (int k = 0; k < n; k += AT_ONCE(dim)) {
-        struct cell_stencil s;
-        const int points = points_at_once(n - k, dim);
-        if (averaged && k % MEAN_POINTS == 0)
-            points_mean_stress_changes(p, t, list + k, int_min(n - k, MEAN_POINTS), change, dim);
-        cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
-        stencil_transpose(&s, dim, shape);
-        row_of_points turn[DIM_MAX * DIM_MAX];
-        if (transfer == TRANSFER_FLIP && continues(t, dim, transfer))
-            rotating_velocity_gradients(t, s.point, 0.5 * t->dt, turn, dim);
-        for (int at = 0; at < points; at++) {
-            p2g_prefetch_point(p, t, list, k + at, dim, transfer);
-            p2g_add_point(sum, g, p, t, &s, turn, averaged ? &change[(k + at) % MEAN_POINTS] : NULL, at, dim, shape,
-                          transfer);
+    for (int from = 0; from < n; from += most) {
+        const int some = int_min(n - from, most);
+        for (int k = 0; k < some; k += AT_ONCE(dim))
+            points_load_stress(&stress[k / AT_ONCE(dim)], p, t, list + from + k, points_at_once(some - k, dim), dim);
+        if (averaged) points_average_mean_stress(p, t, list + from, stress, some, dim);
+        for (int k = 0; k < some; k += AT_ONCE(dim)) {
+            const struct points_stress *own = &stress[k / AT_ONCE(dim)];
+            const int points = points_at_once(some - k, dim);
+            const bool continued = continues(t, dim, transfer);
+            if (HAS_CORNERS(dim, shape) && continued) /* a loop of its own, without tests */
+                p2g_add_points(sum, g, &c, p, t, own, list + from + k, points, dim, shape, transfer, true);
+            else
+                p2g_add_points(sum, g, &c, p, t, own, list + from + k, points, dim, shape, transfer, continued);
         }
     }
     FOR_ROWS(dim, shape)
@@ -245,8 +285,9 @@ static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const str
                                                  const enum shape shape)
 {
     const struct cell c = cell_containing_point(g, p, i, dim, shape);
+    const int32_t list[POINTS] = {i};
     struct cell_stencil s;
-    cell_stencil_make(&s, g, &c, p, &i, 1, half_width, dim, shape);
+    cell_stencil_make(&s, g, &c, p, list, 1, half_width, dim, shape);
     stencil_transpose(&s, dim, shape);
     const row_of_nodes spread = value * stencil_row_weights(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)

@@ -185,23 +185,18 @@ static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int 
     *(points_anywhere *)due->volume = *(const points_anywhere *)(due->volume + n);
 }
 
-/* Maps the trial stresses of the first points in the list `due`, at most LANES, back to their yield surfaces if their
- * materials yield, stores stress, plastic strain, plastic work, back stress and temperature, clears FLAG_STRESSED of
- * those that yield if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes
- * must have been stored in p. t: time step and constants of the materials. Points of several materials are mapped
- * material by material. */
-static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const struct transfer_data *t,
-                                                    struct flow_points *due, const int dim)
+/* Maps the trial stresses of n points of p (n <= LANES) back to their yield surfaces if their materials yield, stores
+ * stress, plastic strain, plastic work, back stress and temperature, and clears FLAG_STRESSED of those that yield if
+ * the resulting stress does not exceed the conversion stress. Their volumes must have been stored in p. point: numbers
+ * of the points, filled up to LANES; L: velocity gradients [1/s]; stress[components], volume: trial stresses [Pa],
+ * which are changed, and volumes [m^3]; t: time step and constants of the materials. Points of several materials are
+ * mapped material by material. */
+static NEVER_INLINE void flow_points_map(struct particles *p, const struct transfer_data *t, const int32_t *point,
+                                         int n, const lanes *L, lanes *stress, lanes volume, const int dim)
 {
     struct flow_motion motion;
     struct law_points e;
-    const int n = int_min(due->n, LANES), parts = dim * (dim + 1) / 2;
-    int32_t point[LANES] __attribute__((aligned(LANES * sizeof(int32_t))));
-    lanes L[DIM_MAX * DIM_MAX], stress[SYM_MAX];
     unsigned left = (1u << n) - 1;
-    for (int l = 0; l < LANES; l++) point[l] = due->point[int_min(l, n - 1)];
-    for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
-    for (int c = 0; c < parts; c++) stress[c] = lanes_load(due->stress[c]);
     flow_motion_of(&motion, L, t->dt, dim);
     while (left) {
         const struct elastic *m = &t->elastic[p->material[point[__builtin_ctz(left)]]];
@@ -209,13 +204,26 @@ static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const s
         for (int l = 0; l < n; l++) own |= (unsigned)(left >> l & 1 && &t->elastic[p->material[point[l]]] == m) << l;
         left &= ~own;
         if (!m->law) continue;
-        flow_load_points(p, m, point, stress, lanes_load(due->volume), &motion, t->dt, &e, dim);
+        flow_load_points(p, m, point, stress, volume, &motion, t->dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
         if (p->back_stress[0]) flow_store_back_stress(p, &e, own, point, dim);
         if (flowed) flow_store_points(p, m, &e, flowed, point, n, stress, dim);
     }
-    for (int c = 0; c < parts; c++) flow_scatter_points(p->stress[c], point, stress[c], n);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) flow_scatter_points(p->stress[c], point, stress[c], n);
+}
+
+/* Maps the first points in the list `due`, at most LANES, and removes them (flow_points_map). */
+static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const struct transfer_data *t,
+                                                    struct flow_points *due, const int dim)
+{
+    const int n = int_min(due->n, LANES);
+    int32_t point[LANES] __attribute__((aligned(LANES * sizeof(int32_t))));
+    lanes L[DIM_MAX * DIM_MAX], stress[SYM_MAX];
+    for (int l = 0; l < LANES; l++) point[l] = due->point[int_min(l, n - 1)];
+    for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_load(due->stress[c]);
+    flow_points_map(p, t, point, n, L, stress, lanes_load(due->volume), dim);
     flow_points_remove_first(due, n, dim);
 }
 

@@ -124,6 +124,38 @@ static ALWAYS_INLINE int int_min(int a, int b) { return a < b ? a : b; }
 /* Returns how many of `points_left` remaining points of a cell are processed at once: at most AT_ONCE. */
 static ALWAYS_INLINE int points_at_once(int points_left, const int dim) { return int_min(points_left, AT_ONCE(dim)); }
 
+/* Length of the arrays that points_list fills: the numbers of POINTS points, then at PAIRED not 0 if the points come in
+ * pairs of consecutive numbers, as neighbours along x have: two of them are then loaded or stored at once. */
+enum { PAIRED = POINTS, POINT_NUMBERS = POINTS + 1 };
+
+/* Returns which of the n points of a list (n <= AT_ONCE) a lane holds: lanes beyond the last point repeat it or, if n
+ * is even, the last two. */
+static ALWAYS_INLINE int points_entry_of_lane(int lane, int n)
+{
+    return lane < n ? lane : n % 2 == 1 ? n - 1 : n - 2 + lane % 2;
+}
+
+/* Stores the numbers of the n points `list` (n <= AT_ONCE) in point[POINT_NUMBERS], padded as
+ * points_entry_of_lane says, and whether they come in pairs. list: with POINTS entries, of which those from n on are
+ * not used. */
+static ALWAYS_INLINE void points_list(int32_t *point, const int32_t *list, int n, const int dim)
+{
+#if POINTS_LANES == 8
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), even = _mm256_set1_epi32((n - 1) & ~1);
+    const __m256i most = _mm256_add_epi32(even, _mm256_and_si256(lane, _mm256_set1_epi32((n - 1) & 1)));
+    const __m256i all = _mm256_loadu_si256((const __m256i *)list);
+    const __m256i own = _mm256_permutevar8x32_epi32(all, _mm256_min_epi32(lane, most));
+    const __m256i next = _mm256_add_epi32(own, _mm256_set1_epi32(1)), other = _mm256_srli_epi64(own, 32);
+    _mm256_storeu_si256((__m256i *)point, own);
+    point[PAIRED] = (_mm256_cmpeq_epi32_mask(next, other) & 0x55) == 0x55;
+    (void)dim;
+#else
+    for (int k = 0; k < POINTS; k++) point[k] = list[points_entry_of_lane(k, n)];
+    point[PAIRED] = dim > 1;
+    for (int k = 0; k < POINTS; k += 2) point[PAIRED] &= point[k + 1] == point[k] + 1;
+#endif
+}
+
 /* Returns true if all lanes of a vector of points hold the same point, as in cells with one point (2D and 3D). The
  * branch saves time there, and costs none where cells have four points. point: numbers of the points. */
 static ALWAYS_INLINE bool points_are_the_same(const int32_t *point, const int dim)
@@ -131,10 +163,27 @@ static ALWAYS_INLINE bool points_are_the_same(const int32_t *point, const int di
     return dim > 1 && point[0] == point[POINTS - 1];
 }
 
+/* Returns the entries from[point[k]] of an array for points in pairs of consecutive numbers, one per lane. */
+static ALWAYS_INLINE row_of_points points_load_pairs(const real *from, const int32_t *point)
+{
+#if POINTS_LANES == 2
+    return *(const points_anywhere *)(from + point[0]);
+#else
+    const __m256d low = _mm256_loadu2_m128d(from + point[2], from + point[0]);
+#if POINTS_LANES == 4
+    return (row_of_points)low;
+#else
+    const __m256d high = _mm256_loadu2_m128d(from + point[6], from + point[4]);
+    return (row_of_points)_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+#endif
+#endif
+}
+
 /* Returns the entries from[point[k]] of an array for the listed points, one per lane. point: numbers of POINTS points
- * (in 1D of two, which are repeated). */
+ * (in 1D of two, which are repeated), from points_list. */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
+    if (dim > 1 && point[PAIRED]) return points_load_pairs(from, point);
     if (points_are_the_same(point, dim)) return points_broadcast(from[point[0]]);
 #if POINTS_LANES == 8
     return (row_of_points){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
@@ -149,6 +198,10 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
 /* Stores lane k of a in to[point[k]] for the listed points. Lanes that hold the same point must have equal values. */
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
+    if (dim > 1 && point[PAIRED]) {
+        for (int k = 0; k < POINTS; k += 2) *(pair_anywhere *)(to + point[k]) = (pair_of_nodes){a[k], a[k + 1]};
+        return;
+    }
     to[point[0]] = a[0];
     if (points_are_the_same(point, dim)) return;
     for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];

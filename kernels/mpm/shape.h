@@ -222,7 +222,7 @@ static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, con
  * node is N, which depends on the position of the node in its row, times the factors A of the row in the directions
  * across. */
 struct cell_stencil {
-    int32_t point[POINTS];                       /* indices of the points, padded with the last point */
+    int32_t point[POINT_NUMBERS];                /* indices of the points (points_list) */
     row_of_points x[DIM_MAX];                    /* position [m] */
     row_of_points t[DIM_MAX];                    /* position in the cell, in cell edges from the lower node [1] */
     row_of_points N[ROW], D[DIM_MAX][ROW];       /* of the nodes of a row: weights [1], slopes along it [1/m] */
@@ -309,7 +309,7 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
                                             const int dim, const enum shape shape)
 {
     const real inverse = 1 / g->h;
-    for (int k = 0; k < POINTS; k++) s->point[k] = list[int_min(k % AT_ONCE(dim), n - 1)];
+    points_list(s->point, list, n, dim);
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
         s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d] + g->ahead[d]; /* grid_coordinate_in_cells */
