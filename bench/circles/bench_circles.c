@@ -153,12 +153,10 @@ static status circle_add(struct circles *c, const struct circle_case *of, double
     return degrees ? body_turn(c, &c->run[k], o) : OK;
 }
 
-/* With --quick: smallest spacing, spacing of cubes, shortest notch [mm]; a circle that is left out, between two others
- * of its kind. */
+/* With --quick: smallest spacing, spacing of cubes, shortest notch [mm]. */
 #define QUICK_LEAST 0.06
 #define QUICK_CUBE (1.0 / 13)
 #define QUICK_NOTCH 0.25
-#define QUICK_WITHOUT "5 notch 1"
 
 /* Returns the spacing j of a case [mm], 0 if it has none. quick: with --quick it has at most the first. */
 static double case_spacing(const struct circle_case *of, int j, bool quick)
@@ -184,7 +182,7 @@ static status circles_add(struct circles *c, const char *only, bool quick, struc
     for (int k = 0; k < circle_cases_count; k++)
         for (int j = 0; j < CIRCLE_SPACINGS; j++) {
             const struct circle_case *of = &circle_cases[k];
-            if (!case_is_asked(of, only) || (quick && !only && !strcmp(of->circle, QUICK_WITHOUT))) continue;
+            if (!case_is_asked(of, only)) continue;
             const double spacing = case_spacing(of, j, quick), turned = case_turned_spacing(of, j, quick);
             if (spacing > 0) TRY(circle_add(c, of, spacing, 0, table));
             for (int a = 0; a < CIRCLE_LATTICES && turned > 0 && of->degrees[a] > 0; a++)
