@@ -140,6 +140,11 @@ static ALWAYS_INLINE int points_entry_of_lane(int lane, int n)
  * not used. */
 static ALWAYS_INLINE void points_list(int32_t *point, const int32_t *list, int n, const int dim)
 {
+    if (n == 1) {
+        for (int k = 0; k < POINTS; k++) point[k] = list[0];
+        point[PAIRED] = 0;
+        return;
+    }
 #if POINTS_LANES == 8
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), even = _mm256_set1_epi32((n - 1) & ~1);
     const __m256i most = _mm256_add_epi32(even, _mm256_and_si256(lane, _mm256_set1_epi32((n - 1) & 1)));
