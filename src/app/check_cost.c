@@ -27,7 +27,7 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define WALL_MOST 60.0             /* wall-clock time of such a trial [s] */
 #define COARSER_MOST 4.0           /* factor on the spacing up to which a body breaks in about the same positions */
 #define PARTS_BYTES 56             /* per particle, in addition with bonds: fragments of a broken body, damage */
-#define OUTPUT_BYTES 2.1e6         /* memory of the HDF5 library, code and data; measured 1.7 to 2.8e6 [byte] */
+#define OUTPUT_BYTES 4.6e6         /* memory of the HDF5 library, code and data; measured 3.9 to 6.5e6 [byte] */
 #define START_SECONDS 0.02         /* start of a process and its summary [s] */
 #define FILE_SECONDS 4e-3          /* time of a frame, checkpoint or profile of any size; measured [s] */
 #define FILE_SECONDS_PARTICLE 8e-8 /* further time per particle; measured: frames of 320,000 take 26 ms [s] */

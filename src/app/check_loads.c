@@ -313,7 +313,7 @@ static void say_load(const struct run *e, int which)
         printf("%s", b->by_mass ? "weight" : words[b->kind]);
     if (faces) printf(" on %c%c", "xyz"[b->face], b -> side > 0 ? '+' : '-');
     if (b->kind != BOUNDARY_MIRROR) printf(", %lld particle%s", (long long)l->n, l->n == 1 ? "" : "s");
-    if (faces && b->kind != BOUNDARY_VELOCITY && b->formula[b->face].n == 0) /* else shares are no areas */
+    if (faces && b->kind != BOUNDARY_VELOCITY && (b->formula[b->face].n == 0 || l->moving)) /* shares are areas */
         say_traction_area(e->scene, l);
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
     if (force) say_force(&e->part, e->scene, l);

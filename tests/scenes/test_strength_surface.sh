@@ -196,7 +196,7 @@ if cmp "$work/steps_hole/history.csv" "$work/steps_resumed/history.csv"; then pa
 # soften by themselves: C l E^2 G_c... = 4 pi/9 E G_c/(2 (1.333 x 44.4 MPa)^2) = 0.139 mm.
 "$cleave" check "$work/square.yaml" --no-trial >"$work/said" 2>&1
 holds "check: strengths" grep -q 'strength  *glass: 4e+07 Pa in tension, 2.70[0-9]*e+07 Pa in equal biaxial tension, 4.44[0-9]*e+07 Pa in shear' "$work/said"
-holds "check: means" grep -q 'strains are averaged over 0.0003438 m (1 means over families)' "$work/said"
+holds "check: means" grep -q 'strains are averaged over 0.0003438 m (1 means over neighbourhoods)' "$work/said"
 holds "check: horizon" grep -q 'with a horizon of 0.000139[0-9]* m or more the stress does not reach the surface' "$work/said"
 holds "check: shear" grep -q 'in shear bonds soften at about 3.[0-9]*e+07 Pa already, before the surface is reached' "$work/said"
 # Bonds across uniaxial pressure reach the end of softening, sqrt(2) s_c, at E/nu times that, with s_c^2 = 4 pi G_c/(9 E horizon).

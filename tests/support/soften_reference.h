@@ -166,8 +166,8 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
 
 /* Computes force and energy of all particles and stores them in row[n] (the stress remains 0). Ends bonds that have
  * begun to soften and whose stretch is beyond the end of the softening curve, marks the blocks of eight rows (the bonds
- * of eight particles) of bonds beyond their onset as due, and updates the largest stretches. w, stiffness, block: as for
- * soften_reference_begin, which must have been called before. */
+ * of eight particles) of bonds beyond their onset as due, and updates the largest stretches. w, stiffness, block: as
+ * for soften_reference_begin, which must have been called before. */
 static inline void soften_reference_step(struct soften_reference *r, const struct particles *p, const real *w,
                                          real stiffness, const int64_t *block, struct reference_row *row)
 {
