@@ -22,9 +22,10 @@ static inline real dashpot_add_impulse(struct absorbed *a, int axis, real rate_d
     return impulse;
 }
 
-/* Corrects a->energy and a->kick, to which dashpot_add_impulse has added, if the velocity at the end of the step is
- * afterwards changed by a further `velocity_change` [m/s]. impulse: impulse that dashpot_add_impulse has returned [N
- * s]. */
+/* Corrects a->energy, the energy that dashpots dissipate, and a->kick, a quarter of the sum of impulse times change of
+ * velocity [J], to which dashpot_add_impulse has added, if the velocity at the end of the step is afterwards changed by
+ * a further `velocity_change` [m/s], along the same axis. impulse: of the dashpot on the body, as dashpot_add_impulse
+ * has returned it [N s]. */
 static inline void dashpot_correct_energy(struct absorbed *a, real impulse, real velocity_change)
 {
     a->energy -= 0.5 * impulse * velocity_change;

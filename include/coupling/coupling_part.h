@@ -90,10 +90,11 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
  * voids that are too narrow to stay open (warn_of_voids_treated_as_closed). */
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list);
 
-/* Prepares the conversion of material points of run e in a step: marks points (FLAG_NEAR) that are near other bodies,
- * or beside crack faces that approach each other, in each load step or once in APPROACH_STEPS time steps. Also updates
- * the list of active blocks of eight rows (the bonds of eight particles each), whose particles may move. Returns true
- * if the faces of cracks and voids were examined in this step, so that points beside them may be marked. */
+/* Marks the material points of run e that are to become peridynamic particles because contact is near (FLAG_NEAR):
+ * those near other bodies, and those beside crack faces that approach each other. Looks for such points in each load
+ * step, or once in APPROACH_STEPS time steps. In every step first updates the list of the blocks of eight rows (the
+ * bonds of eight particles each) whose particles may move. Returns true if crack faces were examined in this step, so
+ * that points beside them may be marked. */
 bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
 /* Converts the marked material points of run e to peridynamic particles, and updates all that depends on it: bonds,

@@ -68,9 +68,11 @@ void convergence_summarise_runs(struct level_figures *l, const double *value, in
  * `centre` and the result have the unit of the result. */
 double convergence_interval_half_width(const struct convergence *c, double centre, double probability);
 
-/* Computes the likely order of convergence, the extrapolated value and the uncertainties (members order_likely,
- * order_error, extrapolated, uncertainty and discretisation of *c) from the means and errors at the spacing levels,
- * c->level[c->levels]. */
+/* Fits c->level[c->levels], means and errors at several spacings, by value + constant * spacing^order for many orders,
+ * and weights these by how well they fit. Computes from them: order_likely and order_error, mean and standard deviation
+ * of the order; extrapolated, the mean value at spacing 0; uncertainty, half the width of the 95 % interval around the
+ * mean of each level; discretisation, the part of it that is not the error of the mean (members of *c). If the levels
+ * do not allow a fit, the orders are NAN, the extrapolated value is the mean of the finest level, the others 0. */
 void convergence_compute_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with `degrees_of_freedom` >= 1 degrees of freedom. */

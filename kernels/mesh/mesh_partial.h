@@ -83,9 +83,11 @@ static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh,
             moment[k][end->lane] += p->end_moment[c][end->point] * inverse;
 }
 
-/* Computes the stress of the mean strain, s->P, and the forces on the bending modes, s->force, of group number `group`
- * of eight partial cells of the mesh (cells with missing points, partial stresses, several materials or doubled nodes)
- * [Pa], from the strain in s, the stiffness of each cell, and the forces of state-based bonds on points of p. */
+/* Computes the stress in group number `group` of eight partial cells of the mesh, from the mean strain and the
+ * hourglass (bending) amplitudes of each cell in s. s->P: receives the stress that belongs to the mean strain [Pa];
+ * s->force: that which belongs to the hourglass amplitudes, per volume of the cell [Pa]. A partial cell lacks points,
+ * has several materials, is crossed by bonds that bear part of its stress, or has nodes that a crack doubles; each has
+ * a stiffness matrix of its own. Forces of state-based bonds on points of p are added. */
 static ALWAYS_INLINE void mesh_partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
                                                       struct mesh_cell *s, const int dim)
 {

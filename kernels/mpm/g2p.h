@@ -332,11 +332,13 @@ static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const in
     if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
 }
 
-/* Updates motion, stress and volume of the points list[n] of p in one cell of g. t: inputs of the transfer, with the
- * shape function `shape` and the scheme `transfer`; due: receives the points of materials that yield, for the return
- * mapping; averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points are interpolated before
- * they are updated. Returns the number of points that have left the cell. Quantities of the cell are computed anew for
- * every AT_ONCE points, since most cells need one pass only. */
+/* Updates motion, stress and volume of the points list[n] of p in one cell of g (grid to particles). t: materials, time
+ * step and other inputs; shape: shape function; transfer: scheme, such as FLIP or APIC; due: receives the points of
+ * materials that yield, for the return mapping; averaged: true if the points of a cell get the mean of their rates of
+ * dilatation (transfer_uses_mean_dilatation): all points of the cell, at most MEAN_POINTS at once, are then
+ * interpolated before the first is updated. Returns the number of points that have left the cell. Quantities of the
+ * cell are computed anew for every AT_ONCE(dim) points, the number that is processed at once, since most cells need one
+ * pass only. */
 static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, struct particles *p,
                                                        const struct transfer_data *t, struct flow_points *due,
                                                        const int32_t *list, int n, const int dim,

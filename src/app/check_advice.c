@@ -331,8 +331,9 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
                 stretch, weak->word, weak->too_little);
     if (stretch > PARTS_AT_GRIP)
         fprintf(out,
-                "accuracy       metal is pulled to %.3g times its length: beyond about %.2g times its material points "
-                "separate beside those whose motion is prescribed; pull it by wider parts that do not yield%s\n",
+                "accuracy       metal is pulled to %.3g times its length: from about %.2g times on it tears beside its "
+                "supports, where only an error of material points parts it; pull it by wider parts that do not "
+                "yield%s\n",
                 stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 

@@ -79,9 +79,10 @@ static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
     return c->followed[row] >= ROW_SOURCE;
 }
 
-/* Activates further particles of the contact list of c (particles of p that may come into contact), after neighbours
- * that were at rest have started to move: marks these particles as loaded in `loads` and their bonds as active in b. To
- * be called in steps without a search for pairs. */
+/* Brings those particles of p into the computation that may come into contact (contact list of c) and that were skipped
+ * so far, because they and all neighbours were at rest, but have a neighbour that moves now: marks them in `loads` as
+ * particles on which forces act, and in b their bonds as bonds whose forces are computed. Call it in steps in which no
+ * pairs of particles near each other are searched for. */
 void contact_activate_newly_moving_particles(struct contact *c, const struct particles *p, struct bonds *b,
                                              struct loads *loads);
 

@@ -349,9 +349,11 @@ static void sort_few(int32_t *particle, uint16_t *inside, int32_t n)
     }
 }
 
-/* Writes the points of block b (a box of cells) of o to o->next_particle[to ..] and their cells to o->next_inside[to
- * ..]: those that have not left their cells, and those that have arrived, s->bucket[arrived[b]] to
- * s->bucket[arrived[b + 1] - 1] with the cells s->sorted. Returns the number of cells with points. */
+/* Writes the points of block b (a box of cells) of o, by ascending cell and then by ascending index, to
+ * o->next_particle from entry `to` on, and their cells to o->next_inside. They are merged from two lists of that order:
+ * the points that have stayed in their cells, o->particle, and those that have come from other cells,
+ * s->bucket[arrived[b]] to s->bucket[arrived[b + 1] - 1], whose cells s->sorted holds. Returns the number of cells with
+ * points. */
 static int32_t merge_block(struct transfer_order *o, const struct sorting *s, const int32_t *arrived, int b, int32_t to)
 {
     const int32_t from = o->block_start[b], end = o->block_start[b + 1], last = arrived[b + 1];

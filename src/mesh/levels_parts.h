@@ -139,8 +139,9 @@ void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nod
  * mesh_velocity. The nodal forces serve as working memory and are 0 afterwards. */
 void levels_compute_momenta_from_velocities(struct mesh_levels *l);
 
-/* Returns true if the coarsening levels of l are consistent: all cells of level 0 in a coarse cell have its level,
- * and coarse cells are completely filled. */
+/* Returns true if the coarse cells of the mesh l are consistent: the fine cells that make up a coarse cell all state
+ * the level of this coarse cell (l->level: 0 for a fine cell by itself, k for a cell 2^k times as long), and each of
+ * them is completely filled with material. */
 bool levels_are_consistent(const struct mesh_levels *l);
 
 /* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,

@@ -145,8 +145,9 @@ void line_probe_compute_station_position(const struct probe *q, int dim, int sta
 /* Returns the crack tip that the TIP probe q follows at present, or NULL if there is none. The tip belongs to *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips);
 
-/* Computes the sum of the reactions of all supports (in load steps also loads) of the probe's boundary, force[dim]
- * [N], and the mean displacement of their particles, mean_displacement[dim] [m]. */
+/* Computes the reaction at the boundary that probe q observes, force[dim] [N]: the sum of the members `reaction` of all
+ * entries of `loads` with the name of this boundary, i.e. of its supports, in load steps also of its forces.
+ * mean_displacement[dim]: receives the mean displacement of the particles that they act on, each counted alike [m]. */
 void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *loads, int dim, real *force,
                                         real *mean_displacement);
 

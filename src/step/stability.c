@@ -303,10 +303,12 @@ static status inversion_check(const struct run_clock *clock, const struct partic
         particle_reference_position(p, i, X);
         snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
     }
-    return status_set(FAILED,
-                      "inverted at step %lld, t = %.3g s: the mesh of the reference frame is turned inside out at %s, "
-                      "from (%.6g, %.6g, %.6g) m; use mpm.frame: current, or check loads and supports",
-                      (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
+    return status_set(
+        FAILED,
+        "inverted at step %lld, t = %.3g s: a cell of the mesh of material points (mpm.frame: reference) is "
+        "turned inside out at %s, at the start at (%.6g, %.6g, %.6g) m; use mpm.frame: current, or loads "
+        "and supports that compress or shear the body less there",
+        (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
 /* Returns FAILED, with a message, if the formula of a load of l has a value that is not finite at a particle of p. Such

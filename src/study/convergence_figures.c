@@ -168,7 +168,8 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
     for (int k = 0; k < wanted_count; k++)
         if (study_index_of_result(&s->table, wanted_names[k]) < 0)
             return status_set(REFUSED,
-                              "%s: summary.json has no such figure; join its names by points, such as crack.angle_deg",
+                              "%s: summary.json has no number of this name; join the names that lead to the number by "
+                              "dots, as in crack.angle_deg",
                               wanted_names[k]);
     *figure = NEW("study.figures", s->table.figures, struct scalar_result_study);
     *figure_count = 0;

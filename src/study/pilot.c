@@ -192,7 +192,8 @@ static status search_failed(const struct pilot_search *p)
     char limit[64] = "at its spacing";
     if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", PILOT_LONGEST);
     return status_set(REFUSED,
-                      "%s: pilot runs of %.3g s found no method that is accurate to %.2g %% %s (%s); use a larger "
+                      "%s: pilot runs in %.3g s of computing (accuracy.budget) found no method that is accurate to "
+                      "%.2g %% %s (%s); use a larger "
                       "accuracy.within or accuracy.budget, or give method and particles.spacing",
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }

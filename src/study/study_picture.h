@@ -27,9 +27,10 @@ struct shown_key {
     bool numbers;         /* the shown values are numbers with one unit or without unit */
 };
 
-/* Returns an allocated array [key_count] that describes how pictures show the varied keys key[key_count] of a study.
- * The words of a key contain the name or the face of the item of the scene to which it belongs, as in `traction on y+`.
- * If vectors differ in a single component, this component is shown. Release the array with shown_keys_free. */
+/* Returns an allocated array [key_count] with label, unit and values by which pictures show the keys key[key_count]
+ * that a study varies. The label of a key names the material, load or body of the input file to which the key belongs,
+ * as in `traction on y+`. If the values are vectors that differ in a single component, this component is shown. Release
+ * the array with shown_keys_free. */
 struct shown_key *shown_keys_make(const struct study *study, const struct varied_key *key, int key_count);
 
 /* Frees the array shown[key_count], which shown_keys_make has allocated, and its texts; `shown` may be NULL. */

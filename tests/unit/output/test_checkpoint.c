@@ -296,7 +296,7 @@ static void future_formats_are_refused(void **state)
     open_fresh(&o, "future");
     assert_int_equal(checkpoint_write(&o, scene_text, future_archive, NULL), OK);
     assert_not_restored(&o);
-    assert_message("has format 1000, but this program reads only format 19");
+    assert_message("has format 1000, but this program reads only format 20");
     output_close(&o);
 }
 
