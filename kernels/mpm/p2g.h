@@ -64,7 +64,7 @@ struct points_stress {
     row_of_points volume;          /* [m^3] */
 };
 
-/* What a few points of a cell give to nodes, one per lane, stored once so that each point broadcasts its own. */
+/* Quantities that a few points of a cell transfer to nodes, one point per lane. */
 struct points_given {
     row_of_points mass, v[DIM_MAX], f[DIM_MAX]; /* [kg], [m/s], [N] */
     row_of_points pull[SYM_MAX];                /* stress times volume, symmetric components [N m] */
@@ -285,9 +285,8 @@ static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const str
                                                  const enum shape shape)
 {
     const struct cell c = cell_containing_point(g, p, i, dim, shape);
-    const int32_t list[POINTS] = {i};
     struct cell_stencil s;
-    cell_stencil_make(&s, g, &c, p, list, 1, half_width, dim, shape);
+    cell_stencil_make(&s, g, &c, p, &i, 1, half_width, dim, shape);
     stencil_transpose(&s, dim, shape);
     const row_of_nodes spread = value * stencil_row_weights(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)

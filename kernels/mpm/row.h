@@ -137,7 +137,7 @@ static ALWAYS_INLINE int points_entry_of_lane(int lane, int n)
 
 /* Stores the numbers of the n points `list` (n <= AT_ONCE) in point[POINT_NUMBERS], padded as
  * points_entry_of_lane says, and whether they come in pairs. list: with POINTS entries, of which those from n on are
- * not used. */
+ * not used; with one entry if n is 1, for which the compiler then knows that all lanes are equal. */
 static ALWAYS_INLINE void points_list(int32_t *point, const int32_t *list, int n, const int dim)
 {
     if (n == 1) {

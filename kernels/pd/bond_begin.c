@@ -1,8 +1,9 @@
-/* Bonds that begin to soften. A sweep marks blocks of eight rows (the bonds of eight particles) with a bond beyond its
- * onset as due; before the next sweep the bonds between due blocks are examined, while all positions are of one time.
- * Both rows of a bond then decide alike. A bond begins one step late, at the stretch s_1 after s_0: a leap-frog step in
- * which it falls from stiffness 1 to 1 - d takes s_0 s_1 d/2 of its energy, over stiffness, weight and length. What the
- * closed form of its dissipation lacks of this counts as fracture energy.
+/* Decides which bonds begin to soften. The computation of forces marks the blocks of eight rows (the bonds of eight
+ * particles) that have a bond beyond its onset of softening. Before the next computation of forces the bonds between
+ * marked blocks are examined, while all positions are of one time, so that both rows of a bond give the same answer. A
+ * bond begins one step late, at the stretch s_1 after s_0: a leap-frog step in which it falls from stiffness 1 to 1 - d
+ * takes s_0 s_1 d/2 of its energy, over stiffness, weight and length. What the closed form of its dissipation lacks of
+ * this counts as fracture energy.
  *
  * Lateral bonds of a compressed body are stretched, though no stress pulls at them. A bond from i to j of direction n
  * may therefore begin only where n . sigma . n > 0.5 G s: 0.2 E s in solids and plane strain, 0.19 E s in plane stress
@@ -13,9 +14,10 @@
  * where eps is the strain that fits the stretches of the bonds of a particle best, s = n . eps . n, weighted by the
  * stiffness that they keep: exact for uniform strain, beside faces, too. Uniaxial compression gives tr eps = -2 s.
  *
- * Where a strength surface starts the softening, too, a = 1.2, i.e. 0.32 E s in solids. Measured: edges of a prism of
- * glass, whose neighbourhoods bulge, spall from 165 MPa on with a = 1.5 until it bears 212 MPa in compression; with 1.2
- * it bears 1054 of 1000 MPa. With a = 1 a disc between jaws, of stresses T and -3 T, no longer splits.
+ * Where a strength surface starts the softening, too, a = 1.2, i.e. 0.32 E s in solids. Measured with a prism of glass
+ * whose strength in compression is 1000 MPa: with a = 1.5 its edges, whose neighbourhoods bulge, spall from 165 MPa on,
+ * and the largest stress is 212 MPa; with 1.2 it is 1054 MPa. With a = 1 a disc between jaws, of stresses T and -3 T,
+ * no longer splits.
  *
  * Where the strength grows with the strain rate, a bond begins at the onset of its rate, the mean of both ends'. The
  * rate of a particle is the mean rate at which the largest stretch of its bonds grows from half the onset of slow

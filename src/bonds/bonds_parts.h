@@ -195,11 +195,11 @@ struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 /* Releases the cache t of blocks of eight rows. Does nothing if t is NULL. */
 void stencil_cache_free(struct stencil_cache *t);
 
-/* Searches the cache bonds->stencil_cache for eight consecutive particles whose bonds are bitwise equal (lengths,
- * weights and sums of weights) to `bonds`, the bonds of the eight particles from `first_particle` on. No bond may be
- * cut by a pre-crack. Returns the first of the particles found; -1 if there are none, or if the lattice is not uniform.
- * Bonds of a uniform lattice that were not found are added to the cache. weight_inputs: inputs besides lattice sites on
- * which weights depend; NULL if there are none. */
+/* Searches the cache bonds->stencil_cache for eight consecutive particles whose bonds have the same bits (lengths,
+ * weights and sums of weights) as `bonds`, the bonds of the eight particles from `first_particle` on, none of which a
+ * pre-crack may cut. Returns the first of the particles found; -1 if the cache has no such particles, or if the lattice
+ * is not uniform. If the lattice is uniform and the search fails, adds `bonds` to the cache. weight_inputs: inputs
+ * besides lattice sites on which weights depend; NULL if there are none. */
 int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 

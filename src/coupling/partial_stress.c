@@ -302,12 +302,12 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds the material points whose partial stress must be recomputed, because particles near them have become
- * peridynamic or have stopped to be, and stores them in r. The partial stress is what is left of the stress of a point
- * near bonds: bonds that cross its lattice cell bear the rest. changed[n]: indices of these particles, or NULL for all
- * peridynamic ones. Also stores the rows (a row: the bonds of one particle) whose bonds may cross the lattice cells of
- * these points, unless `table` (what a bond of each lattice direction bears) holds for all particles: no rows are then
- * needed. s: cutoff of the bonds and cells for the search of neighbours. Release r with renewal_free. */
+/* Finds the material points whose partial stress must be recomputed because particles near them have been converted to
+ * peridynamic ones or back, and stores these points in r. The partial stress of a point near bonds is its stress less
+ * that which the bonds that cross its lattice cell carry. changed[n]: indices of the converted particles, or NULL for
+ * all peridynamic ones. Also stores the rows (a row: the bonds of one particle) whose bonds may cross the lattice cells
+ * of these points, unless `table` (what a bond of each lattice direction carry) holds for all particles: no rows are
+ * then needed. s: cutoff of the bonds and cells for the search of neighbours. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
