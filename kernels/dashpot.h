@@ -9,9 +9,9 @@
 
 /* Returns the impulse [N s] of a dashpot along axis `axis` on a node or particle in a step, by the implicit mean
  * velocity (v_old + v_new)/2. Adds impulse and dissipated energy to *a, and a quarter of the impulse times the change
- * of velocity to a->kick, which the correction of the kinetic energy of samples leaves out. rate_dt: dashpot rate times
- * the duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s]; velocity_change: velocity change
- * by all other forces [m/s]. */
+ * of velocity to a->kick, which is excluded from the correction of the kinetic energy in energy balances. rate_dt:
+ * dashpot rate times the duration of the step, k dt [kg]; mass [kg]; old_velocity: velocity v_old [m/s];
+ * velocity_change: velocity change by all other forces [m/s]. */
 static inline real dashpot_add_impulse(struct absorbed *a, int axis, real rate_dt, real mass, real old_velocity,
                                        real velocity_change)
 {

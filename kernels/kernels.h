@@ -37,7 +37,7 @@ struct elastic {
                      weakest point [Pa] */
     real trigger_mean; /* sigma_1 of conversion of a point of strength 1; equals `trigger` without scatter [Pa] */
     real poisson;      /* Poisson's ratio in plane strain [1] */
-    /* strength surface; if its g0 is not 0, points also convert where U g0 (sqrt(J2) + g1 I1) exceeds `failure` */
+    /* strength surface; if its g0 is not 0, points also convert where U g0 = sqrt(J2) + g1 I1 exceeds `failure` */
     struct strength_surface surface;
     real failure; /* value of U g0 at which points convert; where strength scatters, of a point of strength 1 [Pa] */
     enum space space;
@@ -57,8 +57,8 @@ static inline real point_conversion_stress(const struct elastic *m, const struct
 /* Partial stress (src/coupling/partial_stress.c). Where bonds between peridynamic particles and material points (PD-MPM
  * bonds) cross the cell of a material point, they carry the part M sigma of its stress sigma, and the point transmits
  * the rest, sigma - M sigma, to the grid. M = T C^-1 over symmetric components, with the stiffness T of these bonds and
- * C of the material. A point with state-based bonds of its own also transmits `local` times P Q =
- * particles.end_pull/volume to the grid. */
+ * C of the material. A point with state-based bonds of its own also transmits the stress `local` times p/V to the grid,
+ * with the reaction p of its bonds (particles.end_pull) and its volume V. */
 struct partial_stress {
     int32_t *index; /* [n] entry of a particle in `matrix`, -1: transmits all of its stress; NULL: all particles do */
     real *matrix;   /* M, [entries][symmetric^2], row major [1] */
@@ -73,8 +73,8 @@ struct partial_stress {
 };
 
 /* Returns true if material point i has state-based bonds of its own; false if at most bonds of other points cross its
- * cell, or if the model is bond-based. partial: partial stresses of the material points, which contain this
- * information. */
+ * cell, or if the model is bond-based. partial: partial stresses (shares that bonds carry) of the material points,
+ * which contain this information. */
 static inline bool point_has_state_bonds(const struct partial_stress *partial, int64_t i, int dim)
 {
     if (!partial->local || partial->index[i] < 0) return false;
@@ -146,13 +146,13 @@ KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const
  * preceding force computation. For load steps. */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
-/* Increases the damage of bonds of b that have begun to soften to that of the present positions of p, where this sets
- * energy free (pd/state_soften.c), and breaks bonds at the end of their softening; for state-based models. The
- * pressures, springs and rotations in b->state must be those of the present positions. limit: onsets and breaking
- * stretches; *changed: set to true if the damage of a bond has changed; the states of those blocks of eight rows (bonds
- * of eight particles) that have b->soft.begun set must then be computed again. Blocks with bonds beyond their onset of
- * softening that have not begun are marked in b->soft.due for bonds_begin_to_soften. Returns the number of bonds
- * broken, each counted once for each of its particles. */
+/* Updates the damage of softening bonds of b, in state-based models: increases it to the value that follows from the
+ * present positions of p if this releases energy (pd/state_soften.c), and breaks bonds that have softened completely.
+ * The states of all neighbourhoods in b->state must be those of the present positions. limit: onsets and breaking
+ * stretches; *changed: set to true if the damage of a bond has changed; the states of the blocks of eight rows (bonds
+ * of eight particles) marked in b->soft.begun must then be computed again. Blocks with bonds that must begin to soften
+ * are marked in b->soft.due for bonds_begin_to_soften. Returns the number of bonds broken, each counted once for each
+ * of its particles. */
 KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
@@ -245,8 +245,8 @@ KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list
 
 /* Adds mass, momentum and force of the points of p to the nodes of g: the first particle-to-grid map (Zeng et al. 2022,
  * eqs. 33-38). The force is -V sigma . grad N + N f, with the volume V and the force f of the point, the stress sigma
- * that it transmits (without its partial stress), and the shape function N of the node. transfer: order of the points,
- * step sizes, partial stress. */
+ * that it transmits (without the partial stress, which bonds carry), and the shape function N of the node. transfer:
+ * order of the points, step sizes, partial stress. */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Remapping of MUSL (modified update stress last; Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the
@@ -433,8 +433,9 @@ KERNEL(void, mesh_velocity, (const struct mesh *mesh, real *const *from, real *c
  * v. */
 KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 
-/* Returns the correction [J] of the kinetic energy of the mesh, whose velocities are half a step behind the positions:
- * the sum of (dt f)^2/(4 m) over the nodes, with the force f and the mass m of a node. dt: time step [s]. */
+/* Returns the correction [J] of the kinetic energy of the mesh for leap-frog velocities, which are half a step behind
+ * the positions: the sum of (dt f)^2/(4 m) over the nodes, with the force f and the mass m of a node. dt: time step
+ * [s]. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Returns the elastic energy [J] of all cells of the mesh, including their contribution to the neighbourhoods of bonded
  * points (material points of p with state-based bonds). m: elastic constants by material; finite: true for finite

@@ -238,8 +238,9 @@ static inline bool particle_moves_with_nodes(const struct particles *p, int64_t 
 }
 
 /* Returns the stress sigma_zz [Pa] of particle i of p in plane strain, nu (sigma_xx + sigma_yy) plus a part due to
- * plastic flow; 0 in all other spaces. In the reference frame the relative error of this stress is of the order of the
- * strain. For peridynamic particles the plastic part stays as it was when the particle converted. */
+ * plastic flow; 0 in plane stress, in 1D and in 3D. For material points on a mesh of the undeformed body the relative
+ * error of this stress is of the order of the strain. For peridynamic particles the plastic part stays as it was when
+ * the particle converted. */
 static inline real particle_out_of_plane_stress(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
@@ -258,8 +259,9 @@ void particles_extend_arrays_for_mirror_images(struct particles *p, int64_t imag
 /* Releases all arrays of the particles p. */
 void particles_free(struct particles *p);
 
-/* Copies all fields of the particles of `previous` to p, which has other particles. new_index: [previous->n] new index
- * of each particle in p, -1: the particle is not in p. optional_arrays: optional arrays of both, sum of WITH_*. */
+/* Copies all fields of those particles of `previous` that p has, too, to their entries in p, which must be allocated.
+ * new_index: [previous->n] new index of each particle in p, -1: the particle is not in p. optional_arrays: optional
+ * arrays of both, sum of WITH_*. */
 void particles_copy_fields(struct particles *p, const struct particles *previous, const int32_t *new_index,
                            int optional_arrays);
 
@@ -269,8 +271,8 @@ void particles_copy_fields(struct particles *p, const struct particles *previous
 void particles_sort_by_lattice_rows(struct particles *p, real spacing, int optional_arrays);
 
 /* Computes the smallest coordinate *low and the largest *high [m] along axis `axis` of the reference positions of the
- * first `count` particles of p; INFINITY and -INFINITY if `count` = 0. If `count` is p->n, particles of the body that
- * were not created (data/hollow.h) are included. */
+ * first `count` particles of p; INFINITY and -INFINITY if `count` = 0. If `count` is p->n, the range also includes
+ * particles of the body that were not created because they are inside coarse mesh cells (data/hollow.h). */
 void particles_coordinate_range(const struct particles *p, int64_t count, int axis, real *low, real *high);
 
 /* Returns the index of the particle of p whose reference position is nearest to X (p->dim components [m]), of several

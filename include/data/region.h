@@ -90,7 +90,7 @@ real time_function_largest_slope_until(const struct time_function *f, real t_end
 struct crack {
     int n;                   /* corners */
     real (*corner)[DIM_MAX]; /* [m] */
-    real width;              /* width of a notch: its faces touch once their distance has decreased by this [m] */
+    real width;              /* width of a notch: its faces come into contact once they have approached by it [m] */
 };
 
 /* Returns true if the crack c cuts the bond between the reference positions `position` and `other_position` (dim
@@ -115,8 +115,8 @@ struct mirror_plane {
 };
 
 /* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror_planes[mirror_count]
- * and a corner of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip.
- * tolerance: distance from a plane up to which a point is on it [m]. */
+ * and a corner of the crack is on the inner side of this plane: the mirror image continues the crack there, so that
+ * `end` is no crack tip. tolerance: distance from a plane up to which a point is on it [m]. */
 bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror_planes, int mirror_count,
                                        const struct crack *c, const real *end, real tolerance);
 

@@ -101,10 +101,10 @@ static inline real softening_remaining_stiffness_fraction(const struct softening
 real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
                                             real largest_stretch);
 
-/* Returns the largest stresses, divided by s_0 E', that bonds of all directions with the softening curve c reach under
- * growing uniform strain, by quadrature over directions. s_0: stretch at which bonds begin to soften; E': modulus of
- * uniaxial tension (material_uniaxial_tension_modulus); space: line, plane stress, plane strain or solid;
- * squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
+/* Returns the peak stresses in tension, equal biaxial tension and shear, divided by s_0 E', that bonds of all
+ * directions with the softening curve c reach under growing uniform strain, by quadrature over directions. s_0: stretch
+ * at which bonds begin to soften; E': modulus of uniaxial tension (material_uniaxial_tension_modulus); space: line,
+ * plane stress, plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
                                                                real squared_stretch_ratio);
 

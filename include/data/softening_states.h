@@ -13,10 +13,10 @@ struct softening_model {
     bool rotates;
 };
 
-/* Returns the largest stresses, divided by s_0 E', that a neighbourhood (particle with its neighbours) of softening
- * bonds of the model `model` reaches under growing uniform strain, by quadrature over directions. c: softening curve;
- * s_0: stretch at which bonds begin to soften; E': modulus of uniaxial tension; space: line, plane stress, plane strain
- * or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
+/* Returns the peak stresses in tension, equal biaxial tension and shear, divided by s_0 E', that a neighbourhood
+ * (particle with its neighbours) of softening bonds of the model `model` reaches under growing uniform strain, by
+ * quadrature over directions. c: softening curve; s_0: stretch at which bonds begin to soften; E': modulus of uniaxial
+ * tension; space: line, plane stress, plane strain or solid; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
                                                                real squared_stretch_ratio,
                                                                const struct softening_model *model);

@@ -126,8 +126,8 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim);
  * than computing the level. */
 bool solid_level_set_is_at_most(const struct solid *s, const real *X, int dim, real max_distance);
 
-/* Computes into *box a box, slightly enlarged, that contains the solid s with all its copies, as box_tree_make needs
- * it. Sides on which the solid is unbounded are infinite. dim: dimension of the body. */
+/* Computes into *box a box, slightly enlarged, that contains the solid s with all its copies, for use in a
+ * search tree (box_tree_make). Sides on which the solid is unbounded are infinite. dim: dimension of the body. */
 void solid_bounding_box(const struct solid *s, int dim, struct bounds *box);
 
 /* Returns how far the solid s extends in a direction (support function): the maximum [m] of the scalar product X .

@@ -15,8 +15,8 @@ enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 /* Number of entries allocated beyond the end of transfer_order.particle, so that prefetching may read there. */
 enum { ORDER_AHEAD = 64 };
 
-/* Returns the length [grid cells] of a block along axis `axis`. Blocks are boxes of grid cells by which particles are
- * sorted. */
+/* Returns the number of grid cells of a block along axis `axis` (0 .. 2). Blocks are boxes of grid cells by which
+ * particles are sorted. */
 static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
 /* The order in which material points on the grid are processed: by colour, block (a box of grid cells) and cell, where
@@ -42,8 +42,8 @@ struct transfer_order {
 void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
                                         int64_t point_count, const struct grid *g);
 
-/* Lists the particles of o that have left their cells (o->left) in `list`, which has room for o->n. Returns their
- * number. */
+/* Lists the indices of the particles of o that have left their cells (o->left) in `list`, which has room for o->n
+ * entries. Returns the number of these particles. */
 int64_t transfer_order_list_points_that_left_cells(const struct transfer_order *o, int32_t *list);
 
 /* Sorts the particles of o, to the same order as transfer_order_sort_points_by_cell, where only the count particles

@@ -35,7 +35,8 @@ bool region_may_have_voids(const struct region *r);
 
 /* Computes v->near, which marks the particles of p that a void (a slot, a slit or a gap of the shape) separates from
  * others, by testing all pairs of particles at most `max_distance` [m] apart. The other members of v must be set
- * before. cells: search over reference positions; images: sources of the mirror images. Release with voids_free. */
+ * before. cells: search over reference positions; images: for each mirror image, the particle
+ * that it copies. Release with voids_free. */
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
                                     const struct image *images, real max_distance);
 

@@ -38,9 +38,9 @@ struct voxel_part {
     float *level;   /* signed distance of voxel centres from the surface, negative inside [m] */
 };
 
-/* Finds the voxels of p->of whose grey values are in the ranges p->range: sets p->voxels to their number and p->level
- * to the signed distance [m] of each voxel centre from the surface of the solid that these voxels form. p->of and the
- * ranges must be set before. Release with voxel_part_free. */
+/* Finds the voxels of the image p->of whose grey values are in the ranges p->range: sets p->voxels to their number and
+ * p->level to the signed distance [m] of each voxel centre from the surface of the solid that these voxels form. p->of
+ * and the ranges must be set before. Release with voxel_part_free. */
 void voxel_part_make_from_grey_value_ranges(struct voxel_part *p);
 
 /* Releases the array of distances p->level of the solid p. */

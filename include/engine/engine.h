@@ -13,7 +13,8 @@
  * engine_free_run whatever is returned. */
 status engine_set_up_run(struct run *e, const struct scene *s, struct output *output);
 
-/* Releases all memory of the run e. Waits first for the thread that may still be writing a frame. */
+/* Releases all memory of the run e. Waits first for the thread that may still be writing a frame (output file of one
+ * time). */
 void engine_free_run(struct run *e);
 
 /* Writes a line on standard error if the set-up of scene s will take longer than some seconds, because its bodies have
@@ -22,11 +23,11 @@ void engine_free_run(struct run *e);
 void engine_announce_long_set_up(const struct scene *s);
 
 /* Returns an estimate of the peak memory [byte] of a run of scene s, whose bodies consist of particles on lattices. p:
- * particles of these bodies; source: materials and bond families. Bonds and grids need not exist yet. */
+ * particles of these bodies; source: materials and neighbourhood sizes. Bonds and grids need not exist yet. */
 real run_estimate_peak_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
 /* Returns an estimate of the peak memory [byte] of a run of scene s as run_estimate_peak_memory does, but for the case
- * that all particles p become peridynamic. source: materials and bond families. */
+ * that all particles p become peridynamic. source: materials and neighbourhood sizes. */
 real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const struct particles *p,
                                                  const struct bond_source *source);
 

@@ -76,16 +76,16 @@ struct contour {
     real inner, outer;
 };
 
-/* A crack tip in an elastic medium and options of the interaction integral round the tip. "The second sum" is the part
- * of the interaction integral that contains the inertia terms, after the part with the stresses. */
+/* A crack tip in an elastic medium and options of the interaction integral round the tip. The integral is the sum of a
+ * stress part and an inertia part. */
 struct sif_tip {
     struct crack_medium medium;
     real place[2], along[2]; /* reference position [m]; unit vector of the direction of growth */
     int face;                /* +-1: side of the crack (sign of x_2) to which particles on it belong */
     int body;                /* particles of this body contribute; -1: of all bodies */
     real speed;              /* speed v of the tip, 0: at rest [m/s] */
-    /* radius at which the second sum counts half while the tip moves; it does not count within a third of this radius,
-     * and counts fully beyond five thirds [m] */
+    /* radius at which the inertia part has the weight 1/2 while the tip moves; the weight is 0 within a third of this
+     * radius and 1 beyond five thirds of it [m] */
     real core;
     real thickness;         /* thickness of the body [m] */
     enum sif_weight weight; /* weight function of the integral */

@@ -131,9 +131,9 @@ struct crack_area {
 struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
                                         const struct tip_surroundings *s);
 
-/* Returns the area [m^2] of the cuts through a bar (1D): positions that bonds of b crossed, all of which load has
- * broken. For a cut in a plane of symmetry, the member `own` has half of the area. p: particles; section: cross-section
- * of the bar [m^2]. */
+/* Returns the total area [m^2] of the breaks through a bar (1D). A break is a position in the bar where load has broken
+ * every bond of b across it. A break in a plane of symmetry counts half in the member `own`. p: particles; section:
+ * cross-section of the bar [m^2]. */
 struct crack_area bar_total_crack_area(const struct bonds *b, const struct particles *p, real section);
 
 /* Frees the arrays of the crack tips t. */

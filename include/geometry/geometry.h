@@ -20,8 +20,8 @@ struct geometry_set {
     struct hull hull;
 };
 
-/* Returns true if `name` is the name of the set itself in its instance (of an Abaqus assembly), in any case of letters;
- * false if the set belongs to no instance. */
+/* Returns true if `name`, ignoring case, is the name of `set` without the prefix INSTANCE. (instance of an Abaqus
+ * assembly); false also if the name of the set has no such prefix. */
 bool geometry_set_has_own_name(const struct geometry_set *set, const char *name);
 
 /* The surface of a body and its named parts set[sets], all coordinates in metres. */
@@ -32,11 +32,12 @@ struct geometry {
 };
 
 /* Reads a body and its named parts from a .stl, .msh, .inp or Exodus II file into g. The extension of the name `path`
- * selects the format. Of a list of particles the sets are read. dim: dimensions of the space; if it is 2, the elements
- * must be triangles and quadrilaterals of equal z. scale: length of the unit of the file [m]. chord_tolerance: largest
- * distance between a curved edge of a second-order element and the chords that approximate it [m]; NAN for 1/256 of the
- * largest sagitta. Returns REFUSED, with a message and nothing to release, for a wrong format, a file without a body,
- * or a surface so open that inside and outside cannot be distinguished. Release g with geometry_free. */
+ * selects the format. A file with point elements only (list of particles) has no surface; its sets are read. dim:
+ * dimensions of the space; if it is 2, the elements must be triangles and quadrilaterals of equal z. scale: length of
+ * the unit of the file [m]. chord_tolerance: largest distance between a curved edge of a second-order element and the
+ * chords that approximate it [m]; NAN for 1/256 of the largest sagitta. Returns REFUSED, with a message and nothing to
+ * release, for a wrong format, a file without a body, or a surface so open that inside and outside cannot be
+ * distinguished. Release g with geometry_free. */
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance);
 
 /* Returns the named part of g called `name`, ignoring case. The name of the instance to which a part of an Abaqus

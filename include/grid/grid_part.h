@@ -24,8 +24,8 @@ struct grid_field {
     int32_t *list; /* [n] points of the body in ascending order; NULL: all points */
 };
 
-/* Material points on background grids that are in the current frame: all grids of a run (field[fields]), and data that
- * all grids share. */
+/* Material points that move by background grids (current frame: points are mapped to the grid at their present
+ * positions): all grids of a run, field[fields], and data that all grids share. */
 struct grid_method {
     int fields; /* number of grids: 1, or one for each body */
     struct grid_field *field;

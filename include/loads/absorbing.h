@@ -24,7 +24,7 @@ struct absorbing {
     real *rate[MOVERS][DIM_MAX]; /* [n] coefficient (force divided by velocity) of the dashpot for each method of motion
                                     and each component [kg/s] */
     const struct impedance *impedance[MOVERS]; /* [materials] borrowed */
-    bool idle;                                 /* dashpots are inactive: forces are computed that no motion follows */
+    bool idle;                                 /* true: dashpots are inactive, as forces are evaluated without motion */
     real energy;                               /* energy dissipated since the start [J] */
     real kick; /* sum of impulse . change of velocity/4 in the last step, which the correction of the kinetic energy of
                   samples leaves out [J] */

@@ -210,10 +210,10 @@ struct exposed_face {
     real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
 
-/* Computes the areas of the particles on the face of boundary b, among those with selected[i] = 1 that no particle
- * covers, and stores them in f. selected: [p->n]; spacing: lattice spacing [m]; extrapolate: true to extrapolate
- * tangential tractions to the face from the first two particles of each column normal to it, false to apply them to the
- * first one. Release with exposed_face_free. */
+/* Computes the areas of the outermost particles at the face of boundary b, among those with selected[i] = 1, into f.
+ * selected: [p->n]; spacing: lattice spacing [m]; extrapolate: true to extrapolate tangential tractions to the face
+ * from the first two particles of each line normal to it, false to apply them to the first one. Release with
+ * exposed_face_free. */
 void exposed_face_compute_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
                                 const uint8_t *selected, real spacing, bool extrapolate);
 
@@ -221,17 +221,17 @@ void exposed_face_compute_areas(struct exposed_face *f, const struct boundary *b
 void exposed_face_free(struct exposed_face *f);
 
 /* Sets in_layer[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and
- * leaves other entries unchanged. In a column of particles normal to the face the layer ends at the first gap.
+ * leaves other entries unchanged. On each line of particles normal to the face the layer ends at the first gap.
  * selected, in_layer: [p->n]; spacing: lattice spacing [m]. */
 void face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
                                   real spacing, uint8_t *in_layer);
 
-/* Function that face_visit_surface_particles calls for each free end of a column of particles normal to a face.
- * particle: index of the particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
+/* Function that face_visit_surface_particles calls for each free end of a line of particles normal to a face.
+ * particle: index of the particle at that end; area: cross-section of the line [m^2]; context: data of the caller. */
 typedef void face_particle_fn(void *context, int32_t particle, real area);
 
-/* Calls visit(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
- * particles along its normal; also at walls of holes. selected: [p->n]; spacing: lattice spacing [m]. */
+/* Calls visit(context, particle, area) for every selected particle at a free end, towards the face of boundary b, of a
+ * line of particles normal to it; also at walls of holes. selected: [p->n]; spacing: lattice spacing [m]. */
 void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
                                   real spacing, face_particle_fn *visit, void *context);
 
@@ -307,7 +307,7 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads of l with equal particle lists, to traverse each list once. Ends loads_make. dim: of the space. */
+/* Combines loads of l with equal particle lists, to traverse each list once. Ends loads_make. dim: space dimension. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads in l, also arrays that
@@ -393,8 +393,8 @@ struct prescribed_motion {
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
 /* Returns the motion that boundary number `boundary_number` of l prescribes in the step of size dt about t [s], as
- * prescribed_motion_make. After the last step (l->ended) a prescribed displacement is continued at its previous
- * velocity, so that a change of motion that no step follows adds no work. */
+ * prescribed_motion_make. After the last step of a run (l->ended), a prescribed displacement has the velocity of the
+ * step before, since no step follows in which a change of velocity would do work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
 /* Returns component `component` of the velocity [m/s] prescribed by `motion` at the reference position X (dim
@@ -443,9 +443,9 @@ real loads_largest_velocity_difference(const struct load *load, const struct loa
 void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p);
 
 /* Completes the particle forces p->f after the bond forces were computed: adds the impulse of mirror images to
- * l->impulse, adds applied forces and dashpots, and replaces f of driven peridynamic particles by the force that
- * produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the middle of
- * the step of size dt [s]. */
+ * l->impulse, adds applied forces and dashpots, and replaces f of peridynamic particles with prescribed motion by the
+ * force that produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the
+ * middle of the step of size dt [s]. */
 void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
 /* Sets the velocities prescribed by l (walls) of the nodes of grid g for the step of size dt about t [s]. These are
@@ -467,7 +467,7 @@ void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const stru
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion l prescribes, by their positions: nodes in
- * driven regions and on mirror planes. Stores them in `driven_nodes`. */
+ * regions with prescribed motion and on mirror planes. Stores them in `driven_nodes`. */
 void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                     const struct particles *p);
 
@@ -493,9 +493,9 @@ void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_vel
 void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const struct boundary *boundary,
                                          int boundaries, real duration, real ramp_time);
 
-/* Computes the prescribed displacement of every driven component at full load l (pseudo-time `ramp_time` [s]).
- * displacement: [dim][p->n] [m]; driven_components: [p->n], bit d: component d is driven. Of overlapping loads the
- * later one in the scene is used, as in dynamic runs. */
+/* Computes the prescribed displacement of particles for every prescribed component at full load l (pseudo-time
+ * `ramp_time` [s]). displacement: [dim][p->n] [m]; driven_components: [p->n], bit d: component d is prescribed. Of
+ * overlapping loads the later one in the scene is used, as in dynamic runs. */
 void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
                                         real *const *displacement, uint8_t *driven_components);
 

@@ -108,8 +108,9 @@ static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1
 
 /* Makes in l the levels 1 to `coarse_level_count` of coarse cells over the mesh `finest_mesh`, which is level 0; at
  * first they have no cells. finest_mesh: finest mesh with material points, kept by reference; source: material
- * constants, slits and voids; density: mass density of each material [kg/m^3]. `coarse_level_count` = 0 makes no
- * levels. Returns FAILED, with a message, if a level would have too many nodes. Release with levels_free. */
+ * constants, slits (pre-cracks as free surfaces) and voids; density: mass density of each material [kg/m^3].
+ * `coarse_level_count` = 0 makes no levels. Returns FAILED, with a message, if a level would have too many nodes.
+ * Release with levels_free. */
 status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
                                     const struct particles *p, const struct mesh_source *source, const real *density);
 

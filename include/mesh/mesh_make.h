@@ -31,10 +31,11 @@ struct mesh_source {
 };
 
 /* Makes a mesh of all particles with FLAG_MESHED. node_grid: grid whose anchor and cell size define the nodes; source:
- * material constants, partial stresses, slits and voids. Unless source->still, displacement and velocity of the nodes
- * are fitted to those of the particles by least squares. Returns REFUSED, with a message, if the particles are not two
- * per cell and direction, if their volumes differ, or if two bodies share a node and would move as one. Returns FAILED,
- * with a message, if there are too many nodes. Release with mesh_free. */
+ * material constants, partial stresses (carried by bonds), slits (pre-cracks as free surfaces) and voids. Unless
+ * source->still, displacement and velocity of the nodes are fitted to those of the particles by least squares. Returns
+ * REFUSED, with a message, if the particles are not two per cell and direction, if their volumes differ, or if two
+ * bodies share a node and would move as one. Returns FAILED, with a message, if there are too many nodes. Release with
+ * mesh_free. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node_grid,
                  const struct mesh_source *source);
 
@@ -47,18 +48,18 @@ void mesh_free(struct mesh *mesh);
 int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
                                    const struct cells_without_particles *empty_cells);
 
-/* Updates the mesh after particles have become peridynamic or have changed their partial stress: removes the
- * peridynamic ones from their cells and recomputes these cells. changed_points[changed_count]: indices of these
- * particles, NULL if they are unknown. Each particle that leaves takes its share of mass and momentum from the nodes of
- * its cell, so that nodal velocities are kept. Returns the kinetic energy that is lost by this [J]. source: material
- * constants. */
+/* Updates the mesh after particles have become peridynamic or have changed their partial stress (share of the stress
+ * that bonds carry): removes the peridynamic ones from their cells and recomputes these cells.
+ * changed_points[changed_count]: indices of these particles, NULL if they are unknown. Each particle that leaves takes
+ * its share of mass and momentum from the nodes of its cell, so that nodal velocities are kept. Returns the kinetic
+ * energy that is lost by this [J]. source: material constants. */
 real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                                                const int32_t *changed_points, int64_t changed_count);
 
 /* Recomputes the stiffness of the cells of the points in changed_points[changed_count] (indices) after only their
- * partial stresses (the share that bonds do not bear) have changed; all points remain in the mesh. All cells must be
- * partial cells before and afterwards: cells with a stiffness matrix of their own, because points are missing or leave
- * a share of their stress to bonds. Else returns false without any change; call
+ * partial stresses (shares of the stress that bonds carry) have changed; all points remain in the mesh. All cells must
+ * be partial cells before and afterwards: cells with a stiffness matrix of their own, because points are missing or
+ * leave a share of their stress to bonds. Else returns false without any change; call
  * mesh_remove_points_and_return_lost_energy then. source: material constants. */
 bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
                                             const struct mesh_source *source, const int32_t *changed_points,
@@ -90,9 +91,10 @@ real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *
                              bool after_any_conversion);
 
 /* Computes the stiffness matrix of the cell of `mesh` with the index `cell` for displacements of its corners in the
- * undeformed state [N/m], from the points of p that the cell still has, without partial stresses. elastic: array of the
- * elastic constants of all materials; stiffness: receives (dim 2^dim)^2 values, column by column, with index corner x
- * dim + component. Returns false, with stiffness 0, if the cell has no points. */
+ * undeformed state [N/m], from the points of p that the cell still has, ignoring that bonds may carry a part of the
+ * stress (partial stress). elastic: array of the elastic constants of all materials; stiffness: receives (dim 2^dim)^2
+ * values, column by column, with index corner x dim + component. Returns false, with stiffness 0, if the cell has no
+ * points. */
 bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
                                  int64_t cell, real *stiffness);
 

@@ -36,7 +36,7 @@ struct reference_frame {
     bool finite;                 /* true: finite strains; false: small strains */
     bool converts;               /* points with a large stress become peridynamic (method adaptive) */
     bool active_set;             /* nodes still at rest are skipped */
-    bool room_limits;            /* the scene leaves the levels to the program, so that `room` limits them */
+    bool room_limits;            /* the scene gives no coarsening levels; `room` (by thickness) limits them */
     struct mesh mesh;            /* the finest cells, which have the material points */
     struct mesh_source source;   /* data from which `mesh` is made */
     struct elastic *elastic;     /* [materials] elastic constants of the cells */
@@ -68,20 +68,20 @@ status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_me
 /* Returns true if the material points of at least one body move with a mesh (the reference frame r). */
 bool reference_frame_is_in_use(const struct reference_frame *r);
 
-/* Returns true if the particles of scene s can be in the reference frame r: they form one connected mesh on a lattice
- * that fits the cells of the background grid of mpm. */
+/* Returns true if the bodies of scene s can move with a mesh (be in the reference frame r): the particles form one
+ * connected mesh on a lattice that fits the cells of the background grid of mpm. */
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm);
 
 /* Makes the mesh of the bodies of run e in the reference frame, and finds exposed points (material points with bonds,
- * loads or mirror images) and loaded nodes. source: partial stresses and slits (pre-cracks) of this mesh, its other
- * members are ignored; caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards.
- * Returns REFUSED or FAILED, with a message, as mesh_make does. */
+ * loads or mirror images) and loaded nodes. source: partial stresses (carried by bonds) and slits (pre-cracks) of this
+ * mesh, its other members are ignored; caller_sets_motion: true if the caller sets displacement and velocity of the
+ * nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
 status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
-/* Returns the critical time step of the cells of the mesh in the reference frame r [s], INFINITY if there is none. If
- * points may convert (adaptive method) and `coupling` is not partial stress, cells that have lost any of their points
- * by conversion count, too. */
+/* Returns the critical time step of the cells of the mesh in the reference frame r [s], INFINITY without a mesh. If
+ * material points may become peridynamic (adaptive method), cells that would have lost any of their points are
+ * included, unless `coupling` is COUPLING_PARTIAL_STRESS. */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
 /* Finds again the points of the mesh r that have bonds, loads or mirror images (exposed points), and the nodes on which
@@ -120,10 +120,10 @@ void reference_frame_update_point_motion(struct reference_frame *r, struct parti
 void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
                                           const int32_t *point_list, int64_t point_count);
 
-/* Updates the mesh r after `converted_count` particles (0: none) have become peridynamic and the partial stresses of
- * the points listed in partial->touched have changed. The kinetic energy that the nodes lose by this is added to
- * *energy_lost [J]. Returns true if points may have left the mesh; the caller must then call
- * reference_frame_list_bonded_or_loaded_points. Returns false if only the stiffness of cells has changed. */
+/* Updates the mesh r after `converted_count` particles (0: none) have become peridynamic and the partial stresses
+ * (shares of stress that bonds carry) of the points listed in partial->touched have changed. The kinetic energy that
+ * the nodes lose by this is added to *energy_lost [J]. Returns true if points may have left the mesh; the caller must
+ * then call reference_frame_list_bonded_or_loaded_points. Returns false if only the stiffness of cells has changed. */
 bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted_count,
                                              const struct partial_stress *partial, real *energy_lost);
 
@@ -132,10 +132,10 @@ bool reference_frame_update_after_conversion(struct reference_frame *r, struct p
 void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
                                    int64_t inserted_count, real *energy_lost);
 
-/* Returns the kinetic energy of all nodes of the reference frame, of all coarsening levels [J]. */
+/* Returns the kinetic energy [J] of all mesh nodes in the reference frame, on all coarsening levels. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference);
 
-/* Returns the strain energy of all cells of the reference frame r, of all coarsening levels [J]. */
+/* Returns the strain energy [J] of all mesh cells in the reference frame r, on all coarsening levels. p: particles. */
 real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load with the shortest rise time, which requires the smallest cells. RISE_NONE: there is no load;
@@ -253,7 +253,7 @@ bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell
  * it shall belong. */
 void cells_without_particles_update_from_levels(struct reference_frame *r, const uint8_t *cell_level);
 
-/* Makes the material points of coarse cells without particles for output in a frame, into r->shown, with values
+/* Creates in r->shown, for output only, the material points of those coarse cells that have no particles, with values
  * interpolated from the nodes. body: particles of the run; m: array of the materials; with_gradients: true to compute
  * displacement gradients, too. Returns false if there are no such cells. */
 bool coarse_cell_points_make_for_output(struct reference_frame *r, const struct particles *body,

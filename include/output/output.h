@@ -92,15 +92,15 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
  * *o. */
 void output_close(struct output *o);
 
-/* Checks that frames of a region can be written to the subfolder frames_NAME of the folder of a run, with NAME =
- * series_name, the name of the region. Returns REFUSED if a link or a file has that name. Must be called before
- * output_open, which removes the files of an older run. */
+/* Checks that frames (the particles at one time) of a region can be written to the subfolder frames_NAME of the folder
+ * of a run, with NAME = series_name, the name of the region. Returns REFUSED if a link or a file has that name. Must be
+ * called before output_open, which removes the files of an older run. */
 status output_check_series_folder_is_free(const char *folder, const char *series_name);
 
-/* Adds a series of frames of one region of the body to the output o: the subfolder frames_NAME and its index files
- * NAME.hdf.series and NAME.xdmf, with NAME = series_name. region: kept by reference until output_close. output_open
- * must have been called. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be
- * created. */
+/* Adds a series of frames (files with the particles of a region at one time) to the output o: the subfolder frames_NAME
+ * and its index files NAME.hdf.series and NAME.xdmf, with NAME = series_name. region: kept by reference until
+ * output_close. output_open must have been called. Returns REFUSED if a link or a file has the name of the subfolder,
+ * FAILED if it cannot be created. */
 status output_add_frame_series(struct output *o, const char *series_name, const struct region *region);
 
 /* Writes `length` bytes of `text` to the file `file_name` in the folder of the run o, first under a temporary name,
@@ -108,10 +108,10 @@ status output_add_frame_series(struct output *o, const char *series_name, const 
  * written. */
 status output_write_text(const struct output *o, const char *file_name, const char *text, size_t length);
 
-/* Writes the index files of all series of frames of o again, without frames that are missing or incomplete. A frame
- * that was lost at an earlier restart and exists again is listed again. To be called after a restart. Stores the number
- * of lost frames in *lost_frame_count and, unless it is 0, a message about the first lost frame in message[capacity].
- * Returns FAILED if an index file cannot be written. */
+/* Writes the index files of all series of frames (files with the particles at one time) of o again, without frames
+ * that are missing or incomplete. A frame that was lost at an earlier restart and exists again is listed again. To be
+ * called after a restart. Stores the number of lost frames in *lost_frame_count and, unless it is 0, a message about
+ * the first lost frame in message[capacity]. Returns FAILED if an index file cannot be written. */
 status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity);
 
 /* First lines of the files of rigid bodies, which are written beside the frames and by which Cleave recognises them
@@ -161,38 +161,39 @@ struct frame_extra {
     struct frame_state state, more_state; /* quantities computed for frames: of the particles, of `more` */
 };
 
-/* Writes to o the next frame of the whole body at time t [s] after `step` time steps: the file frames/NNNNNN.hdf, then
- * the index files frames.hdf.series and frames.xdmf. Data that do not change while the particles stay the same are
- * written to a separate file before the first frame, and all frames link to it. Particles are sorted by id. All fields
- * but the reference positions have single precision. scene_text: text of the scene, stored in the separate file.
- * Returns when the files are complete, FAILED if one cannot be written. */
+/* Writes to o the next frame (state of the particles) of the whole body at time t [s] after `step` time steps: the file
+ * frames/NNNNNN.hdf, then the index files frames.hdf.series and frames.xdmf. Data that do not change while the
+ * particles stay the same are written to a separate file before the first frame, and all frames link to it. Particles
+ * are sorted by id. All fields but the reference positions have single precision. scene_text: text of the scene, stored
+ * in the separate file. Returns when the files are complete, FAILED if one cannot be written. */
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
-/* Starts to write to o the next frame of a series at time t [s] after `step` time steps, in a separate thread. series:
- * 0 for the whole body, 1 .. n_series for regions; extra: quantities that p does not store, NULL for none. The fields
- * of p and *extra are copied before the function returns; scene_text must stay valid until output_wait_for_frame.
- * Contact forces are left out if they are 0 everywhere. Only one frame is written at a time: the next frame,
- * checkpoints and output_close wait for it. Returns FAILED if the previous frame, for which it waits, could not be
- * written. A failure of this frame is returned by the call that waits for it. */
+/* Starts to write to o the next frame (state of the particles) of a series at time t [s] after `step` time steps, in a
+ * separate thread. series: 0 for the whole body, 1 .. n_series for regions; extra: quantities that p does not store,
+ * NULL for none. The fields of p and *extra are copied before the function returns; scene_text must stay valid until
+ * output_wait_for_frame. Contact forces are left out if they are 0 everywhere. Only one frame is written at a time: the
+ * next frame, checkpoints and output_close wait for it. Returns FAILED if the previous frame, for which it waits, could
+ * not be written. A failure of this frame is returned by the call that waits for it. */
 status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
                           real t, int64_t step, const char *scene_text);
 
-/* Writes all frames of each series of o as one file with all times for ParaView, frames.vtkhdf, at the end of a run.
- * scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more frames
- * than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
+/* Writes all frames (states of the particles) of each series of o as one file with all times for ParaView,
+ * frames.vtkhdf, at the end of a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no
+ * frame, or if there are more frames than such a file can serve efficiently. Returns FAILED if a file cannot be
+ * written. */
 status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_text);
 
 /* Removes the files with all frames, frames.vtkhdf, that an earlier process wrote to the folder of the run o, since
  * they lack the frames of a run that continues. */
 void output_remove_vtkhdf_of_all_frames(const struct output *o);
 
-/* Discards the order of rows, particles by ascending id, that is stored for all series of frames of o, so that the next
- * frame determines it again. Must be called when the number of particles or their ids have changed, after
+/* Discards the stored order in which o writes particles to frames (ascending id), for all series of frames, so that the
+ * next frame determines it again. Must be called when the number of particles or their ids have changed, after
  * output_wait_for_frame. */
 void output_discard_particle_order(struct output *o);
 
-/* Waits until the thread that writes a frame of o has finished. Returns FAILED if the frame could not be written; OK if
- * it was written or there was no frame in progress. */
+/* Waits until the thread that writes a frame (stored state of the particles at one time) of o has finished. Returns
+ * FAILED if the frame could not be written; OK if it was written or there was no frame in progress. */
 status output_wait_for_frame(struct output *o);
 
 /* Opens history.csv of o and writes its header `name [unit],...` from column[column_count], of which the first two are
@@ -220,13 +221,13 @@ struct output_frame {
     float *spacing;                  /* particle spacing [m]; NULL if all particles have the same */
 };
 
-/* Returns the number of stress components stored in a frame of dimension `dim`: 1 in 1D, 4 in 2D (zz included), 6 in
- * 3D. */
+/* Returns the number of stress components that a frame (stored state of the particles at one time) of dimension `dim`
+ * contains: 1 in 1D, 4 in 2D (zz included), 6 in 3D. */
 static inline int frame_stress_component_count(int dim) { return symmetric_component_count(dim) + (dim == 2); }
 
-/* Reads the frame in the file `path` into *f, particles in the order of ascending id. Returns FAILED, with no memory
- * to release, if the file, or the particles file that it links to, cannot be read or is damaged. Release with
- * frame_free. */
+/* Reads the frame (stored state of the particles at one time) in the file `path` into *f, in the order of ascending id.
+ * Returns FAILED, with no memory to release, if the file, or the particles file that it links to, cannot be read or is
+ * damaged. Release with frame_free. */
 status frame_read(struct output_frame *f, const char *path);
 
 /* Frees the arrays of the frame *f, which frame_read has allocated. */
@@ -246,9 +247,9 @@ struct listed_frame {
     real time;  /* [s] */
 };
 
-/* Reads the list of frames, in ascending order, from the index frames.hdf.series of the folder of a run. Stores their
- * number in *frame_count and an allocated array in *frames, which the caller releases with memory_free. Returns FAILED
- * if the index cannot be read. */
+/* Reads the list of frames (stored state of the particles at one time), in ascending order, from the index
+ * frames.hdf.series of the folder of a run. Stores their number in *frame_count and an allocated array in *frames,
+ * which the caller releases with memory_free. Returns FAILED if the index cannot be read. */
 status run_list_frames(const char *folder, int *frame_count, struct listed_frame **frames);
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */

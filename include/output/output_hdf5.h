@@ -24,8 +24,7 @@ struct hdf {
 };
 
 /* Prepares HDF5 for the calling thread: no exit handler of HDF5, no error messages of HDF5 on the terminal. Functions
- * that open files call it first, so that commands without such files do not wait for HDF5, a third of the time of their
- * start. */
+ * that open files call it first; commands without such files then start faster, as HDF5 is not initialised. */
 void hdf_prepare(void);
 
 /* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the tables
@@ -58,8 +57,8 @@ void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t
 void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns,
                                 int stored_columns, const void *data);
 
-/* Creates the external link `name` to the dataset of the same path in another file. target_file: its path relative to
- * the folder of f. A failure is stored in f->failed. */
+/* Creates the external link `name` to the dataset of the same path in another file. target_file: path of that file
+ * relative to the folder of f. A failure is stored in f->failed. */
 void hdf_create_external_link(struct hdf *f, const char *name, const char *target_file);
 
 /* Returns true if `name` is an external link, and stores the path of the file to which it leads in

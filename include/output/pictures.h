@@ -31,8 +31,9 @@ struct path pictures_folder(const char *run_folder);
  * kind: kind of picture, which determines NAME; ending: "png", "svg" and so on. */
 struct path picture_path(const char *folder, enum picture kind, const char *ending);
 
-/* Returns the path NAME_000012.png of the picture of the frame with number `frame_number`, here 12, in `folder`, a
- * folder of pictures; an empty path if it would be too long. kind: kind of picture, which determines NAME. */
+/* Returns the path NAME_000012.png of the picture of the frame (stored state) with number `frame_number`, here 12, in
+ * `folder`, a folder of pictures; an empty path if it would be too long. kind: kind of picture, which determines
+ * NAME. */
 struct path picture_path_of_frame(const char *folder, enum picture kind, int frame_number);
 
 /* Returns the path field_NAME.ENDING of a picture of the field called NAME = field in `folder`, a folder of pictures;

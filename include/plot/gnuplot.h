@@ -74,12 +74,12 @@ int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixel
 bool picture_is_too_narrow_for_key(void);
 
 /* Returns the estimated width of the first n bytes of `text` (UTF-8) in pixels, divided by the size of the letters in
- * points. The estimate uses mean widths of classes of letters of Helvetica. Letters of narrow pictures are smaller than
- * their stated size. */
+ * points. The estimate uses mean widths of classes of letters of Helvetica. In narrow pictures, where letters are drawn
+ * smaller than stated, the estimate is reduced accordingly. */
 double text_width(const char *text, size_t n);
 
-/* Returns REFUSED, with a message, if no font of this machine has a letter of the title `text`: a letter of any size
- * would be drawn in its place. Returns OK if the fonts cannot be asked (fc-list). */
+/* Returns REFUSED, with a message, if no font of this machine has a letter of the title `text`: gnuplot would draw
+ * another letter instead. Returns OK if all letters are available, or if the list of fonts (program fc-list) is not. */
 status gnuplot_check_font_has_title(const char *text);
 
 /* Writes the commands for the title `text` of the picture to g. The title begins `left_margin` pixels from the left

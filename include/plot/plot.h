@@ -48,14 +48,14 @@ struct projection {
     const struct scene *scene;      /* scene as run, for its pre-cracks and rigid bodies; NULL: unknown; borrowed */
 };
 
-/* Returns true if the run of `projection` computes a single static equilibrium, so that the times of its
- * frames are those of the loads. Returns false if the scene of the run is unknown. */
+/* Returns true if the run of `projection` computes a single static equilibrium; the times of its frames are then times
+ * of the loads, not of a motion. Returns false if the scene of the run is unknown. */
 bool projection_is_equilibrium(const struct projection *projection);
 
-/* Writes to `text` the name of a frame as in pictures, and returns true: `equilibrium` or, at t = 0, `without loads` if
- * the run computes a single static equilibrium (`equilibrium` is true), else `load step 3` if it makes load steps
- * (`in_steps` is true). Returns false and writes "" for a run in time. t: time of the loads [s]; step: number of the
- * load step. */
+/* Writes to `text` the words by which pictures describe the state in a frame, and returns true: `equilibrium` or, at t
+ * = 0, `without loads` if the run computes a single static equilibrium (`equilibrium` is true), else `load step 3` if
+ * it makes load steps (`in_steps` is true). Returns false and writes "" for a run in time. t: time of the loads [s];
+ * step: number of the load step. */
 bool frame_write_state(char text[NAME_MAX_LENGTH], bool in_steps, bool equilibrium, double t, int64_t step);
 
 /* Options of `cleave plot`. */
@@ -98,8 +98,9 @@ bool run_has_file(const char *folder, const char *name);
 /* Returns true if `folder` is that of a sweep or a convergence study, which is recognised by its table. */
 bool folder_holds_study(const char *folder);
 
-/* Reads the frame with the number `frame_number` in the folder of a run into *f. Returns FAILED, with no memory to
- * release, if the file cannot be read or is damaged. Release f with frame_free. */
+/* Reads the frame (stored state of the particles at one time) with the number `frame_number` in the folder of a run
+ * into *f. Returns FAILED, with no memory to release, if the file cannot be read or is damaged. Release f with
+ * frame_free. */
 status run_read_frame(struct output_frame *f, const char *folder, int frame_number);
 
 /* All frames (states at one time) of a run, and those selected for a picture. */
@@ -110,16 +111,17 @@ struct run_frames {
     struct listed_frame *show; /* [shown] frames of the panels */
 };
 
-/* Lists all frames of the run in r->folder, and selects those that the request r demands by number or time. Stores both
- * lists in *f. Returns REFUSED if a requested time is outside the range of the frames, FAILED if there is no readable
- * list of frames. Release f with run_frames_free. */
+/* Lists all frames (stored states at one time) of the run in r->folder, and selects those that the request r demands by
+ * number or time. Stores both lists in *f. Returns REFUSED if a requested time is outside the range of the frames,
+ * FAILED if there is no readable list of frames. Release f with run_frames_free. */
 status run_frames_list_and_select(struct run_frames *f, const struct plot_request *r);
 
 /* Frees the lists of frames in *f, which run_frames_list_and_select has allocated. */
 void run_frames_free(struct run_frames *f);
 
-/* Reads all selected frames of a run. folder: folder of the run. Stores an allocated array of frames->shown frames in
- * *f, which is released with frames_free. Returns FAILED, with no memory to release, if a frame cannot be read. */
+/* Reads all selected frames (stored states at one time) of a run. folder: folder of the run. Stores an allocated array
+ * of frames->shown frames in *f, which is released with frames_free. Returns FAILED, with no memory to release, if a
+ * frame cannot be read. */
 status frames_read_selected(struct output_frame **f, const char *folder, const struct run_frames *frames);
 
 /* Frees the frames frames[frame_count] and the array itself, which frames_read_selected has allocated. */
@@ -199,8 +201,9 @@ status plot_field_find_by_name(const struct plot_field **field, const char *name
 /* Writes the name of a field as in pictures, for example `stress xx`, to text[capacity]. */
 void plot_field_write_label(char *text, size_t capacity, const struct plot_field *field);
 
-/* Reads the values of a field at the particles of the frame f, which was read from the file `path`, into an allocated
- * array *value, [f->n], which the caller releases with memory_free. Returns FAILED if the frame lacks the field. */
+/* Reads the values of the field `field` at the particles of the frame f (state at one time), which was read from the
+ * file `path`, into an allocated array *value, [f->n], which the caller releases with memory_free. Returns FAILED if
+ * the frame lacks the field. */
 status plot_field_read(float **value, const struct plot_field *field, const struct output_frame *f, const char *path);
 
 /* Chooses the field of a run that is drawn if the user names none, and stores it in *field. It is damage if bonds have
@@ -263,22 +266,23 @@ struct plotted_particles {
     struct rigid_shown *rigid; /* [rigids] */
 };
 
-/* Copies those particles of the frame f that a picture shows into *c: in 2D all, in 3D those selected by `projection`,
- * a slice or a view from outside; NULL for the slice with the largest damage. Release c with plotted_particles_free. */
+/* Copies those particles of the frame f (state at one time) that a picture shows into *c: in 2D all, in 3D those
+ * selected by `projection`, a slice or a view from outside; NULL for the slice with the largest damage. Release c with
+ * plotted_particles_free. */
 void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
                                          const struct projection *projection);
 
-/* Reads a frame of the run in `folder` and copies those particles that a picture shows into *c, with the values of
- * projection->field if it is set. projection: slice of a body in three dimensions, or view of it from outside. Returns
- * FAILED, with no memory to release, if the frame cannot be read or lacks the field. Release c with
- * plotted_particles_free. */
+/* Reads a frame (state at one time) of the run in `folder` and copies those particles that a picture shows into *c,
+ * with the values of projection->field if it is set. projection: slice of a body in three dimensions, or view of it
+ * from outside. Returns FAILED, with no memory to release, if the frame cannot be read or lacks the field. Release c
+ * with plotted_particles_free. */
 status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,
                               const struct projection *projection);
 
-/* Computes the deformation gradients F of all particles of the frame f, as fits to the displacements of neighbours that
- * no crack separates. spacing: of the particles [m]; displacement_factor: factor on displacements; scene: for its
- * pre-cracks, NULL if they are not known. Returns an allocated array [f->n][9] with F by rows along x, y, z [1], which
- * the caller releases with memory_free, or NULL if no deformation is visible. */
+/* Computes the deformation gradients F of all particles of the frame f (state at one time), as fits to the
+ * displacements of neighbours that no crack separates. spacing: of the particles [m]; displacement_factor: factor on
+ * displacements; scene: for its pre-cracks, NULL if they are not known. Returns an allocated array [f->n][9] with F by
+ * rows along x, y, z [1], which the caller releases with memory_free, or NULL if no deformation is visible. */
 float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
                                                   double displacement_factor, const struct scene *scene);
 
@@ -290,14 +294,15 @@ bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
  * plotted_particles_select_from_frame has allocated. */
 void plotted_particles_free(struct plotted_particles *c);
 
-/* Completes the slice *projection through a body in three dimensions from the particles of the frame f: sets the normal
- * of the slice if it is not set, and its position along the normal if it is not set; a given position is moved to the
- * nearest layer of particles. Does nothing for views from outside and in lower dimensions. Returns REFUSED if no
- * particle is within one spacing of the given position. */
+/* Completes the slice *projection through a body in three dimensions from the particles of the frame f (state at one
+ * time): sets its normal and its position along the normal, each if it is not set; a given position is moved to the
+ * nearest layer of the lattice of particles. Does nothing for views from outside and in lower dimensions. Returns
+ * REFUSED if no particle is within one spacing of the given position. */
 status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f);
 
-/* Returns the particle spacing of the frame f [m]: the smallest one if the frame stores spacings, else the median
- * distance of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
+/* Returns the particle spacing [m] of the frame f (state at one time): the smallest one if the frame stores spacings,
+ * else the median distance of nearest neighbours in the reference positions of a sample of particles; 0 if it is
+ * unknown. */
 double frame_particle_spacing(const struct output_frame *f);
 
 /* Quantity that the colours of a map (picture of particles) show: damage, kind or fragment of the particles, a field,
@@ -315,9 +320,9 @@ void rigid_displacement_of_nearest_particle(const struct region *shape, const st
                                             const struct output_frame *f, real *displacement);
 
 /* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, with
- * the placements that the run in `folder` has stored for this frame; magnified pictures move them with the nearest
- * particle. Adds none if s is NULL or if the run has no files
- * of rigid bodies. f: the frame; s: kept by reference. */
+ * the placements that the run in `folder` has stored for this frame; if displacements are magnified, each body moves
+ * with its nearest particle. Adds none if s is NULL or if the run has no files of rigid bodies. f: the frame; s: kept
+ * by reference. */
 void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number);
 

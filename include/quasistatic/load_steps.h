@@ -42,9 +42,9 @@ status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time,
  * applied forces [N]. */
 real statics_norm_of_prescribed_loads(const struct run *e, real t);
 
-/* Returns why the growth direction of the cracks of run e cannot be determined from their stress-intensity factors, a
- * static text, or NULL if it can; key `steps.path` of the scene may exclude it. plane: receives the plane in which the
- * crack tips move, valid only if NULL is returned; may be NULL if the caller does not need it. */
+/* Returns the reason (a static text) why the growth direction of the cracks of run e is not determined from their
+ * stress-intensity factors, or NULL if it is. The key `steps.path` of the scene may be a reason. plane: receives the
+ * plane in which the crack tips move, valid only if NULL is returned; may be NULL if the caller does not need it. */
 const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *plane);
 
 /* Checks the scene of run e, if it is three-dimensional and demands crack growth by stress-intensity factors

@@ -75,21 +75,23 @@ void rigid_present_position_of_point(const struct rigid_body *r, const real *X, 
  * velocity of the centre and the angular velocity of the body. velocity: receives DIM_MAX components [m/s]. */
 void rigid_compute_velocity_at_point(const struct rigid_body *r, const real *x, real *velocity);
 
-/* Computes the velocity that is prescribed for the driven rigid body r at time t [s]. velocity: receives r->dim
- * components [m/s]. */
+/* Computes the velocity that is prescribed for the rigid body r, which must have prescribed motion, at time t [s].
+ * velocity: receives r->dim components [m/s]. */
 void rigid_compute_prescribed_velocity(const struct rigid_body *r, real t, real *velocity);
 
-/* Computes the displacement that is prescribed for the driven rigid body r between the times 0 and t [s]; 0 for other
- * bodies. displacement: receives r->dim components [m]. Returns the length of the displacement vector [m]. */
+/* Computes the displacement that is prescribed for the rigid body r between the times 0 and t [s]; 0 for bodies without
+ * prescribed motion. displacement: receives r->dim components [m]. Returns the length of the displacement vector
+ * [m]. */
 real rigid_compute_prescribed_displacement(const struct rigid_body *r, real t, real *displacement);
 
-/* Moves the driven rigid body r to its prescribed position at time t [s], and adds the displacement to r->increment,
- * from which rigid_add_work_of_prescribed_motion computes the work of the drive. Does nothing for other bodies. */
+/* Moves the rigid body r, if it has prescribed motion, to its prescribed position at time t [s], and adds the
+ * displacement to r->increment, from which rigid_add_work_of_prescribed_motion computes the work. Does nothing for
+ * other bodies. */
 void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
 
-/* Advances the rigid body r by one leap-frog step: a free body under r->force, r->moment and its weight, a driven one
- * with its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the middle of
- * the step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
+/* Advances the rigid body r by one leap-frog step: a free body under r->force, r->moment and its weight, other moving
+ * bodies with their prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the
+ * middle of the step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
 void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
 /* Adds to r->work the work done since the last call by the drive of the rigid body r, i.e. by the force that enforces

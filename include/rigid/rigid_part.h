@@ -70,7 +70,7 @@ int rigids_list_history_columns(const struct run *e, struct column *column);
 void rigids_write_history_values(struct run *e, real *record);
 
 /* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample (line of
- * history.csv) at time t [s]. The stored velocity of a driven body is the prescribed one at t. */
+ * history.csv) at time t [s]. The stored velocity of a body with prescribed motion is the prescribed one at t. */
 void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
 
 /* Replaces the velocities of free bodies of `rigid` that rigids_store_motion_for_sample stored before the step by the
@@ -83,8 +83,8 @@ void rigids_average_velocities_for_sample(struct rigid_set *rigid);
 void rigids_extrapolate_velocities_for_sample(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body number `body` at time t [m/s], dim components: for a free body from its
- * velocity, half a step behind t, and the current forces; for a driven body the prescribed velocity. dt: time step
- * [s]. */
+ * velocity, half a step behind t, and the current forces; for a body with prescribed motion the prescribed velocity.
+ * dt: time step [s]. */
 void rigids_velocity_of_body(const struct rigid_set *rigid, int body, real t, real dt, real *v);
 
 #endif

@@ -11,32 +11,33 @@
 real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *partial, int dim, int64_t i);
 
 /* Returns the kinetic energy 1/2 sum m v^2 of all particles p [J], with mass m and velocity v of each, except material
- * points of a mesh in the reference frame, whose kinetic energy is that of the mesh nodes
- * (reference_frame_kinetic_energy). */
+ * points of a mesh, whose kinetic energy is that of the mesh nodes (reference_frame_kinetic_energy). */
 real particles_kinetic_energy(const struct particles *p);
 
 /* Returns the elastic strain energy of the material points of p on the background grid [J]: 1/2 sum sigma : C^-1 :
  * sigma V, without the part of the stress that bonds carry. In plane strain the energy of the change of sigma_zz by
- * plastic flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
+ * plastic flow is included. m: array of the materials; partial: stress carried by bonds (partial stress), NULL for
+ * none. */
 real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the elastic strain energy [J] of those material points that are among the particles point_list[point_count]
  * (indices): 1/2 sum sigma : C^-1 : sigma V with stress sigma, elastic stiffness C and volume V of each point, without
- * the part of the stress that bonds carry. m: array of the materials; partial: partial stresses of the points, NULL for
+ * the part of the stress that bonds carry. m: array of the materials; partial: that part (partial stress), NULL for
  * none. */
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
                                   const struct partial_stress *partial, const int32_t *point_list, int64_t point_count);
 
 /* Returns the plastic work of the material points of p [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y,
  * the hardening modulus H and the accumulated plastic strain a. For materials with a flow law it is the plastic work
- * stored with the points. m: array of the materials; partial: partial stresses of the points, NULL for none. */
+ * stored with the points. m: array of the materials; partial: stress carried by bonds (partial stress), NULL for
+ * none. */
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the difference between two kinetic energies of a leap-frog velocity update [J]: the mean of 1/2 m v^2 at the
  * old and the new velocity, minus 1/2 m v_old . v_new, which leap-frog conserves. It equals 1/4 sum m (v - v_old)^2;
- * driven particles and material points of a mesh in the reference frame are excluded. old_velocity: velocities v_old
- * before the update [m/s], dim arrays of n; NULL, allowed if no particles are on the background grid, takes v - v_old =
- * dt f/m from the forces p->f. dt: time step [s]. */
+ * particles with prescribed motion and material points of a mesh are excluded. old_velocity: velocities v_old before
+ * the update [m/s], dim arrays of n; NULL, allowed if no particles are on the background grid, takes v - v_old = dt f/m
+ * from the forces p->f. dt: time step [s]. */
 real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt);
 
 /* Computes the linear momentum of all particles p and all mesh nodes. nodes: `grid_count` pointers to the grids of the

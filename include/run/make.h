@@ -44,10 +44,10 @@ status joined_bodies_check_close_enough(const struct scene *s, const struct part
                                         real cutoff);
 
 /* Checks the prescribed velocities and displacements of the boundaries of scene s, `loads`. Returns REFUSED, with a
- * message, if a value depends on the reference position of particles on the grid of the current frame, which does not
- * store it; if, with the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves; or, with
- * `run_begins` (the beginning of a run, not a restart), if particles with a prescribed displacement are not at their
- * reference positions. */
+ * message, if a value depends on the reference position of material points on the background grid, which stores present
+ * positions only; if, with the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves;
+ * or, with `run_begins` (the beginning of a run, not a restart), if particles with a prescribed displacement are not at
+ * their reference positions. */
 status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s,
                                bool run_begins);
 

@@ -46,7 +46,7 @@ struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material; /* index into scene.material */
     int parts;
-    struct scene_part *part;        /* [parts] a later part overwrites earlier parts and the member `material` */
+    struct scene_part *part;        /* [parts] regions of other materials; later ones overrule earlier ones */
     struct region shape;            /* region that is filled with a lattice of particles, unless `file` is given */
     char *file;                     /* path of a file with a list of particles (.csv, .h5); NULL: none */
     uint64_t contents;              /* hash of the contents of `file`; 0: not read */
@@ -334,8 +334,8 @@ static inline bool scene_bodies_can_meet(const struct scene *s)
     return several;
 }
 
-/* Returns the factor from the measure of a region of scene s to its volume: the cross-section in 1D [m^2], the
- * thickness in 2D [m], 1 in 3D. */
+/* Returns the factor by which the length (1D), area (2D) or volume (3D) of a region of scene s is multiplied to obtain
+ * its volume: the cross-section in 1D [m^2], the thickness in 2D [m], 1 in 3D. */
 static inline real scene_section_or_thickness(const struct scene *s)
 {
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;

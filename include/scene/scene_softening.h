@@ -14,9 +14,10 @@ struct family scene_family(const struct scene *s);
  * divided by the modulus E' of uniaxial tension. */
 struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m);
 
-/* Returns the critical stretch [1] of bonds between the materials a and b of scene s. A crack along their joint
- * releases the energy of the weaker of both materials: bonds of model bond have the stiffness of their two halves in
- * series, state-based ones the mean. If a material yields, the smaller one of both critical stretches. */
+/* Returns the critical stretch [1] of bonds between the materials a and b of scene s. It is chosen such that a crack
+ * between them releases the energy of the weaker material; the stiffness of a bond is that of its two halves in series
+ * in the bond-based model, their mean in state-based models. If a material yields, returns the smaller of the two
+ * critical stretches. */
 real scene_critical_stretch_between_materials(const struct scene *s, const struct material *a,
                                               const struct material *b);
 
@@ -29,12 +30,12 @@ real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const stru
                                                real squared_stretch_ratio);
 
 /* Returns the horizon [m] below which bonds of material m of scene s begin to soften, in tension and in shear, because
- * the stress reaches the strength surface. Above it they begin to soften by their own stretch before. The material must
- * have an energy release rate. */
+ * the stress reaches the strength surface. With larger horizons they begin to soften earlier, by their own stretch. The
+ * material must have an energy release rate. */
 real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m);
 
 /* Returns the radius [m] within which strains are averaged for the strength surface of material m of scene s: the
- * horizon times sqrt(n + 0.3) for n means over families. */
+ * horizon times sqrt(n + 0.3), where n is the number of successive averages over neighbourhoods. */
 real scene_strength_surface_radius(const struct scene *s, const struct material *m);
 
 #endif

@@ -70,8 +70,8 @@ void newton_solver_free(struct newton_solver *q);
  * changed since the previous equilibrium, false if only the body has, for example by broken bonds. increment: first
  * change of q->u, n vectors [m]: its prescribed components are the motion of supports, the others a guess; used only if
  * loads_changed is true. Returns FAILED, with a message, if after all corrections the norm of unbalanced forces exceeds
- * q->tolerance times that of loads and reactions, and q->noise; q->u is then the displacement after the last
- * correction. */
+ * both q->tolerance times that of loads and reactions and q->noise, the norm of round-off [N]; q->u is then the
+ * displacement after the last correction. */
 status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool loads_changed);
 
 #endif

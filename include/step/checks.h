@@ -20,7 +20,7 @@ status stability_check_after_step(struct run *e);
  * Returns FAILED if there is such a particle; the message names its position, the step, the cause and a remedy. */
 status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points);
 
-/* Checks the energies of the last sample (line of history.csv) of the run e, if a sample was due in this step; else
+/* Checks the energies of the last sample (line of history.csv) of the run e, if a sample was taken in this step; else
  * returns OK. Returns FAILED, with a remedy in the message, if the body has gained energy that neither loads nor
  * supports have supplied, if the velocities change sign in every step, or if an energy is not finite. */
 status energy_check_last_sample(struct run *e);

@@ -68,22 +68,22 @@ struct run_report {
     const volatile sig_atomic_t *stop; /* set by a signal handler to stop after a checkpoint; may be NULL */
 };
 
-/* Returns the number of frames of the whole body that the run of scene s writes in addition to the frame at t = 0.
- * clock: time step and number of steps of the run. */
+/* Returns the number of frames (output states at one time) of the whole body that the run of scene s writes in addition
+ * to the frame at t = 0. clock: time step and number of steps of the run. */
 int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock *clock);
 
-/* Returns the number of the time step after which frame number `frame` of the whole body in scene s is written; frame 0
- * is written at t = 0. clock: time step and number of steps of the run. */
+/* Returns the number of the time step after which frame (output state) number `frame` of the whole body in scene s is
+ * written; frame 0 is written at t = 0. clock: time step and number of steps of the run. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
 /* Returns the wall-clock times of the run so far [s], in this process and those before a restart. timers: sections of
  * the loop in this process. */
 struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers);
 
-/* Returns the set of frame series (each the frames of the whole body or of a region) that must be written after `step`
- * time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the scene s. Returns
- * 0 if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg, relaxation`) writes
- * frames at its start and its end only. */
+/* Returns the set of frame series (sequences of output states of the whole body or of a region) that must be written
+ * after `step` time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the
+ * scene s. Returns 0 if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg,
+ * relaxation`) writes frames at its start and its end only. */
 unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                                          int64_t step);
 
@@ -98,9 +98,10 @@ bool report_sample_is_due(const struct scene *s, const struct run_clock *clock);
 status report_start_before_first_step(struct run *e);
 
 /* Reports a finished time step or load step of the run e: takes the last sample after the last step, checks the
- * energies (energy_check_last_sample), and writes the frames, the checkpoint and the progress line that are due.
- * Returns FAILED if a file cannot be written, a particle has values that are not finite, or energy_check_last_sample
- * fails; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit time.wall stops the run. */
+ * energies (energy_check_last_sample), and writes frames (states for output), checkpoint and progress line if this step
+ * requires them. Returns FAILED if a file cannot be written, a particle has values that are not finite, or
+ * energy_check_last_sample fails; INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit time.wall stops
+ * the run. */
 status report_finished_step(struct run *e);
 
 /* Ends the reports of the run e after its last step: prints the last progress line, waits for the thread that writes

@@ -10,19 +10,19 @@
  * the run. resume: append to the file of an interrupted run instead. Returns FAILED if the file cannot be written. */
 status sample_open_history(struct run *e, bool resume);
 
-/* Begins a sample (line of history.csv) of the run e at time t_n, the start of this time step, if one is due. Must be
- * called before the step moves particles. Computes momentum, crack tips and the values of probes that depend on
- * positions, and stores the velocities, which are those at t_n - dt/2 (at t = 0 in the first step). */
+/* Begins a sample (line of history.csv) of the run e at time t_n, the start of this time step, if this step requires
+ * one. Must be called before the step moves particles. Computes momentum, crack tips and the values of probes that
+ * depend on positions, and stores the velocities, which are those at t_n - dt/2 (at t = 0 in the first step). */
 void sample_begin_before_step(struct run *e);
 
-/* Computes the energies of a sample (line of history.csv) of the run e, if one is due, at the positions of time t_n,
- * the start of this time step, except the kinetic energy. Must be called after the forces have been computed and before
- * particles move. */
+/* Computes the energies of a sample (line of history.csv) of the run e, if this step requires one, at the positions of
+ * time t_n, the start of this time step, except the kinetic energy. Must be called after the forces have been computed
+ * and before particles move. */
 void sample_compute_energies(struct run *e);
 
-/* Completes a sample (line of history.csv) of the run e, if one is due, after particles have moved: interpolates
- * velocities to time t_n, the start of this time step, computes the kinetic energy and the work up to t_n, and writes
- * the line of history.csv. */
+/* Completes a sample (line of history.csv) of the run e, if this step requires one, after particles have moved:
+ * interpolates velocities to time t_n, the start of this time step, computes the kinetic energy and the work up to t_n,
+ * and writes the line of history.csv. */
 void sample_complete_after_step(struct run *e);
 
 /* Takes a complete sample of the run e, whose body is in equilibrium, and writes its line of history.csv. Must be

@@ -36,8 +36,8 @@ void viscosity_add_bond_forces_and_pressure(struct run *e);
  * material is viscous. */
 void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract);
 
-/* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy dissipated by
- * these forces since the previous step to viscosity.taken of the run e. Does nothing if no material is viscous. */
+/* Adds the viscous forces of cells to the nodal forces of the mesh (fixed to the material), and the energy dissipated
+ * by these forces since the previous step to viscosity.taken of the run e. Does nothing if no material is viscous. */
 void viscosity_add_nodal_forces(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio

@@ -86,9 +86,9 @@ void study_compose_default_folder(char *folder, size_t capacity, const struct sc
  * study of another scene, or files that Cleave did not write. */
 status study_folder_check_is_usable_for_scene(const char *folder, const char *text);
 
-/* Marks `folder` as the folder of a study by writing the file STUDY_SCENE without a scene, unless it exists. Returns
- * REFUSED if the folder contains files that Cleave did not write, or if its subfolder `logs` or `pictures` is a
- * symbolic link; FAILED if the file cannot be written. */
+/* Marks `folder` as the folder of a study by writing the file STUDY_SCENE with an empty text of the scene, unless the
+ * file exists. Returns REFUSED if the folder contains files that Cleave did not write, or if its subfolder `logs` or
+ * `pictures` is a symbolic link; FAILED if the file cannot be written. */
 status study_folder_mark_as_study(const char *folder);
 
 /* Checks that `folder` may be used for a study, without writing anything. Returns REFUSED if it contains files that

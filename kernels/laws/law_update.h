@@ -34,13 +34,14 @@ struct law_points {
  * law_points, in dim dimensions. */
 static const int law_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
 
-/* Maps the trial stresses p->s of eight points back to the yield surface of the flow law `law` (not NULL), and updates
- * their plastic state in *p. Only the points set in p->active are changed. space: in plane stress sigma_zz remains 0,
- * in 1D (line) the stress remains uniaxial. mode LAW_EXPLICIT: the plastic work is that of the mean of the stresses at
- * start and end of the step, each times its volume. With the elastic energy 1/2 s : C^-1 : s the energy balance of
- * leap-frog steps then closes to round-off. mode LAW_LOAD_STEP: the plastic work is the integral along the path on
- * which the trial stress grows in proportion, and p->before and the volumes are not read. Without recall of the back
- * stress this work is a potential of the state. Returns a bit for each point, set if the point is active and yields. */
+/* Maps the trial stresses p->s of eight material points back to the yield surface of the flow law `law` (not NULL), and
+ * updates their plastic state in *p. Only the points set in p->active are changed. space: in plane stress sigma_zz
+ * remains 0, in 1D (line) the stress remains uniaxial. mode LAW_EXPLICIT: the plastic work is that of the mean of the
+ * stresses at start and end of the step, each times its volume. With the elastic energy 1/2 s : C^-1 : s the energy
+ * balance of leap-frog steps then closes to round-off. mode LAW_LOAD_STEP: the plastic work is the integral along the
+ * path on which the trial stress grows in proportion, which is a potential of the state if the back stress has no
+ * recall term; p->before (stress at the start) and the volumes are not read. Returns a bit for each point, set if the
+ * point is active and yields. */
 KERNEL(unsigned, law_update, (const struct law *law, struct law_points *p, enum space space, enum law_mode mode));
 
 #endif

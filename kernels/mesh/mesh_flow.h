@@ -76,10 +76,10 @@ static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, cons
     }
 }
 
-/* Computes by how much each normal strain of point number q (particles of p) of eight mesh cells changes, change[q]
- * [1], if all points of a cell that have one material get one dilatation, the mean of theirs. Returns true; false,
- * without values, if no point of the cells has a material with mean dilatation. cell: eight cell indices, -1 for a lane
- * without cell; s: strain of the cells; m: elastic constants of all materials. */
+/* Computes the correction change[q] [1] of each normal strain of point number q (0 .. 2^dim - 1; particles of p) of
+ * eight mesh cells, by which all points of one material in a cell get the mean of their dilatations (against volumetric
+ * locking). Returns true; false, without values, if no point of the cells has a material with mean dilatation. cell:
+ * eight cell indices, -1 for a lane without cell; s: strain of the cells; m: elastic constants of all materials. */
 static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, const struct particles *p,
                                                        const struct elastic *m, const int32_t *cell,
                                                        const struct mesh_cell *s, lanes change[CORNERS_MAX],
@@ -132,8 +132,8 @@ static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, co
 }
 
 /* Adds the stresses of the points number `point` (0 .. 2^dim - 1) of eight mesh cells to the sums over the points of
- * each cell: to s->P, the stress of the mean strain, and to s->force, the forces on the bending modes. stress:
- * symmetric components [Pa], already divided by the number of points. */
+ * each cell: to s->P, the stress of the mean strain, and to s->force, the forces on the bending (hourglass) modes.
+ * stress: symmetric components [Pa], already divided by the number of points of a cell. */
 static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lanes *stress, const int point,
                                                  const int dim)
 {
@@ -150,10 +150,10 @@ static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lane
     }
 }
 
-/* Computes the stress of the mean strain and the forces on the bending modes of eight mesh cells whose points yield, by
- * return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points in p. s: strain of
- * the cells on entry; m: array of the elastic constants of all materials; cell: eight cell indices, -1 for a lane
- * without cell. */
+/* Computes the stress of the mean strain and the forces on the bending (hourglass) modes of eight mesh cells whose
+ * points yield, by return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points
+ * in p. s: strain of the cells on entry; m: array of the elastic constants of all materials; cell: eight cell indices,
+ * -1 for a lane without cell. */
 static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, const int32_t *cell, struct mesh_cell *s,
                                                const int dim)
@@ -194,8 +194,8 @@ static ALWAYS_INLINE real cells_elastic_energy(const struct mesh *mesh, const st
     return sum * mesh->volume;
 }
 
-/* Writes to cell[8] the indices of eight cells of `run` (a row of consecutive cells), from cell number k (from 0) of
- * the run on; -1 for entries beyond its last cell. */
+/* Writes to cell[8] the indices of eight mesh cells: those number k .. k + 7, counted from 0, of `run`, a row of
+ * consecutive cells; -1 for entries beyond its last cell. */
 static ALWAYS_INLINE void mesh_run_cell_indices(const struct mesh_run *run, int64_t k, int32_t *cell)
 {
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;

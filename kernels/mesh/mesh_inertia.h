@@ -25,9 +25,9 @@ static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int ot
     return share;
 }
 
-/* Returns the contribution [N^2/kg] of cell `cell` of a mesh of coarse cells to the correction of their kinetic energy
- * (mesh_kick), divided by dt^2/4: a . alpha (L - C) a, summed over components, with the accelerations a = f/m of the
- * corners by nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and their
+/* Returns the contribution [N^2/kg] of cell `cell` of a mesh of coarse cells to the leap-frog correction of the kinetic
+ * energy (mesh_kick), divided by dt^2/4: a . alpha (L - C) a, summed over components, with the accelerations a = f/m of
+ * the corners by nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and their
  * blending factor alpha = mesh->match. Sums s and differences d along the axes diagonalise both matrices: along one
  * axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
 static inline real mesh_blended_mass_quadratic_form(const struct mesh *mesh, int64_t cell)

@@ -176,10 +176,10 @@ static ALWAYS_INLINE real mean_dilatation_stiffness(const struct elastic *m, con
     return m->mean_dilatation ? (m->c11 + (dim - 1) * m->c12) / dim : 0;
 }
 
-/* Returns the derivative [Pa] of the elastic energy per volume by component i of bending mode M of eight cells, in the
- * rotated axes of the cells. m: elastic constants; mode[M][i]: amplitudes of the modes [1]; M: set of two or three
- * axes, as bits. In the displacement gradient d_j u_i, mode {j, l} of component i appears times the coordinate along l,
- * and mode {1, 2, 3} of component i times the two other coordinates. */
+/* Returns the derivative [Pa] of the elastic energy per volume by component i of the bending (hourglass) mode M of
+ * eight cells, in the rotated axes of the cells. m: elastic constants; mode[M][i]: amplitudes of the modes [1]; M: set
+ * of two or three axes, as bits. In the displacement gradient d_j u_i, mode {j, l} of component i appears times the
+ * coordinate along l, and mode {1, 2, 3} of component i times the two other coordinates. */
 static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
                                               const int i, const int dim)
 {
@@ -194,9 +194,9 @@ static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mod
     return (mode[M][i] * (c11 + m->shear) + mode[7 & ~(1 << i)][k] * c12) * (1.0 / 16);
 }
 
-/* Computes rotation, mean strain and bending modes of eight cells into s, from the displacements u[c][i] of corner c
- * along axis i [m]. h: edge of a cell [m]; rotates: true for finite strain (axes that rotate with the cell), false for
- * small strain. */
+/* Computes rotation, mean strain and bending (hourglass) modes of eight mesh cells into s, from the displacements
+ * u[c][i] of corner c along axis i [m]. h: edge of a cell [m]; rotates: true for finite strain (axes that rotate with
+ * the cell), false for small strain. */
 static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3], const int dim,
                                       const bool rotates)
 {
@@ -230,8 +230,8 @@ static ALWAYS_INLINE real point_coordinate_product(const int axis_set, const int
 }
 
 /* Computes the strain `strain` [1] of eight cells at their material points number `point` (0 .. 2^dim - 1): the mean
- * strain in s plus the bending modes in s times the coordinates +-1/4 of the point. `strain` may be unsymmetric; its
- * symmetric part is the strain. */
+ * strain in s plus the bending (hourglass) modes in s times the coordinates of the point in the cell (+-1/4). `strain`
+ * may be unsymmetric; its symmetric part is the strain. */
 static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int point, lanes strain[3][3],
                                                 const int dim)
 {
@@ -257,8 +257,9 @@ static ALWAYS_INLINE void cells_use_mean_dilatation(const struct elastic *m, con
     for (int d = 0; d < dim; d++) strain[d][d] += change / dim;
 }
 
-/* Computes the stress of the mean strain, s->P, and the forces on the bending modes, s->force, of eight whole cells
- * (with all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic constants. */
+/* Computes the stress of the mean strain, s->P, and the forces on the bending (hourglass) modes, s->force, of eight
+ * whole cells (with all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic
+ * constants. */
 static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     hooke_stress(m, s->e, s->P, dim);
@@ -266,10 +267,10 @@ static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct me
         cell_bending_force(m, s->mode, M, i, dim);
 }
 
-/* Returns for eight cells an upper bound of sqrt(J2) + g1 I1 (data/strength_surface.h) times m->trigger_mean/m->failure
- * [Pa], which exceeds m->trigger where points convert by their strength surface. P: stress [Pa]; further_stress: bound
- * of each component of further stresses that are added to P [Pa]; their sqrt(J2) is at most 2.2 `further_stress`, their
- * I1 at most 3 `further_stress`. */
+/* Returns for eight cells a bound [Pa] that exceeds m->trigger if a point may reach the strength surface at which it
+ * becomes peridynamic: an upper bound of sqrt(J2) + g1 I1 (data/strength_surface.h), scaled by
+ * m->trigger_mean/m->failure. P: stress [Pa]; further_stress: bound of each component of further stresses that are
+ * added to P [Pa]; their sqrt(J2) is at most 2.2 `further_stress`, their I1 at most 3 `further_stress`. */
 static ALWAYS_INLINE lanes cell_strength_bound(const struct elastic *m, const lanes P[3][3], lanes further_stress,
                                                const int dim)
 {
@@ -283,9 +284,9 @@ static ALWAYS_INLINE lanes cell_strength_bound(const struct elastic *m, const la
 }
 
 /* Returns for each of eight cells an upper bound [Pa] of the largest principal stress at its material points, by which
- * cells whose points cannot convert are skipped: the largest normal stress of P, plus the magnitudes of all its shear
- * stresses (Gershgorin), plus a bound on the stress of the bending modes in s. With a strength surface the larger of
- * this and of cell_strength_bound is returned. P: stress of the mean strain [Pa]; m: elastic constants. */
+ * cells whose points cannot become peridynamic are skipped: the largest normal stress of P, plus the magnitudes of all
+ * its shear stresses (Gershgorin), plus a bound on the stress of the bending modes in s. With a strength surface the
+ * larger of this and of cell_strength_bound is returned. P: stress of the mean strain [Pa]; m: elastic constants. */
 static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
                                                        const lanes P[3][3], const int dim)
 {
@@ -300,8 +301,8 @@ static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, 
     return lanes_max(bound + bending, cell_strength_bound(m, P, bending, dim));
 }
 
-/* Returns the elastic energy [J] of each of eight cells from the strains, stresses, bending modes and forces on bending
- * modes in s. volume: volume of a cell [m^3]. */
+/* Returns the elastic energy [J] of each of eight cells from the strains, stresses, bending (hourglass) modes and
+ * forces on these modes in s. volume: volume of a cell [m^3]. */
 static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
 {
     lanes energy = lanes_broadcast(0);
@@ -314,8 +315,8 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
 
 /* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moments of the
  * stresses and of bonds. moment: on entry the moment of bonds at the points of the cell, per volume about each axis
- * [Pa]; on return the total moment, to which the axial part of P U^T of all modes is added (U = 1 + e, e: mean
- * strain). */
+ * [Pa]; on return the total moment, including that of the stresses: the antisymmetric part of P U^T, summed over all
+ * modes (U = 1 + e, e: mean strain). */
 static ALWAYS_INLINE void cell_balance_finite_moments(struct mesh_cell *s, lanes *moment, const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
@@ -339,8 +340,8 @@ static ALWAYS_INLINE void cell_balance_small_moments(struct mesh_cell *s, const 
 }
 
 /* Computes the forces f[c][i] [N] on corner c along axis i of eight cells from the stresses and the forces on bending
- * modes in s. h, volume: edge [m] and volume [m^3] of a cell; rotates: true to rotate s->P and s->force from the axes
- * of the cell to fixed axes first, in place. */
+ * (hourglass) modes in s. h, volume: edge [m] and volume [m^3] of a cell; rotates: true to rotate s->P and s->force
+ * from the axes of the cell to fixed axes first, in place. */
 static ALWAYS_INLINE void cell_corner_forces(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3],
                                              const int dim, const bool rotates)
 {

@@ -25,9 +25,9 @@ static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh,
             u[c][i] = lanes_load_or_gather(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
-/* Writes the strains and bending modes of eight cells in s as vectors v of cell_deformation_mode_count(dim) numbers
- * [1], one cell per lane: first the symmetric components of the mean strain, shear strains as angles, then the bending
- * modes, set by set of axes. */
+/* Writes the strains and bending (hourglass) modes of eight cells in s as vectors v of cell_deformation_mode_count(dim)
+ * numbers [1], one cell per lane: first the components of the mean strain (engineering shear strains), then the bending
+ * modes. */
 static ALWAYS_INLINE void cell_strain_vector(const struct mesh_cell *s, lanes *v, const int dim)
 {
     int n = symmetric_component_count(dim);
@@ -54,9 +54,9 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
 }
 
 /* Adds to f [Pa] the forces of state-based bonds on the deformation modes of the cells in group number `group` of eight
- * partial cells of the mesh (cells with missing or bonded points): f += share^T pull for each material point with bonds
- * (struct mesh_end), with the reaction `pull` of its bonds (p->end_pull) and the derivatives `share` of its mean strain
- * by the modes. f: one value for each mode of cell_strain_vector, one cell per lane. */
+ * partial cells of the mesh (cells with missing or bonded points): f += share^T pull for each material point with
+ * bonds, with the reaction `pull` of its bonds (p->end_pull) and the derivatives `share` of the strain at the point by
+ * the modes (mesh->end_share). f: one value for each mode of cell_strain_vector, one cell per lane. */
 static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, const struct particles *p,
                                                        int64_t group, lanes *f, const int dim)
 {
@@ -86,7 +86,7 @@ static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh,
 /* Computes the stress in group number `group` of eight partial cells of the mesh, from the mean strain and the
  * hourglass (bending) amplitudes of each cell in s. s->P: receives the stress that belongs to the mean strain [Pa];
  * s->force: that which belongs to the hourglass amplitudes, per volume of the cell [Pa]. A partial cell lacks points,
- * has several materials, is crossed by bonds that bear part of its stress, or has nodes that a crack doubles; each has
+ * has several materials, is crossed by bonds that carry part of its stress, or has nodes that a crack doubles; each has
  * a stiffness matrix of its own. Forces of state-based bonds on points of p are added. */
 static ALWAYS_INLINE void mesh_partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
                                                       struct mesh_cell *s, const int dim)

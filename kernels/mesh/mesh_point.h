@@ -44,8 +44,8 @@ static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, cons
     return value[0];
 }
 
-/* Loads the values of a nodal quantity at the 2^dim corners of cell `cell` of the mesh into `corner_value`. field: the
- * quantity, one value for each node. */
+/* Loads the values of a nodal quantity at the 2^dim corners of cell number `cell` of the mesh into `corner_value`.
+ * field: the quantity, one value for each node of the mesh. */
 static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const real *field, int64_t cell,
                                                   real *corner_value, const int dim)
 {

@@ -5,9 +5,8 @@
 
 #include "mesh_law.h"
 
-/* Loads the displacements u[c][i] [m] of corner c along axis i of eight consecutive cells of `run` (a row of
- * consecutive cells of the mesh), from cell number k (from 0) of the run on. Vector lanes beyond the last cell are set
- * to 0. */
+/* Loads the displacements u[c][i] [m] of corner c along axis i of eight mesh cells: those number k .. k + 7, counted
+ * from 0, of `run`, a row of consecutive cells. Vector lanes beyond the last cell are set to 0. */
 static ALWAYS_INLINE void mesh_run_load_displacements(const struct mesh *mesh, const struct mesh_run *run, int64_t k,
                                                       lanes u[CORNERS_MAX][3], const int dim)
 {
@@ -21,9 +20,8 @@ static ALWAYS_INLINE void mesh_run_load_displacements(const struct mesh *mesh, c
         for (int i = 0; i < dim; i++) u[c][i] *= inside;
 }
 
-/* Returns true if the problem is 2D (dim = 2) and the elastic constants m are isotropic. The stresses of the mean
- * strain and of the bending modes of a whole cell then have no moment, and cell_balance_finite_moments is not
- * needed. */
+/* Returns true if the problem is 2D (dim = 2) and the elastic constants m are isotropic. The stresses in a cell with
+ * all its points, of one material, then have no moment, and cell_balance_finite_moments is not needed. */
 static ALWAYS_INLINE bool cells_have_balanced_moments(const struct elastic *m, const int dim)
 {
     return dim == 2 && fabs(m->c11 - m->c12 - 2 * m->shear) <= 1e-14 * m->c11;

@@ -41,11 +41,12 @@ static ALWAYS_INLINE struct elastic_points points_load_elastic_constants(const s
 }
 
 /* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points of p in one cell, one per lane, from their
- * velocity gradients L[dim dim] [1/s], and sets FLAG_STRESSED where they convert at their stress (stress_converts). m:
- * elastic constants by lane; point: numbers of the points, of which there are `points`; due: receives the points where
- * materials yield, for the return mapping (points_flow.h); t: inputs of the transfer; shape: shape function. The volume
- * follows the trace of the strain in the space. In plane stress the elastic strain through the thickness is left out,
- * which changes the volume by less than 0.5 % below 1 % strain; the plastic one is added with the return mapping. */
+ * velocity gradients L[dim dim] [1/s], and sets FLAG_STRESSED on points whose stress requires conversion to
+ * peridynamics (stress_converts). m: elastic constants by lane; point[points]: indices of the points; due: list to
+ * which points of yielding materials are appended for the return mapping (points_flow.h); t: inputs of the transfer;
+ * shape: shape function. The volume changes by the trace of the strain. In plane stress the elastic strain through the
+ * thickness is left out, which changes the volume by less than 0.5 % below 1 % strain; the plastic one is added with
+ * the return mapping. */
 static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct transfer_data *t,
                                                struct flow_points *due, const struct elastic_points *m,
                                                const int32_t *point, int points, const row_of_points *L, const int dim,
@@ -77,9 +78,9 @@ static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct
         flow_points_map(p, t, point, points, (const lanes *)L, (lanes *)stress, *(const lanes *)&after, dim);
 }
 
-/* Multiplies the rotations p->end_rotation of a few points, one per lane, by the rotation of a step of dt [s], the
- * Cayley transform of the antisymmetric part of L dt. point: numbers of the points; L[dim dim]: velocity gradients
- * [1/s]. */
+/* Multiplies the rotations of a few material points with bonds (p->end_rotation), one point per lane, by the rotation
+ * in a step of dt [s], the Cayley transform of the antisymmetric part of L dt. point: numbers of the points; L[dim
+ * dim]: velocity gradients [1/s]. */
 static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int32_t *point, const row_of_points *L,
                                                  real dt, const int dim)
 {
@@ -107,10 +108,10 @@ static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int3
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Returns in each lane -1 if its point moves with the nodal velocities that the second map has computed (remap.h), else
- * 1. Points with bonds do so. All points do if t->momentum_only or t->second_map is set, or if weights are computed at
- * positions ahead of the actual ones (g->ahead), where nodes may have no other velocity. point: numbers of the
- * points. */
+/* Returns -1 in each lane whose point is moved by the remapped nodal velocities (FLIP: velocities from momentum mapped
+ * to the nodes a second time, remap.h), else 1. This applies to points with bonds, and to all points if
+ * t->momentum_only or t->second_map is set or if weights are computed at positions shifted by g->ahead, where nodes may
+ * have no other velocity. point: indices of the points. */
 static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid *g, const struct transfer_data *t,
                                                                const int32_t *point, const int dim)
 {
@@ -120,10 +121,10 @@ static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid
     return bonded;
 }
 
-/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (a few points of cell
- * c), by interpolation from the nodes of g. shape, transfer: shape function and transfer scheme; bonded: negative in
- * lanes of points that move with the velocities after remapping (points_negative_if_remapped). The nodes of a row are
- * added first, since they have one weight in the directions across the row. */
+/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (node weights of a few
+ * points of cell c), by interpolation from the nodes of g. shape, transfer: shape function and transfer scheme; bonded:
+ * negative in lanes of points that move with the velocities after remapping (points_negative_if_remapped). The nodes of
+ * a row are added first, since they have one weight in the directions across the row. */
 static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, const struct cell *c,
                                                       const struct cell_stencil *s, const row_of_points bonded,
                                                       row_of_points *velocity, row_of_points *L, const int dim,
@@ -157,9 +158,9 @@ static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, cons
     }
 }
 
-/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (a few points of cell
- * c) by interpolation from the nodes of g, for linear shapes in 2D and 3D. transfer: FLIP or APIC; bonded: negative in
- * lanes of points that move with the velocities after remapping (points_negative_if_remapped). */
+/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (node weights of a few
+ * points of cell c) by interpolation from the nodes of g, for linear shapes in 2D and 3D. transfer: FLIP or APIC;
+ * bonded: negative in lanes of points that move with the velocities after remapping (points_negative_if_remapped). */
 static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *g, const struct cell *c,
                                                              const struct cell_stencil *s, const row_of_points bonded,
                                                              row_of_points *velocity, row_of_points *L, const int dim,
@@ -184,8 +185,9 @@ struct points_motion {
     row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
 };
 
-/* Interpolates velocity and velocity gradient of the n points `list` of p (n <= AT_ONCE) in cell c from the nodes of g
- * into *m. t: inputs of the transfer, with the shape function `shape` and the scheme `transfer`. */
+/* Interpolates velocity and velocity gradient of the n points list[n] of p (n <= AT_ONCE, which are processed at once)
+ * in cell c from the nodes of g into *m. t: inputs of the transfer, with the shape function `shape` and the scheme
+ * `transfer`. */
 static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid *g, const struct cell *c,
                                      const struct particles *p, const struct transfer_data *t, const int32_t *list,
                                      int n, const int dim, const enum shape shape, const enum transfer transfer)
@@ -282,17 +284,17 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_sign_bits((row_of_points)~inside);
 }
 
-/* Marks in o->left the points that have left their cell. list: entry of o->particle from which the bits of `bits`
- * count: bit k is set if point list[k] has left. */
+/* Marks in o->left (o: order of the points by cell) the points that have left their cell. list: pointer into
+ * o->particle; bits: bit k is set if point list[k] has left its cell. */
 static ALWAYS_INLINE void points_mark_left(const struct transfer_order *o, const int32_t *list, int bits)
 {
     for (; __builtin_expect(bits, 0); bits &= bits - 1) o->left[list - o->particle + __builtin_ctz((unsigned)bits)] = 1;
 }
 
-/* Updates position, stress, volume, stretch and rotation of the n points `list` of p (n <= AT_ONCE) of cell c of grid g
- * by their motion m. t: inputs of the transfer, with the order that contains `list`; shape: shape function. On return
- * m->velocity contains displacements [m]. due: receives the points of materials that yield, for the return mapping.
- * Returns the number of points that have left the cell, which it marks in the order. */
+/* Updates position, stress, volume, stretch and rotation of the points list[n] of p (n <= AT_ONCE) of cell c of grid g
+ * from their motion m. t: inputs of the transfer, with the order that contains `list`; shape: shape function. On return
+ * m->velocity contains displacements [m]. due: list to which points of yielding materials are appended for the return
+ * mapping. Returns the number of points that have left the cell; they are marked in t->order->left. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
                                     const int32_t *list, int n, const int dim, const enum shape shape)
@@ -333,12 +335,11 @@ static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const in
 }
 
 /* Updates motion, stress and volume of the points list[n] of p in one cell of g (grid to particles). t: materials, time
- * step and other inputs; shape: shape function; transfer: scheme, such as FLIP or APIC; due: receives the points of
- * materials that yield, for the return mapping; averaged: true if the points of a cell get the mean of their rates of
- * dilatation (transfer_uses_mean_dilatation): all points of the cell, at most MEAN_POINTS at once, are then
- * interpolated before the first is updated. Returns the number of points that have left the cell. Quantities of the
- * cell are computed anew for every AT_ONCE(dim) points, the number that is processed at once, since most cells need one
- * pass only. */
+ * step and other inputs; shape: shape function; transfer: scheme, such as FLIP or APIC; due: list to which points of
+ * yielding materials are appended for the return mapping; averaged: true if the points of a cell get the mean of their
+ * rates of dilatation (transfer_uses_mean_dilatation); up to MEAN_POINTS points of the cell are then interpolated
+ * before the first is updated. Points are processed AT_ONCE(dim) at a time. Returns the number of points that have left
+ * the cell. */
 static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, struct particles *p,
                                                        const struct transfer_data *t, struct flow_points *due,
                                                        const int32_t *list, int n, const int dim,

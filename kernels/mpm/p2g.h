@@ -30,10 +30,11 @@ static ALWAYS_INLINE int symmetric_component_index(int axis, int other_axis, con
     return axis == other_axis ? axis : dim == 2 ? 2 : axis + other_axis == 1 ? 3 : axis + other_axis == 3 ? 4 : 5;
 }
 
-/* Adds to the force sums `sum` of a cell the force of the antisymmetric part `skew` of the stress of point `at` of
- * stencil s (weights of a few points): f_a = -V sum_b skew_ab grad_b. Does nothing unless the point has bonds of a
- * state-based model (partial_stress.c). p: particles; t: inputs of the transfer; row: weights and slopes of a row of
- * nodes at this point; shape: shape function. */
+/* Adds to the nodal forces in `sum` (sums over the points of a cell) the forces by the antisymmetric part of the stress
+ * of point number `at` of stencil s (node weights of a few points): f_a = -V sum_b skew_ab grad_b N, with the volume V
+ * of the point and the shape function N. Does nothing unless the point has bonds of a state-based model
+ * (partial_stress.c). p: particles; t: inputs of the transfer; row: weights and slopes of a row of nodes at this point;
+ * shape: shape function. */
 static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct particles *p,
                                                     const struct transfer_data *t, const struct cell_stencil *s,
                                                     const struct touch *row, int at, const int dim,
@@ -71,8 +72,8 @@ struct points_given {
     row_of_points slope[DIM_MAX * DIM_MAX];     /* velocity gradient by which velocities are extrapolated [1/s] */
 };
 
-/* Returns true if, in the transfer t, points extrapolate their velocity to the positions of the nodes by a velocity
- * gradient: with APIC, and if points rotate in groups (data/turning.h). */
+/* Returns true if points extrapolate their velocity to the positions of the nodes by a velocity gradient: with APIC,
+ * and if points rotate in groups (data/turning.h). t: inputs of the transfer; transfer: FLIP or APIC. */
 static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
 {
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
@@ -96,8 +97,9 @@ static ALWAYS_INLINE void points_load_stress(struct points_stress *s, const stru
     }
 }
 
-/* Loads what the points of s give to nodes into *q. p: particles; t: inputs of the transfer; continued: result of
- * `continues`. */
+/* Loads the quantities that the points of s transfer to nodes into *q: mass, velocity, force, stress times volume and,
+ * if `continued` is true, the velocity gradient by which velocities are extrapolated to nodes. p: particles; t: inputs
+ * of the transfer; transfer: FLIP or APIC. */
 static ALWAYS_INLINE void points_load_given(struct points_given *q, const struct particles *p,
                                             const struct transfer_data *t, const struct points_stress *s, const int dim,
                                             const enum transfer transfer, const bool continued)
@@ -111,10 +113,10 @@ static ALWAYS_INLINE void points_load_given(struct points_given *q, const struct
         q->slope[k] = points_load(p->gradient[k], s->point, dim);
 }
 
-/* Adds mass, momentum and force of point `at` of stencil s (weights of a few points of p) to the sums `sum` of its cell
- * of grid g. q: what the points give; t: inputs of the transfer, with the shape function `shape`; continued: true if
- * points extrapolate their velocity to nodes (`continues`). Factors of the directions along a row, equal for all rows,
- * are computed once. */
+/* Adds mass, momentum and force of point number `at` of stencil s (node weights of a few points of p) to `sum`, the
+ * nodal sums over the points of its cell of grid g. q: quantities of the points (points_load_given); t: inputs of the
+ * transfer, with the shape function `shape`; continued: true if points extrapolate their velocity to nodes
+ * (`continues`). */
 static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
                                         const struct transfer_data *t, const struct cell_stencil *s,
                                         const struct points_given *q, int at, const int dim, const enum shape shape,
@@ -169,8 +171,9 @@ static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const st
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
-/* Replaces the mean stress of the n <= MEAN_POINTS points list[k] of p in a cell by that of the points of the same body
- * and material (dilatation.h). t: constants of the materials; stress: their stress, AT_ONCE of them in each entry. */
+/* Replaces the mean normal stress of each of the points list[n] of p in a cell, n <= MEAN_POINTS, by its average over
+ * the points of the same body and material (dilatation.h). t: constants of the materials; stress: stresses of the
+ * points, AT_ONCE points in each entry, changed. */
 static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, const struct transfer_data *t,
                                                      const int32_t *list, struct points_stress *stress, int n,
                                                      const int dim)
@@ -198,8 +201,9 @@ static ALWAYS_INLINE void points_average_mean_stress(const struct particles *p, 
         for (int d = 0; d < dim; d++) stress[k].stress[d] += *(const points_anywhere *)(change + k * AT_ONCE(dim));
 }
 
-/* Adds mass, momentum and force of the n points `list` of p (n <= AT_ONCE) in cell c to its sums `sum`. stress: their
- * stress; other arguments as those of p2g_add_points_of_cell. */
+/* Adds mass, momentum and force of the points list[n] of p (n <= AT_ONCE) in cell c of grid g to `sum`, the nodal sums
+ * over the points of this cell. stress: stress of these points; t: inputs of the transfer, with the shape function
+ * `shape` and the scheme `transfer`; continued: true if points extrapolate their velocity to nodes (`continues`). */
 static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, const struct cell *c,
                                          const struct particles *p, const struct transfer_data *t,
                                          const struct points_stress *stress, const int32_t *list, int n, const int dim,
@@ -217,8 +221,8 @@ static ALWAYS_INLINE void p2g_add_points(cell_sums sum, const struct grid *g, co
 }
 
 /* Adds mass, momentum and force of the points list[n] of p in one cell to the nodes of the grid g. t: inputs of the
- * transfer, with the shape function `shape` and the scheme `transfer`; averaged: result of
- * transfer_uses_mean_dilatation; if true, the stress of up to MEAN_POINTS points is loaded before it is averaged. */
+ * transfer, with the shape function `shape` and the scheme `transfer`; averaged: true if the points of a cell get the
+ * average of their mean stresses (transfer_uses_mean_dilatation). */
 static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const struct particles *p,
                                                  const struct transfer_data *t, const int32_t *list, int n,
                                                  const int dim, const enum shape shape, const enum transfer transfer,

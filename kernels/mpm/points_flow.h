@@ -23,8 +23,8 @@ struct flow_motion {
     lanes strain[SYM_MAX], trace, spin[3];
 };
 
-/* Computes the motion of eight points in a step of dt [s] into *m from their velocity gradients L[a dim + b] =
- * dv_a/dx_b [1/s]. */
+/* Computes strain increments and spins of eight points in a step of dt [s] into *m from their velocity gradients L[a
+ * dim + b] = dv_a/dx_b [1/s]. */
 static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, real dt, const int dim)
 {
     const lanes none = lanes_broadcast(0);
@@ -185,12 +185,12 @@ static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int 
     *(points_anywhere *)due->volume = *(const points_anywhere *)(due->volume + n);
 }
 
-/* Maps the trial stresses of n points of p (n <= LANES) back to their yield surfaces if their materials yield, stores
- * stress, plastic strain, plastic work, back stress and temperature, and clears FLAG_STRESSED of those that yield if
- * the resulting stress does not exceed the conversion stress. Their volumes must have been stored in p. point: numbers
- * of the points, filled up to LANES; L: velocity gradients [1/s]; stress[components], volume: trial stresses [Pa],
- * which are changed, and volumes [m^3]; t: time step and constants of the materials. Points of several materials are
- * mapped material by material. */
+/* Return mapping: maps the trial stresses of n points of p (n <= LANES) back to their yield surfaces if their materials
+ * yield, stores stress, plastic strain, plastic work, back stress and temperature, and clears FLAG_STRESSED of those
+ * that yield if the resulting stress does not exceed the conversion stress. Their volumes must have been stored in p.
+ * point: numbers of the points, filled up to LANES; L: velocity gradients [1/s]; stress[components], volume: trial
+ * stresses [Pa], which are changed, and volumes [m^3]; t: time step and constants of the materials. Points of several
+ * materials are mapped material by material. */
 static NEVER_INLINE void flow_points_map(struct particles *p, const struct transfer_data *t, const int32_t *point,
                                          int n, const lanes *L, lanes *stress, lanes volume, const int dim)
 {
@@ -213,7 +213,8 @@ static NEVER_INLINE void flow_points_map(struct particles *p, const struct trans
     for (int c = 0; c < dim * (dim + 1) / 2; c++) flow_scatter_points(p->stress[c], point, stress[c], n);
 }
 
-/* Maps the first points in the list `due`, at most LANES, and removes them (flow_points_map). */
+/* Applies the return mapping (flow_points_map) to the first points in the list `due`, at most LANES, and removes them
+ * from the list. p: particles; t: time step and constants of the materials. */
 static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const struct transfer_data *t,
                                                     struct flow_points *due, const int dim)
 {

@@ -119,9 +119,9 @@ MAP_VARIANTS_TURNING(GATHER)
  * [kg m/s], then mass [kg], which is summed only if weights are computed ahead of the actual positions (g->ahead). */
 typedef row_of_nodes turn_rows[DIM_MAX + 1][ROWS_MAX];
 
-/* Adds the momentum m N (v + L (x_I - x_p)), with `massive` also the mass m N, of point `at` of stencil s (weights of a
- * few points of p) to the sums `sum` of its cell of grid g. shape: shape function; slope: velocity gradients L of the
- * points of the stencil, from rotating_velocity_gradients [1/s]. */
+/* Adds the momentum m N (v + L (x_I - x_p)), with `massive` also the mass m N, of point number `at` of stencil s (node
+ * weights of a few points of p) to `sum`, the nodal sums over the points of its cell of grid g. shape: shape function;
+ * slope: velocity gradients L of the points of the stencil, from rotating_velocity_gradients [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g, const struct particles *p,
                                              const row_of_points *slope, const struct cell_stencil *s, int at,
                                              const bool massive, const int dim, const enum shape shape)

@@ -260,9 +260,10 @@ static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s,
 }
 
 /* Finds which rows of nodes the points of stencil s (a few points of a cell) touch along axis d, for shapes with three
- * nodes per direction: a point with t < l does not touch the upper outer row, others not the lower outer row. l: half
- * widths in node distances. The code has no branches, because on a lattice t = l up to round-off and the result is
- * unpredictable. */
+ * nodes per direction: a point with t < l does not touch the upper outer row, others not the lower outer row. Stores
+ * the first touched row of each point in s->low[d], the first and the end of the rows that any point touches in
+ * s->lowest[d] and s->end[d]. l: half widths in node distances. The code has no branches, because on a lattice t = l up
+ * to round-off and the result is unpredictable. */
 static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_sign_bits(s->t[d] - l) & all;
@@ -293,8 +294,8 @@ static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, c
     if (SKIPS(dim, shape) && d > 0) stencil_find_touched_rows(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
 }
 
-/* Returns true if the weights of points on grid g are computed at positions ahead of the actual ones, by half a step of
- * common flight (g->ahead is not 0). */
+/* Returns true if the weights of points on grid g are computed at positions ahead of the actual ones, shifted by the
+ * mean motion of all points in half a time step (g->ahead is not 0). */
 static ALWAYS_INLINE bool grid_maps_ahead(const struct grid *g, const int dim)
 {
     bool ahead = false;

@@ -242,8 +242,8 @@ static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct 
 }
 
 /* Computes into `stress` (symmetric components [Pa]) the stress that material point i of p transmits to the grid: all
- * of its stress, or the part that bonds to peridynamic particles do not carry. partial: partial stresses, by which the
- * two parts differ; NULL: none. */
+ * of its stress, or the part that bonds to peridynamic particles do not carry. partial: matrices that give the part
+ * carried by bonds; NULL: bonds carry no stress. */
 static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
                                                int64_t i, real *stress, const int dim)
 {
@@ -278,7 +278,7 @@ static inline void quaternion_rotate_vector(const real *quaternion, real *vector
 }
 
 /* Computes into `skew` the antisymmetric part of the stress that material point i of p transmits to the grid:
- * components sigma_ab in the order xy, yz, zx, in 2D xy only [Pa]. partial: partial stresses, with the marks of points
+ * components sigma_ab in the order xy, yz, zx, in 2D xy only [Pa]. partial: partial stresses, which tell the points
  * that have bonds. This part balances the moment of the state-based bonds of the point. Returns true, or false if there
  * is none. */
 static ALWAYS_INLINE bool point_skew_stress_on_grid(const struct particles *p, const struct partial_stress *partial,

@@ -30,8 +30,9 @@ struct core {
     real ratio, K, y[DIM_MAX], distance;
 };
 
-/* Returns the repulsive core (struct core) of `bond`, a bond in b of particle i of p. The member `ratio` is 1 if the
- * core does not act, because the bond is broken or longer than CORE_FROM times its reference length. */
+/* Returns length ratio, stiffness and present vector of `bond`, a bond in b of particle i of p, from which the force of
+ * its repulsive core follows (additional repulsion of strongly compressed bonds). The member `ratio` is 1 if the core
+ * does not act, because the bond is broken or longer than CORE_FROM times its reference length. */
 static inline struct core bond_repulsive_core_of(const struct bonds *b, const struct particles *p,
                                                  const struct bond *bond, int32_t i)
 {
@@ -47,8 +48,8 @@ static inline struct core bond_repulsive_core_of(const struct bonds *b, const st
     return c;
 }
 
-/* Adds the forces [N] of the repulsive cores of all bonds in block `row_block` of eight rows of b (the bonds of eight
- * particles) to the forces p->f on these particles. */
+/* Adds the forces [N] of the repulsive cores (additional repulsion of strongly compressed bonds) of all bonds in block
+ * `row_block` of eight rows of b (the bonds of eight particles) to the forces p->f on these particles. */
 RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
@@ -61,9 +62,10 @@ RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct
     }
 }
 
-/* Returns half the energy [J] of the repulsive cores of the bonds of block `row_block` of eight rows (the bonds of
- * eight particles of p); the other particle of each bond has the other half. row_energy: NULL, or [b->rows], to whose
- * entries the energy of each row (the bonds of one particle) is added [J]. */
+/* Returns half the energy [J] of the repulsive cores (additional repulsion of strongly compressed bonds) of the bonds
+ * of block `row_block` of eight rows (the bonds of eight particles of p); the other particle of each bond has the other
+ * half. row_energy: NULL, or [b->rows], to whose entries the energy of each row (the bonds of one particle) is added
+ * [J]. */
 RARE real bond_row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block,
                                                real *row_energy)
 {

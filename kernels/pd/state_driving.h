@@ -7,9 +7,9 @@
 #include "kernels/kernels.h"
 #include "rotation.h"
 
-/* Returns the energy [J] that an increase of the damage of `bond`, a bond in b, sets free, divided by the increase and
- * by the weight of the bond, at the present states of the neighbourhoods of both particles (the driving force Y divided
- * by the weight w). i: particle to whose bonds `bond` belongs; the result for the other particle is bitwise equal. */
+/* Returns the energy [J] that an increase of the damage of `bond`, a bond in b, releases, divided by this increase and
+ * by the weight of the bond, at the present states of the neighbourhoods of both particles. Damage may grow only if the
+ * result is positive. i: particle to whose bonds `bond` belongs; the result for the other particle is bitwise equal. */
 static inline real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                        int32_t i)
 {

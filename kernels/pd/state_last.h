@@ -92,10 +92,11 @@ static inline void state_blend_row(struct bonds *b, const struct particles *p, c
     blend_with_value_without_breaking(&b->state.spring[i], spring, left.share);
 }
 
-/* Copies the states of eight particles of p (mean force, stiffness of the family, rotation: struct state), those of
- * block number `row_block` of eight rows, to b->state.before: bonds that break in this step use them. Then replaces
- * each state in b->state by the average of its value with the breaking bonds and its value without them: the bonds that
- * remain use it in this step. limit: breaking stretches. Only for blocks in which bonds exceed them. */
+/* Prepares the states (pressure, spring stiffness and rotation of a neighbourhood) of the eight particles of block
+ * number `row_block` of eight rows of b for a step in which bonds break. Copies them to b->state.before, which breaking
+ * bonds use. Then replaces them in b->state by weighted means of the values with and without the breaking bonds, which
+ * the remaining bonds use. limit: breaking stretches. Only for blocks in which a bond of a particle of p exceeds its
+ * limit. */
 static inline void state_blend_breaking_rows(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                              int64_t row_block)
 {
