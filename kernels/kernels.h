@@ -226,8 +226,8 @@ KERNEL(real, bond_plastic_work, (const struct bonds *b));
  * bonds yield. */
 KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
 /* Returns the mean accumulated plastic stretch [1] of the intact bonds of row number `row` of b, i.e. of one particle,
- * weighted by bond energy at equal stretch. In uniaxial flow this is the plastic strain; for a point that has just
- * converted, its plastic strain as a material point. */
+ * weighted by w |xi|, weight times reference length of a bond; 0 without intact bonds. In uniaxial flow this is the
+ * plastic strain; for a point that has just converted, its plastic strain as a material point. */
 KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
 
 /* Computes the stress of every peridynamic particle from its bonds in b into p->stress [Pa]: the virial (1/2V) sum F

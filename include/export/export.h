@@ -16,7 +16,7 @@ struct export_request {
     const char *scene, *folder;            /* path of the scene; output folder or, for Exodus, file; borrowed */
     const struct scene_override *override; /* [overrides] overrides of the scene; borrowed */
     int overrides;
-    bool bond_style;      /* export for bond_style bpm/peri (2026), else for pair_style peri/pmb or peri/lps (2021) */
+    bool bond_style;      /* LAMMPS: export for bond_style bpm/peri, else for pair_style peri/pmb or peri/lps */
     bool allow_different; /* export also if LAMMPS treats something differently; its treatment is used then */
     bool overwrite;       /* replace an older export in the folder */
 };

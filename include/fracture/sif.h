@@ -30,7 +30,8 @@ struct sight {
     const struct bonds *bonds; /* bonds; neighbours behind a broken one are hidden; NULL: none are */
 };
 
-/* How gradients of fields at particles are computed: method, range, and which neighbours count (sight). */
+/* How gradients of fields at particles are computed: method, range, and which neighbours count (`sight`: cracks and
+ * broken bonds that hide neighbours). */
 struct gradient_rule {
     enum gradient_method method;
     real reach; /* rho_m; range of neighbours is 2 rho_m [m] */

@@ -107,8 +107,8 @@ static inline bool boundary_formula_uses_time(const struct boundary *b)
     return in_time;
 }
 
-/* Returns the time at which the formulas of boundary b are evaluated at time t [s]: b->frozen_at in static problems,
- * else t, or b->end if that is earlier. */
+/* Returns the time [s] for which the formulas of boundary b are evaluated at time t: b->frozen_at in static problems,
+ * else t, but at most b->end, after which formulas keep their values. */
 static inline real boundary_evaluation_time(const struct boundary *b, real t)
 {
     return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
@@ -307,7 +307,7 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads of l with equal particle lists, to traverse each list once. Ends loads_make. dim: space dimension. */
+/* Combines loads of l with equal particle lists, to traverse each list once. Called at the end of loads_make. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads in l, also arrays that
@@ -368,7 +368,7 @@ struct prescribed_displacement {
  * by reference. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
-/* Returns component `component`, which must be prescribed, of the displacement [m] at the reference position X[dim]. */
+/* Returns component `component` of the displacement [m] at the reference position X[dim]; it must be prescribed. */
 real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
 /* Computes the displacement that load l prescribes for its particle number `entry` (an index of l->particle) at time t
@@ -397,9 +397,9 @@ struct prescribed_motion prescribed_motion_make(const struct boundary *b, int di
  * step before, since no step follows in which a change of velocity would do work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
-/* Returns component `component` of the velocity [m/s] prescribed by `motion` at the reference position X (dim
- * components [m]); for a prescribed displacement its difference over the step divided by dt. at_present_position: true
- * if X is the position of the material at the start of the step, false if it is its reference position. */
+/* Returns component `component` of the velocity [m/s] prescribed by `motion` at X (dim components [m]); for a
+ * prescribed displacement its change in the step divided by dt. at_present_position: true if X is the position of the
+ * material at the start of the step, false if X is its reference position. */
 real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
                             bool at_present_position);
 
@@ -477,8 +477,8 @@ void loads_prescribe_coarse_velocities(const struct loads *l, const struct const
                                        struct grid *g, real t, real dt);
 
 /* Imposes prescribed motion after the grid-to-particle transfer of the step of size dt about t [s]. Sets the velocity
- * of material points, and the position of particles with prescribed displacement, to the exact values. Adds the work of
- * applied forces to l->work. Returns true if the position of a point on a grid was changed. */
+ * of material points, and the position of particles with prescribed displacement, to the prescribed values. Adds the
+ * work of applied forces to l->work. Returns true if the position of a point on a grid was changed. */
 bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the

@@ -117,10 +117,10 @@ status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_coun
 /* Frees the coarse levels in l, which levels_make_over_finest_mesh has made; the finest mesh stays with the caller. */
 void levels_free(struct mesh_levels *l);
 
-/* Sets two distances between a coarse cell and a material point that shall become peridynamic, both in cells of level 0
- * (the finest). postpone_distance: if the point is closer, its conversion is postponed, since its bonds would reach the
- * coarse cell. refine_distance: if it is closer, the coarse cell shall be split, since points near breaking bonds
- * convert next. */
+/* Sets in l two distances between a coarse cell and a material point that is to become peridynamic, both in cells of
+ * level 0 (the finest). postpone_distance: if the point is closer, its conversion is postponed, since its bonds would
+ * reach the coarse cell. refine_distance: if it is closer, the coarse cell shall be split, since points near breaking
+ * bonds convert next. */
 void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
 
 /* Sets the inertia of coarse cells of l, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that

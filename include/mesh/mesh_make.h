@@ -30,26 +30,27 @@ struct mesh_source {
     int mirrors;
 };
 
-/* Makes a mesh of all particles with FLAG_MESHED. node_grid: grid whose anchor and cell size define the nodes; source:
- * material constants, partial stresses (carried by bonds), slits (pre-cracks as free surfaces) and voids. Unless
- * source->still, displacement and velocity of the nodes are fitted to those of the particles by least squares. Returns
- * REFUSED, with a message, if the particles are not two per cell and direction, if their volumes differ, or if two
- * bodies share a node and would move as one. Returns FAILED, with a message, if there are too many nodes. Release with
- * mesh_free. */
+/* Makes a mesh of all particles of p with FLAG_MESHED. node_grid: grid whose anchor (position of node 0) and cell size
+ * define the nodes; source: material constants, partial stresses (carried by bonds), slits (pre-cracks as free
+ * surfaces) and voids. Unless source->still, displacement and velocity of the nodes are fitted to those of the
+ * particles by least squares. Returns REFUSED, with a message, if the particles are not two per cell and direction, if
+ * their volumes differ, or if two bodies share a node and would move as one. Returns FAILED, with a message, if there
+ * are too many nodes. Release with mesh_free. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node_grid,
                  const struct mesh_source *source);
 
 /* Frees the arrays of the mesh, which mesh_make has made. */
 void mesh_free(struct mesh *mesh);
 
-/* Returns the number of parts of a mesh of all particles that share no node with each other. node_grid: grid whose
- * anchor and cell size define the nodes; empty_cells: cells of the body whose particles were left out; they count as
- * filled. Returns 0 if the particles are not two per cell and direction, so that no mesh is possible. */
+/* Returns the number of parts, sharing no nodes, of which a mesh of all particles p would consist. node_grid: grid
+ * whose anchor (position of node 0) and cell size define the nodes; empty_cells: cells of the body whose particles were
+ * left out; they count as filled. Returns 0 if the particles are not two per cell and direction, so that no mesh is
+ * possible. */
 int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
                                    const struct cells_without_particles *empty_cells);
 
-/* Updates the mesh after particles have become peridynamic or have changed their partial stress (share of the stress
- * that bonds carry): removes the peridynamic ones from their cells and recomputes these cells.
+/* Updates the mesh after particles of p have become peridynamic or have changed their partial stress (share of the
+ * stress that bonds carry): removes the peridynamic ones from their cells and recomputes these cells.
  * changed_points[changed_count]: indices of these particles, NULL if they are unknown. Each particle that leaves takes
  * its share of mass and momentum from the nodes of its cell, so that nodal velocities are kept. Returns the kinetic
  * energy that is lost by this [J]. source: material constants. */

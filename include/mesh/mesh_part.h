@@ -192,7 +192,7 @@ void mesh_levels_describe_level_count(const struct levels_choice *c, const struc
 
 /* Returns true if the scene s gives more levels of coarse cells than its loads or the thickness of the body allow, and
  * writes why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
- * mesh_levels_choose_level_count. */
+ * mesh_levels_choose_level_count; frame: the mesh, with the limits by thickness. */
 bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                        const struct scene *s, char *reason, size_t capacity);
 

@@ -416,7 +416,7 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
 
 /* Paints the faces of the pre-cracks v->notch into the image pixel[height * width] (rows from bottom to top) of a map
  * of a plane body, as lines that move with the adjacent particles of c. v: rectangle of the image; map: quantity that
- * the colours show. Paints nothing unless it is damage or a field. */
+ * the colours show. Paints nothing unless `map` is MAP_DAMAGE or MAP_FIELD. */
 void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
                                const struct plotted_particles *c, enum map map);
 

@@ -52,9 +52,9 @@ void diagnostics_update_momentum(struct diagnostics *w, const struct particles *
                                  int grid_count, const real *impulse);
 
 /* Computes the angular momentum of the free bodies of particles p about their common centre of mass, stores it in
- * w->now.spin, and updates w->now.spin_error, the largest error so far. mesh: mesh of the reference frame, NULL if none
- * of its nodes carries mass. body_count: number of bodies of the scene. Call this function only if no load, support or
- * mirror acts on the bodies, since angular momentum is conserved only then. */
+ * w->now.spin, and updates w->now.spin_error, the largest error so far. mesh: mesh by which material points move, NULL
+ * if none of its nodes carries mass. body_count: number of bodies of the scene. Call this function only if no load,
+ * support or mirror acts on the bodies, since angular momentum is conserved only then. */
 void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
                                          int body_count);
 

@@ -114,21 +114,22 @@ void probes_sample_energies(struct probes *s, const struct observed_run *o);
  * those after the step. */
 void probes_store_motion_before_step(struct probes *s, const struct observed_run *o);
 
-/* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and
- * stores them in s->value. The values are those at the time of the preceding call of probes_store_motion_before_step:
- * velocities are interpolated to that time, and reactions are those of the forces in the step. now: time of the present
- * velocities. If probes_store_motion_before_step was not called before, the body is assumed to be in equilibrium. o:
- * view of the run. */
+/* Computes the values of a sample (line of history.csv) that depend on velocities or on the forces of the time step,
+ * after that step, and stores them in s->value. The values are those at the time of the preceding call of
+ * probes_store_motion_before_step: velocities are interpolated to that time, and reactions are those of the forces in
+ * the step. now: time of the present velocities. If probes_store_motion_before_step was not called before, the body is
+ * assumed to be in equilibrium. o: view of the run. */
 void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
 
 /* Appends to *warning_list and prints, once for each SIF probe, a warning that K_I, K_II and J have no value at the
- * last sample: the ring of a tip that has grown leaves the body, or its contours differ by more than 20 %.
- * single_equilibrium: also for tips at rest, where no wave can be the cause. t: time of the sample [s]. */
+ * last sample (line of history.csv): the integration ring round a tip that has grown leaves the body, or the results of
+ * its contours differ by more than 20 %. single_equilibrium: also for tips at rest, where no wave can be the cause. t:
+ * time of the sample [s]. */
 void probes_warn_of_meaningless_sif(struct probes *s, bool single_equilibrium, real t, struct warnings *warning_list);
 
-/* Updates the probes of s that observe every time step. BREAK and SPALL probes search for bonds that broke in the step
- * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared forces.
- * Must be called before these flags are cleared. */
+/* Updates the probes of s that observe every time step of the run o. BREAK and SPALL probes search for bonds that broke
+ * in the step (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of
+ * squared forces. Must be called before these flags are cleared. */
 void probes_update_every_step(struct probes *s, const struct observed_run *o);
 
 /* Updates the BREAK and SPALL probes of s in run o, which search for bonds that just broke, and no other probes. Load
@@ -136,7 +137,7 @@ void probes_update_every_step(struct probes *s, const struct observed_run *o);
 void probes_update_broken_bonds(struct probes *s, const struct observed_run *o);
 
 /* Calls emit(context, probe name, quantity name, value) for every result of every probe of s that summary.json reports,
- * in SI units. Values that are NAN are skipped. */
+ * in SI units. o: view of the run at the end. Values that are NAN are skipped. */
 void probes_visit_results(const struct probes *s, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context);
@@ -145,9 +146,10 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
  * probes_write_profiles passes on. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
-/* Prints the profile of each LINE and EXACT probe of s as CSV text, and calls write_file(context,
- * `<probe>_<frame>.csv`, text, length) for each. frame_number: number of the frame in these names. Returns FAILED if
- * memory is exhausted, or the status of `write_file` if it is not OK. */
+/* Prints the profile (table of values along a line) of each LINE and EXACT probe of s as CSV text, and calls
+ * write_file(context, `<probe>_<frame>.csv`, text, length) for each. frame_number: number of the frame (output state)
+ * in these names; o: view of the present state of the run. Returns FAILED if memory is exhausted, or the status of
+ * `write_file` if it is not OK. */
 status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
                              void *context, int frame_number);
 

@@ -35,7 +35,7 @@ int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e);
 void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
                                              const struct grid_method *grid);
 
-/* Raises q->residual_step0 [N] to the largest force component on those nodes of `mesh`, a mesh in the reference frame,
+/* Raises q->residual_step0 [N] to the largest force component on those nodes of `mesh`, a mesh fixed to the material,
  * that are in the regions of PATCH probes of scene s, if that component is larger. Must be called in the first step,
  * after the forces have been computed and before nodes are moved. */
 void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh);

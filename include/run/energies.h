@@ -55,8 +55,9 @@ static inline void family_states_precompute(struct bonds *b, struct particles *p
 }
 
 /* Computes the stress of all peridynamic particles from their bonds at the present positions [Pa], into the stress
- * arrays of p. Time steps do not use this stress; call the function before a sample, a frame or reversion. source: bond
- * law; kernels: compiled loops for the vector instructions of this machine. */
+ * arrays of p. Time steps do not use this stress; call the function before stresses are written to files or decide on
+ * reversion to material points. source: bond law; kernels: compiled loops for the vector instructions of this
+ * machine. */
 void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *source,
                                    const struct kernels *kernels);
 

@@ -133,7 +133,7 @@ static inline bool growth_speed_is_controlled(const struct growth_rule *rule) { 
 /* Kinds of probes: what a probe measures. */
 enum probe_kind {
     PROBE_TIP,      /* one crack tip (the longest, or the one nearest to `at`)                    */
-    PROBE_BREAK,    /* first cut bond in a region                                                 */
+    PROBE_BREAK,    /* first broken bond in a region                                              */
     PROBE_REACTION, /* force of the support at a named boundary                                   */
     PROBE_PATCH,    /* largest nodal force residual divided by stress x h, under uniform strain */
     PROBE_SPALL,    /* separated end of a bar                                                     */

@@ -4,7 +4,7 @@
 
 #include "scene.h"
 
-/* Returns the largest particle spacing between 3/4 largest and `largest` [m] for which the edges of boxes of scene s,
+/* Returns the largest particle spacing between 3/4 `largest` and `largest` [m] for which the edges of boxes of scene s,
  * and the positions of gaps in them and of cracks along the axes, are whole numbers of spacings. Only bodies that begin
  * with a box are considered. even_edge_counts: true if the edges of the first box must be even numbers of spacings. If
  * there is no such spacing, it fits only the edge of the first box along x; without such a box, returns `largest`. */

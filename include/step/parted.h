@@ -8,11 +8,12 @@
 
 struct grid_method; /* grid/grid_part.h */
 
-/* A shape function with which material points of metal transmit too little force under tension. Errors measured with a
- * specimen with heads of 100 + 500 a MPa (tests/scenes/claims/pulled_metal.yaml), beside (sigma_y + H log l)/l at the
- * stretch l: linear shapes -12 % at 1.1, -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 %
- * at 1.3, 1.4, 1.5; cpgimp -3, -4, -4 %. In bars that hit a wall up to 0.06 of the pairs of neighbours are stretched as
- * far for a short time, as the foot spreads. */
+/* A shape function with which material points of metal transmit too little force under tension. Errors of the force on
+ * a specimen with the yield stress sigma_y + H a = 100 + 500 a MPa, a: plastic strain
+ * (tests/scenes/claims/pulled_metal.yaml), compared with (sigma_y + H log l)/l at the stretch l: linear shapes -12 % at
+ * 1.1, -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp -3, -4,
+ * -4 %. In bars that hit a wall up to 0.06 of the pairs of neighbours are stretched as far for a short time, as the
+ * foot spreads. */
 struct weak_shape {
     enum shape shape;
     real stretch;       /* stretch of a bar (length divided by initial length) above which the force is too small [1] */
@@ -48,8 +49,8 @@ struct grid_method;
  * them. With linear shapes and gimp, also warns of points that are stretched apart so far that they transmit too little
  * force. Compares them once in each fiftieth of the duration. Does nothing if the scene accepts large strains, and
  * before the plastic strain of a point exceeds 0.02. cells: search cells of the particles p; grid: grids of the points;
- * t: current time [s]; pairs: found at the first call. Returns true if the warning that points have separated has been
- * printed. warning_list: receives the warning. */
+ * t: current time [s]; pairs: pairs of neighbours, found at the first call. Returns true if the warning that points
+ * have separated has been printed. warning_list: receives the warning. */
 bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
                                      const struct grid_method *grid, const struct scene *s, real t,
                                      struct warnings *warning_list);

@@ -76,14 +76,15 @@ int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock 
  * written; frame 0 is written at t = 0. clock: time step and number of steps of the run. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
-/* Returns the wall-clock times of the run so far [s], in this process and those before a restart. timers: sections of
- * the loop in this process. */
+/* Returns the wall-clock times of the run so far [s], in all, of the set-up and of the time steps, in this process and
+ * those before a restart. r: times before the restart and of the set-up; timers: times of the sections of a step in
+ * this process. */
 struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers);
 
 /* Returns the set of frame series (sequences of output states of the whole body or of a region) that must be written
  * after `step` time steps or load steps, one bit per series: bit 0 is the whole body, bit k >= 1 is region k of the
- * scene s. Returns 0 if out is NULL (a run without files). A run that finds a single equilibrium (`solver: cg,
- * relaxation`) writes frames at its start and its end only. */
+ * scene s. clock: time step and number of steps of the run. Returns 0 if out is NULL (a run without files). A run that
+ * finds a single equilibrium (`solver: cg, relaxation`) writes frames at its start and its end only. */
 unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                                          int64_t step);
 

@@ -13,7 +13,7 @@ struct shock {
 };
 
 /* Returns the most severe collision that scene s leads to expect within its duration, between two bodies or a body and
- * a rigid body: the collision whose front is nearest to breaking or yielding a body (largest `share`). The velocity of
+ * a rigid body: the one whose stress front is closest to breaking or yielding a body (largest `share`). The velocity of
  * a body is that of `bodies.velocity` and of `initial` at the centre of its bounding box; bodies from particle lists
  * are left out. Returns zeros if there is no collision, or if its share would be 0. */
 struct shock scene_most_severe_collision(const struct scene *s);

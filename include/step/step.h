@@ -11,10 +11,11 @@
  * diverged. */
 status step(struct run *e);
 
-/* Marks (FLAG_NEAR) the material points of run e that are near other bodies at their present positions, and near rigid
- * bodies where these are at pseudo-time t [s]; they convert at the next call of step_convert_points_at_broken_bonds.
- * Moves no rigid body. present: present pseudo-time [s]. Returns true if positions were examined; does nothing and
- * returns false if no rigid body can touch a material point. */
+/* Marks (FLAG_NEAR) the material points of run e that are near other bodies, at their present positions, with rigid
+ * bodies at the positions that they will have at pseudo-time t [s]. Marked points become peridynamic at the next call
+ * of step_convert_points_at_broken_bonds. present: present pseudo-time [s]; rigid bodies are at its positions again on
+ * return. Returns true if positions were examined; does nothing and returns false if no rigid body can touch a material
+ * point. */
 bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions. e: run;

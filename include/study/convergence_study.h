@@ -73,10 +73,10 @@ struct convergence_request {
     struct study_options options; /* options that all studies have */
 };
 
-/* Runs a convergence study as *w requests and stores its runs and results in *s. Scalar results of failed
- * runs are NAN in the table s->table. Returns REFUSED if the scene cannot be refined, if its runs cannot have a
- * requested result, or if the time budget is too small (the message states the required one). Returns FAILED if the
- * coarsest run fails, INTERRUPTED if w->options.stop is set. Release s with convergence_study_free. */
+/* Runs a convergence study as *w requests and stores its runs and results in *s. Scalar results of failed runs are NAN
+ * in the table s->table. Returns REFUSED if the scene cannot be refined, if its runs cannot produce a requested result,
+ * or if the time budget is too small (the message states the required one). Returns FAILED if the coarsest run fails,
+ * INTERRUPTED if w->options.stop is set. Release s with convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 
 /* Frees the scene, runs and table of the convergence study *s, which convergence_study_run has filled. Files remain. */
@@ -84,8 +84,8 @@ void convergence_study_free(struct convergence_study *s);
 
 /* Determines the convergence of the scalar results of the study s that describe the body and have values at all spacing
  * levels. wanted_names[wanted_count]: names of the results to be treated; if wanted_count is 0, all are. Stores an
- * allocated array in *result, which the caller releases with memory_free, and its length in *figure_count. Returns
- * REFUSED if a named result does not exist, FAILED if no result has values at all levels. */
+ * allocated array with one entry per result in *figure, which the caller releases with memory_free, and its length in
+ * *figure_count. Returns REFUSED if a named result does not exist, FAILED if no result has values at all levels. */
 status scalar_results_determine_convergence(const struct convergence_study *s, const char *const *wanted_names,
                                             int wanted_count, struct scalar_result_study **figure, int *figure_count);
 

@@ -232,7 +232,7 @@ void study_write_unit_of_result(char *unit, size_t capacity, const char *header,
 void study_print_warnings(const struct study *s, FILE *out);
 
 /* Writes the table sweep.csv to the folder of the study s, one line for each run: name, state, values of the keys
- * key[keys], results. Returns FAILED if the file cannot be written. */
+ * key[keys], and the results in t. Returns FAILED if the file cannot be written. */
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 
 /* Checks that the table sweep.csv and the pictures of the study s may be written, one picture for each of the keys

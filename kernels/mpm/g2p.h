@@ -21,9 +21,8 @@
 #include "shape.h"
 #include "stress.h"
 
-/* Returns the elastic constants [Pa] of a few material points, one per lane. point: numbers of the points in p; t:
- * constants of the materials. Usually all points have one material; those of other materials are filled in lane by
- * lane. */
+/* Returns the elastic constants [Pa] of a few material points, one per lane. point: indices of the points in p; t:
+ * constants of the materials. Fast if all points have one material. */
 static ALWAYS_INLINE struct elastic_points points_load_elastic_constants(const struct particles *p,
                                                                          const struct transfer_data *t,
                                                                          const int32_t *point, const int dim)
@@ -123,8 +122,8 @@ static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct grid
 
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s (node weights of a few
  * points of cell c), by interpolation from the nodes of g. shape, transfer: shape function and transfer scheme; bonded:
- * negative in lanes of points that move with the velocities after remapping (points_negative_if_remapped). The nodes of
- * a row are added first, since they have one weight in the directions across the row. */
+ * negative in lanes of points that move with the velocities after remapping (points_negative_if_remapped). Nodes are
+ * summed row by row (along x). */
 static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, const struct cell *c,
                                                       const struct cell_stencil *s, const row_of_points bonded,
                                                       row_of_points *velocity, row_of_points *L, const int dim,
@@ -185,8 +184,8 @@ struct points_motion {
     row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
 };
 
-/* Interpolates velocity and velocity gradient of the n points list[n] of p (n <= AT_ONCE, which are processed at once)
- * in cell c from the nodes of g into *m. t: inputs of the transfer, with the shape function `shape` and the scheme
+/* Interpolates velocity and velocity gradient of the points list[n] of p (n <= AT_ONCE, which are processed at once) in
+ * cell c from the nodes of g into *m. t: inputs of the transfer, with the shape function `shape` and the scheme
  * `transfer`. */
 static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid *g, const struct cell *c,
                                      const struct particles *p, const struct transfer_data *t, const int32_t *list,

@@ -26,9 +26,9 @@
 
 /* ---- nodes to points --------------------------------------------------------------------------------------------- */
 
-/* Interpolates the change dv_I of the nodal velocities (g->force) to the points of stencil s (weights of a few points
- * of cell c): the change of their velocity gain[dim] = sum N dv_I [m/s], and the moments arm[e][d] = sum N (x_I -
- * x_p)_e (dv_I)_d [m^2/s]. shape: shape function. */
+/* Interpolates the change dv_I of the nodal velocities (g->force) to the points of stencil s (node weights of a few
+ * points of cell c): the change of their velocity, gain[dim] = sum N dv_I [m/s], and the moments about the points,
+ * arm[e][d] = sum N (x_I - x_p)_e (dv_I)_d [m^2/s]. shape: shape function. */
 static ALWAYS_INLINE void turn_gather_arms(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
                                            row_of_points *gain, row_of_points arm[DIM_MAX][DIM_MAX], const int dim,
                                            const enum shape shape)
@@ -57,9 +57,10 @@ static ALWAYS_INLINE void turn_gather_arms(const struct grid *g, const struct ce
     }
 }
 
-/* Computes the change gain[dim] of the velocities of the points of stencil s of cell c and the moments arm[e][d] of the
- * nodal changes about them from the nodes of g, as turn_gather_arms does, for linear shape functions in 2D and 3D.
- * There sum N (x_I - x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in the cell (in node distances). */
+/* Interpolates the change dv of the nodal velocities of g (g->force) to the points of stencil s (node weights of a few
+ * points of cell c) for linear shape functions in 2D and 3D: the change of their velocity, gain[dim] [m/s], and the
+ * moments about the points, arm[e][d] = sum N (x_I - x_p)_e (dv_I)_d [m^2/s]. For these shape functions sum N (x_I -
+ * x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in the cell (in node distances). */
 static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const struct cell *c,
                                                   const struct cell_stencil *s, row_of_points *gain,
                                                   row_of_points arm[DIM_MAX][DIM_MAX], const int dim)

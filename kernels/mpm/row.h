@@ -35,7 +35,7 @@ typedef real row_of_points __attribute__((vector_size(POINTS * sizeof(real))));
 typedef real points_anywhere __attribute__((vector_size(POINTS * sizeof(real)), aligned(sizeof(real)), may_alias));
 typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))));
 
-/* Returns a vector of ROW entries, one for each node of a row, that are all equal to a. */
+/* Returns a vector of ROW entries, one for each node of a row of grid nodes, that are all equal to a. */
 static ALWAYS_INLINE row_of_nodes row_broadcast(real a) { return a - (row_of_nodes){0}; }
 
 /* Returns a vector of POINTS entries, one for each material point processed together, that are all equal to a. */
@@ -118,7 +118,7 @@ static ALWAYS_INLINE real points_sum(row_of_points a)
  * repeat the last point. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
-/* Returns the smaller of the whole numbers a and b. */
+/* Returns the smaller of the integers a and b. */
 static ALWAYS_INLINE int int_min(int a, int b) { return a < b ? a : b; }
 
 /* Returns how many of `points_left` remaining points of a cell are processed at once: at most AT_ONCE. */
@@ -200,7 +200,8 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
 #endif
 }
 
-/* Stores lane k of a in to[point[k]] for the listed points. Lanes that hold the same point must have equal values. */
+/* Stores lane k of a in to[point[k]] for all lanes k. point: indices of POINTS points, from points_list; lanes that
+ * hold the same point must have equal values. */
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
     if (dim > 1 && point[PAIRED]) {

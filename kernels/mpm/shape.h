@@ -15,9 +15,9 @@
  *
  * Weights are computed for a few points of a cell at once, one point per lane, so that no sum runs across lanes. */
 
-/* Computes weights N and slopes dN/dt of linear (hat) functions at the four nodes of a row, for a few points (one per
- * lane): 1 - t and t at the two nodes of the cell, 0 at the outer nodes. t: distance from the lower node of the cell,
- * in node distances. */
+/* Computes weights N and slopes dN/dt of linear (hat) functions at the four nodes of a row (nodes around a cell along
+ * one axis), for a few points, one per lane: 1 - t and t at the two nodes of the cell, 0 at the outer nodes. t:
+ * distance from the lower node of the cell, in node distances. */
 static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
     N[0] = N[3] = dN[0] = dN[3] = points_broadcast(0);
@@ -25,9 +25,9 @@ static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], ro
     dN[1] = points_broadcast(-1), dN[2] = points_broadcast(1);
 }
 
-/* Computes weights N and slopes dN/dt of GIMP shape functions at the four nodes of a row, for a few points (one per
- * lane): linear (hat) functions averaged over the width 2l of the particle. t: distance from the lower node of the
- * cell, l <= 1: half width, inverse_width: 1/(2 l), all in node distances.
+/* Computes weights N and slopes dN/dt of GIMP shape functions at the four nodes of a row (nodes around a cell along one
+ * axis), for a few points, one per lane: linear (hat) functions averaged over the width 2l of the particle. t: distance
+ * from the lower node of the cell, l <= 1: half width, inverse_width: 1/(2 l), all in node distances.
  *
  * A particle that extends over the lower end of the cell by b = (l - t)_+ gives the node below the cell the weight
  * b^2/4l, and changes the averages of the two hats with a kink at that end by multiples of b^2/4l; likewise at the
@@ -46,9 +46,9 @@ static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_po
     dN[1] = dN[3] - 2 * dN[0] - 1, dN[2] = dN[0] - 2 * dN[3] + 1;
 }
 
-/* Computes weights N and slopes dN/dt of the cubic B-spline at the four nodes of a row, for a few points (one per
- * lane). t: distance from the lower node of the cell, in node distances. From either end the weights are t^3/6 at the
- * outer and 2/3 - t^2 + t^3/2 at the inner node. */
+/* Computes weights N and slopes dN/dt of the cubic B-spline at the four nodes of a row (nodes around a cell along one
+ * axis), for a few points, one per lane. t: distance from the lower node of the cell, in node distances. From either
+ * end the weights are t^3/6 at the outer and 2/3 - t^2 + t^3/2 at the inner node. */
 static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
     const row_of_points rest = 1 - t, t2 = t * t, rest2 = rest * rest;
@@ -58,10 +58,11 @@ static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row
     dN[1] = t * (1.5 * t - 2), dN[2] = rest * (2 - 1.5 * rest);
 }
 
-/* Corrects the weights N of the four nodes of a row so that they add up to 1 without round-off. Every map multiplies
- * momentum by sum N; on a lattice all points have the same round-off, so that an error would grow with the number of
- * steps. The missing part is added to the nearer node of the cell, whose weight is never small. t: distance from the
- * lower node of the cell, in node distances. */
+/* Corrects the weights N of the four nodes of a row (nodes around a cell along one axis), for a few points, one per
+ * lane, so that they add up to 1 without round-off. Every map multiplies momentum by sum N; on a lattice all points
+ * have the same round-off, so that an error would grow with the number of steps. The missing part is added to the
+ * nearer node of the cell, whose weight is never small. t: distance from the lower node of the cell, in node
+ * distances. */
 static ALWAYS_INLINE void weights_normalise(row_of_points t, row_of_points N[ROW])
 {
     const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
@@ -69,10 +70,10 @@ static ALWAYS_INLINE void weights_normalise(row_of_points t, row_of_points N[ROW
     N[2] += points_choose_by_sign(t - 0.5, points_broadcast(0), missing);
 }
 
-/* Computes weights N and slopes dN/dt of a shape function at the four nodes of a row, for a few points (one per lane).
- * t: distance from the lower node of the cell, l: half width of the particle, inverse_width: 1/(2 l), in node
- * distances; l and inverse_width are read for GIMP and cpGIMP only. The quadratic B-spline is GIMP with l = 1/2, the
- * mean of a hat over a whole cell. */
+/* Computes weights N and slopes dN/dt of the shape function `shape` at the four nodes of a row (nodes around a cell
+ * along one axis), for a few points, one per lane. t: distance from the lower node of the cell, l: half width of the
+ * particle, inverse_width: 1/(2 l), in node distances; l and inverse_width are read for GIMP and cpGIMP only. The
+ * quadratic B-spline is GIMP with l = 1/2, the mean of a hat over a whole cell. */
 static ALWAYS_INLINE void shape_functions_of_row(const enum shape shape, row_of_points t, row_of_points l,
                                                  row_of_points inverse_width, row_of_points N[ROW],
                                                  row_of_points dN[ROW])
@@ -153,8 +154,8 @@ static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, con
     return c;
 }
 
-/* Returns the index in grid g of the first node of a row of the nodes that points of cell c reach. k1, k2: number of
- * the row along y and along z, from 0. */
+/* Returns the index in grid g of the first node of a row (along x) of the nodes that points of cell c reach. k1, k2:
+ * number of the row along y and along z, from 0. */
 static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const struct grid *g, int k1, int k2,
                                                  const int dim)
 {
@@ -168,8 +169,8 @@ static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const 
     return HAS_CORNERS(dim, shape) ? k % 2 + k / 2 % 2 * g->stride[1] + k / 4 * g->stride[2] : k;
 }
 
-/* Adds the values a of the ROW nodes of a row to a nodal array of grid g. to: entry of the first node of the row in
- * this array; shape: shape function, which determines the row. */
+/* Adds the values a of the ROW nodes of a row of nodes to a nodal array of grid g. to: entry of the first node of the
+ * row in this array; shape: shape function, which determines the row. */
 static ALWAYS_INLINE void grid_add_node_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
                                             const enum shape shape)
 {
@@ -259,9 +260,9 @@ static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s,
     }
 }
 
-/* Finds which rows of nodes the points of stencil s (a few points of a cell) touch along axis d, for shapes with three
- * nodes per direction: a point with t < l does not touch the upper outer row, others not the lower outer row. Stores
- * the first touched row of each point in s->low[d], the first and the end of the rows that any point touches in
+/* Finds which rows of nodes the points of stencil s (node weights of a few points) touch along axis d, for shapes with
+ * three nodes per direction: a point with t < l does not touch the upper outer row, others not the lower outer row.
+ * Stores the first touched row of each point in s->low[d], the first and the end of the rows that any point touches in
  * s->lowest[d] and s->end[d]. l: half widths in node distances. The code has no branches, because on a lattice t = l up
  * to round-off and the result is unpredictable. */
 static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_of_points l, int d)
@@ -271,8 +272,8 @@ static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
-/* Computes weights and slopes of the points of stencil s (a few points of p in a cell) along axis d for the shape
- * function `shape`; not for linear shapes in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width: half the
+/* Computes in stencil s the node weights and slopes of a few points of p in a cell along axis d for the shape function
+ * `shape`; not for linear shapes in 2D and 3D. inverse: 1/h of the node distance h [1/m]; half_width: half the
  * reference edge of a particle [m]. */
 static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p, real inverse,
                                                        real half_width, int d, const int dim, const enum shape shape)
@@ -321,8 +322,9 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
         for (int d = 0; d < dim; d++) stencil_compute_axis_weights(s, p, inverse, half_width, d, dim, shape);
 }
 
-/* Transposes the weights and slopes of a row in the stencil s from one lane per point to one lane per node (s->from_N,
- * s->from_D), for maps that add to nodes. Does nothing for linear shape functions (shape) in 2D and 3D. */
+/* Transposes the weights and slopes of a row of nodes in stencil s (node weights of a few points) from one lane per
+ * point to one lane per node (s->from_N, s->from_D), for maps that add to nodes. Does nothing for linear shape
+ * functions (shape) in 2D and 3D. */
 static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int dim, const enum shape shape)
 {
 #if ROW_NODES == 4
@@ -334,9 +336,9 @@ static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int di
 #endif
 }
 
-/* Returns weights and slopes of the nodes of a row at point number `at` of the stencil s, one node per lane.
- * stencil_transpose must have been called. h: node distance [m]. For linear shape functions (shape) in 2D and 3D
- * weights and slopes are computed anew, which is cheaper than transposing. */
+/* Returns weights and slopes of the nodes of a row (along x) for point number `at` of stencil s (node weights of a few
+ * points), one node per lane. stencil_transpose must have been called. h: node distance [m]. For linear shape functions
+ * (shape) in 2D and 3D weights and slopes are computed anew, which is cheaper than transposing. */
 static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil *s, int at, real h, const int dim,
                                                       const enum shape shape)
 {
@@ -356,8 +358,9 @@ static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil 
     return own;
 }
 
-/* Returns the factor [1] by which the weights s->N are multiplied in the row of nodes number k1 along y and k2 along z,
- * for all points of stencil s, one per lane. shape: shape function. */
+/* Returns the product [1] of the shape functions along y and z for the row of nodes number k1 along y and k2 along z;
+ * times s->N, the shape function along the row, it is the weight of a node. s: node weights of a few points, one per
+ * lane; shape: shape function. */
 static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil *s, int k1, int k2, const int dim,
                                                        const enum shape shape)
 {
@@ -367,8 +370,9 @@ static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil
     return weight;
 }
 
-/* Returns the derivative [1/m] of the factor stencil_row_factors along axis d (1 or 2, across the row of nodes), for
- * all points of stencil s, one per lane. k1, k2: number of the row along y and z; shape: shape function. */
+/* Returns the derivative [1/m] along axis d (1 or 2) of stencil_row_factors, the product of the shape functions along y
+ * and z for a row of nodes. s: node weights of a few points, one per lane; k1, k2: number of the row along y and z;
+ * shape: shape function. */
 static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_stencil *s, int k1, int k2, int d,
                                                              const int dim, const enum shape shape)
 {
@@ -378,8 +382,8 @@ static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_s
     return slope;
 }
 
-/* Returns the factor [1] by which the weights N are multiplied in the row of nodes number k1 along y and k2 along z,
- * for point number `at` of stencil s. shape: shape function. */
+/* Returns the product [1] of the shape functions along y and z for the row of nodes number k1 along y and k2 along z,
+ * for point number `at` of stencil s (node weights of a few points). shape: shape function. */
 static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
                                              const enum shape shape)
 {
@@ -390,7 +394,8 @@ static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int a
 }
 
 /* Returns the derivative [1/m] along axis d (1 or 2) of stencil_row_factor, the product of shape functions that all
- * nodes of a row (nodes along x) share, for point number `at` of stencil s. k1, k2: number of the row along y and z. */
+ * nodes of a row (nodes along x) share, for point number `at` of stencil s (node weights of a few points). k1, k2:
+ * number of the row along y and z. */
 static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s, int at, int k1, int k2, int d,
                                                    const int dim, const enum shape shape)
 {
@@ -400,8 +405,9 @@ static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s,
     return slope;
 }
 
-/* Returns the signed distances [m] along axis d from point number `at` of stencil s to the nodes of a row, one node per
- * lane. d: an axis along which the nodes of a row differ; h: node distance [m]; shape: shape function. */
+/* Returns the signed distances [m] along axis d from point number `at` of stencil s (node weights of a few points) to
+ * the nodes of a row (along x), one node per lane. d: an axis along which the nodes of a row differ; h: node distance
+ * [m]; shape: shape function. */
 static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_stencil *s, int at, real h, int d,
                                                            const int dim, const enum shape shape)
 {
@@ -414,15 +420,16 @@ static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_ste
     return (nodes - s->t[d][at]) * h;
 }
 
-/* Returns the signed distances [m] along axis d from all points of stencil s, one per lane, to node k of a row or, if d
- * is across the rows, to row k; not for linear shapes in 2D and 3D. h: node distance [m]. */
+/* Returns the signed distances [m] along axis d from all points of stencil s (node weights of a few points), one per
+ * lane, to node k of a row (along x) or, if d is y or z, to row number k; not for linear shapes in 2D and 3D. h: node
+ * distance [m]. */
 static ALWAYS_INLINE row_of_points stencil_distances_of_points(const struct cell_stencil *s, int k, real h, int d)
 {
     return (k - 1 - s->t[d]) * h;
 }
 
-/* Returns the signed distance [m] along axis d from point number `at` of stencil s to the row of nodes number k. d: an
- * axis across the rows; h: node distance [m]. */
+/* Returns the signed distance [m] along axis d from point number `at` of stencil s (node weights of a few points) to
+ * the row of nodes (along x) number k. d: axis y or z, across the rows; h: node distance [m]. */
 static ALWAYS_INLINE real stencil_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k)
 {
     return (k - 1 - s->t[d][at]) * h;

@@ -29,7 +29,8 @@ struct column {
 };
 
 /* Returns a view of the stored column number `column_number` of b (one bond of each of eight particles), and prefetches
- * the column COLUMNS_AHEAD columns behind it. kind: COLUMN_FREE, SHELL or ALIKE, as the column requires. */
+ * the column COLUMNS_AHEAD columns behind it. kind: what the eight bonds have in common: nothing (COLUMN_FREE),
+ * consecutive neighbours and a tabulated length (SHELL), also one weight (ALIKE). */
 static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int64_t column_number,
                                                       const enum column_kind kind)
 {
@@ -43,7 +44,8 @@ static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int
 /* Returns a view of a column (one bond of each of eight consecutive particles) whose bonds b does not store, but which
  * follow from `stencil`, a bond pattern that many blocks of eight rows of a lattice share. column_in_stencil: number of
  * the column in the stencil; first_particle: first of the eight particles; column_number: index of the column among all
- * columns; kind: COLUMN_STENCIL, WHOLE or UNIT. */
+ * columns; kind: what the stencil determines: all but the weights (COLUMN_STENCIL), also the weights (WHOLE), which are
+ * 1 (UNIT). */
 static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t column_number,
                                                        const struct stencil *stencil, int64_t column_in_stencil,
                                                        int64_t first_particle, const enum column_kind kind)
@@ -96,8 +98,8 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
     } while (0)
 
-/* Returns eight values of the particle array `from`: those of the neighbours to which the bonds of `column` (one bond
- * of each of eight particles) lead. */
+/* Returns the values of the particle array `from` for eight particles: the neighbours to which the bonds of `column`
+ * (one bond of each of eight particles) lead. */
 static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, const real *from)
 {
     return column.kind ? lanes_load(from + column.first)

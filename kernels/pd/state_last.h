@@ -55,10 +55,10 @@ static inline void blend_with_value_without_breaking(real *value, real without_b
     *value = weight * *value + (1 - weight) * without_breaking;
 }
 
-/* Replaces the rotation of particle i stored in t by S R + (1 - S) R', with its rotation R over all bonds, its rotation
- * R' without the breaking bonds, and the share S = left->share of the force of the breaking bonds that acts in this
- * step. left: sums over the remaining bonds; spring: spring stiffness of its neighbourhood without the breaking bonds
- * [N/m]; dim: dimensions. */
+/* Replaces the rotation of the neighbourhood of particle i, stored in t, by S R + (1 - S) R', with its rotation R over
+ * all bonds, its rotation R' without the breaking bonds, and the share S = left->share of the force of the breaking
+ * bonds that acts in this step. left: sums over the remaining bonds; spring: spring stiffness of its neighbourhood
+ * without the breaking bonds [N/m]; dim: dimensions. */
 static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
