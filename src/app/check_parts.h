@@ -71,9 +71,9 @@ void print_brittle_strength(const struct scene *s, const struct material *m);
  * plane and its bonds soften. */
 void print_smallest_precrack_length(const struct run *e);
 
-/* Writes a remark to `out` for each 2D crack of scene s whose two tips, in `fracture`, are less than FEATURE horizons
- * apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as
- * half of a crack of twice its length. */
+/* Writes a remark to `out` for each 2D crack of scene s whose two tips are less than FEATURE horizons apart, so that
+ * they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as half of a
+ * crack of twice its length. fracture: holds the crack tips. */
 void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
 /* Adds a hint to *warning_list for each 2D pre-crack of run e that ends exactly on bonds, so that rounding decides
@@ -158,8 +158,9 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 /* Prints a line for each load and support of run e: its number of particles, area, force and moment. */
 void print_loads(const struct run *e);
 
-/* Writes a line to `out` if the loads of a single body in motion do not balance along an axis along which nothing holds
- * it, and act until the end of the run, with the motion of the body by them and a remedy. */
+/* Writes a line to `out` if the loads on a single body do not balance along an axis along which no support holds it,
+ * and act until the end of the run. The line states the velocity and the displacement that the body gains by them, and
+ * a remedy. */
 void print_advice_on_unbalanced_loads(const struct run *e, FILE *out);
 
 /* Prints which share of the loaded or supported face of boundary b of run e is not perpendicular to the axis of the

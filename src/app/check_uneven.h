@@ -25,9 +25,9 @@ struct uneven_list {
     struct uneven part[UNEVEN_MOST];
 };
 
-/* Returns true if a part whose cross-section has the relative error `error` [1] may be added to the list of the parts
- * with the largest errors. The list must not be full, or |error| must exceed 0.9 times the smallest error in it (errors
- * of equal parts differ a little by sampling). */
+/* Returns true if a part whose cross-section has the relative error `error` [1] qualifies for `list`, the list of the
+ * parts with the largest errors: if the list has fewer than UNEVEN_MOST parts, or |error| is more than 0.9 times the
+ * smallest |error| in it (errors of equal parts differ a little by sampling). */
 bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real error);
 
 /* Adds the narrow part `part` of a body to the list, which is sorted by error and has at most UNEVEN_MOST entries. If
@@ -41,8 +41,9 @@ void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *
  * direction. Returns the distance, or max_distance if the distance is larger [m]. */
 real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, int axis, real step, real max_distance);
 
-/* Prints to `out` a line for each narrow part in the list whose width was measured on a line through the part (member
- * `measured`). If no width was measured, prints a line for the part with the largest error. */
+/* Measures the width of each narrow part in the list along a line through the part, and prints to `out` a line for each
+ * part whose error the measurement confirms. If it confirms none, prints a line for the part with the largest error.
+ * Prints nothing if the list is empty. */
 void print_parts_of_uneven_width(struct uneven_list *list, FILE *out);
 
 /* Adds the necks of the piece list->piece of `run` (a body, or its part of one material) to the list. A neck is a

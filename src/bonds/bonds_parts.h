@@ -75,15 +75,17 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
                                  int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
                                  const int32_t *new_index);
 
-/* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there. Two marks of
- * each block of eight rows (bonds of eight particles) are included: whether a bond of the block has begun to soften,
- * and whether a bond may begin to before the next computation of forces. To be restored after the columns of changed
- * blocks. Returns FAILED if an entry is missing or its size differs. */
+/* Saves the softening state of all bonds b to the archive `a` if a->saving, else restores it from there. Marks of each
+ * block of eight rows (bonds of eight particles) are included: whether a bond of the block has begun to soften, and
+ * whether one may begin before the next computation of forces. When restoring, first restore the stored bond weights,
+ * which determine the number of bonds per block. Returns FAILED if an entry is missing or its size differs. Does
+ * nothing if all bonds are brittle. */
 status softening_save_or_load_bond_states(struct bonds *b, struct archive *a);
 
 /* Returns true if the row of particle i in the previous bonds maker->old lists the present neighbours of this particle,
  * so that the neighbours need not be searched for. This requires that such a row exists, and either that
- * maker->fresh[i] is 0, or that the row has all neighbours and the particle is peridynamic. */
+ * maker->fresh[i] is 0 (1: neighbours may differ from those in maker->old), or that the row has all neighbours and the
+ * particle is peridynamic. */
 static inline bool bond_row_previous_is_still_valid(const struct row_maker *maker, int64_t i)
 {
     const int64_t before = maker->old ? maker->old->row_of[i] : -1;
@@ -100,13 +102,13 @@ void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, in
 void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns the number of the previous block of eight rows (bonds of eight particles) in maker->old that equals block
- * `row_block` of b, so that its columns can be kept; -1 if the particles or their neighbours have changed
+ * `row_block` of b, so that its stored bonds can be used again; -1 if the particles or their neighbours have changed
  * (bonds_keep.c). */
 int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
 /* Copies block `previous_row_block` of eight rows (the bonds of eight particles) of the bonds `previous_bonds` to block
- * `row_block` of b: stencil, flags, limits and volumes, and the columns unless b has taken over the column arrays of
- * `previous_bonds`. */
+ * `row_block` of b: the stencil (bond pattern of a lattice that blocks share), flags, limits of breaking and volumes.
+ * Copies the stored bonds, too, unless b has taken over the bond arrays of `previous_bonds`. */
 void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds *previous_bonds, int64_t row_block,
                                              int64_t previous_row_block);
 

@@ -170,7 +170,7 @@ struct class_fit {
 /* Least-squares problem for the factors f on the weights of bonds near the surface of a body. Bonds of a group share a
  * factor; particles of a class have equal surroundings (alike). Minimise the sum over classes of (M - goal) Q (M -
  * goal) plus the sum over groups of prior (f - 1)^2 with low <= f <= high. M: third and fourth moments of the bonds of
- * a class, times f; goal: the same of a whole neighbourhood; Q: quadratic form of the class. */
+ * a class, times f; goal: these moments of a complete neighbourhood; Q: quadratic form of the class. */
 struct surface_fit_problem {
     const struct bond_classes *alike;
     int offsets, thirds, fourths; /* neighbours of a full neighbourhood; third and fourth moments of a bond */

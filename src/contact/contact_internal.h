@@ -181,9 +181,9 @@ real contact_pair_half_energy_of_particle(const struct contact *c, const struct 
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
                                  real previous_distance);
 
-/* Computes `table` for a flat face, the outermost layer of a square or cubic lattice of particles: height above this
- * layer as a function of the density that the particles of the layer give a point at this height. dim: dimensions of
- * space. */
+/* Computes `table` for a flat face, the outermost layer of a square or cubic lattice of particles: the height of a
+ * point above this layer as a function of the density at the point, i.e. the number of particles of the layer nearby,
+ * weighted by a kernel. dim: dimensions of space. */
 void contact_density_profile_make(struct contact_profile *table, int dim);
 
 /* Computes into c->face[row] the gap between the particle of row `row` of the contact list of c (particles of p that
@@ -204,9 +204,10 @@ void contact_face_add_force_on_particle(const struct contact *c, struct particle
 real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Computes the height above the face at which contact of particle number `row` of the contact list of c (particles of p
- * that may come into contact) begins, after a search, by the contact law of form `surface` (forces of smooth faces).
- * previous_entry: entry of the particle on the previous list `previous`, -1 if the particle was not listed. If the
- * particle was in contact on that list, the height is chosen so that its contact energy does not change. */
+ * that may come into contact) begins, for a new list of contacts, by the contact law of form `surface` (forces of
+ * smooth faces). previous_entry: entry of the particle on the previous list `previous`, -1 if the particle was not
+ * listed. If the particle was in contact on that list, the height is chosen so that its contact energy does not change.
+ * */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 
@@ -229,9 +230,9 @@ struct contact_weight {
 };
 
 /* Returns the contribution of entry `other` of the contact list of c (particles of p that may come into contact) to the
- * density of the face at entry `entry`, at the positions x - v t, where x and v are the present positions and
- * velocities and t is `time_before_present` [s]. The energy derivative in the result is that at the present
- * positions. */
+ * density at entry `entry` (number of particles of a face nearby, weighted by a kernel), at the positions x - v t,
+ * where x and v are the present positions and velocities and t is `time_before_present` [s]. The energy derivative in
+ * the result is that at the present positions. */
 struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
                                                         int64_t entry, int64_t other, real time_before_present);
 

@@ -38,8 +38,9 @@ struct response {
     real central, pressure, vector;
 };
 
-/* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond [N m], as the factors
- * of struct response. i: particle of p to whose bonds in b `bond` belongs; source: inputs of the bonds. */
+/* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond [N m], as the three
+ * factors of struct response (central, pressure and vector part of the force). i: particle of p to whose bonds in b
+ * `bond` belongs; source: inputs of the bonds. */
 struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
                                                 const struct bond_source *source, int32_t i, const struct bond *bond);
 

@@ -31,7 +31,8 @@ status engine_create_run_from_predecessor(struct run *e, const struct scene *s, 
 
 /* Replaces run e by a run with the same state, in which the particles are those that the levels of the mesh cells
  * require. cell_level: level of each mesh cell (0: finest; the edge doubles with each level, and coarse cells inside a
- * body have no particles). Returns FAILED if this fails, or if the frame that is being written cannot be written. */
+ * body have no particles). Returns FAILED if the new run cannot be made, or if the output of results that is in
+ * progress fails. */
 status engine_replace_particles(struct run *e, const uint8_t *cell_level);
 
 /* Transfers the particles of predecessor->run to the run e, which is being created, and stores the new indices of these
@@ -123,8 +124,8 @@ real engine_particle_count_between_positions(const struct scene *s, real low, re
 void engine_warn_of_temperatures(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
 /* Warns of materials of scene s whose strength surface (failure criterion in stress) averages strains over more than
- * half of the shortest side of a body: bending strains then have a mean near 0, and the body bears too much. p:
- * particles of the run. Adds the warnings to *warnings. */
+ * half of the shortest side of a body: the mean of bending strains is then near 0, and the computed strength too high.
+ * p: particles of the run. Adds the warnings to *warnings. */
 void engine_warn_of_wide_strength_means(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
 /* Adds warnings to *warnings about solids in the shapes of the bodies of scene s that add nothing to the body or remove

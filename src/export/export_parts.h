@@ -57,16 +57,17 @@ enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 /* Releases the list of particles *touched, which lammps_find_bonds_to_cut has made. */
 void touched_particles_free(struct touched *touched);
 
-/* Assigns a colour, a number from 0 on, to each particle of the list `touched`. For any two colours, the neighbouring
- * particles with these colours all have a bond, or the bonds of all of them must be cut. Particles with equal keys
- * share a colour where possible. Stores the colours in colour[touched->n]. Returns the number of colours, or 0 if more
- * than COLOURS_MOST are needed. */
+/* Assigns a colour, a number from 0 on, to each particle of the list `touched`, the particles at bonds that LAMMPS must
+ * cut. Colours become particle types of LAMMPS, of which pairs can be excluded from bonding. For any two colours, the
+ * neighbouring particles with these colours all have a bond, or the bonds of all of them must be cut. Particles with
+ * equal keys share a colour where possible. Stores the colours in colour[touched->n]. Returns the number of colours, or
+ * 0 if more than COLOURS_MOST are needed. */
 int particle_colours_assign_and_count(int32_t *colour, const struct touched *touched);
 
 /* Finds for each pair of colours (a, b) whether neighbouring particles with these colours are bonded or cut.
- * colour[touched->n]: colours of the listed particles. Returns an allocated array with the entry PAIR_BONDED, PAIR_CUT
- * or PAIR_UNKNOWN (no such neighbours) at index a * colour_count + b, which the caller releases with memory_free.
- * Returns NULL if a pair of colours has both bonded and cut neighbours. */
+ * colour[touched->n]: colours of the particles in `touched`, those at bonds that LAMMPS must cut. Returns an allocated
+ * array with the entry PAIR_BONDED, PAIR_CUT or PAIR_UNKNOWN (no such neighbours) at index a * colour_count + b, which
+ * the caller releases with memory_free. Returns NULL if a pair of colours has both bonded and cut neighbours. */
 uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colour_count, const struct touched *touched);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */

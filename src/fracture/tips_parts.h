@@ -15,9 +15,9 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
  * neither damaged nor part of a crack, so that whole pieces of the list can be skipped. */
 enum { TIP_PIECE = 64 };
 
-/* Returns the index after the last entry of a piece of the list of peridynamic particles of p, which is tested at once:
- * piece_start + TIP_PIECE, or the length of the list if that is smaller. piece_start: index of the first entry of the
- * piece. */
+/* Returns the end (index after the last entry) of the part of the list of peridynamic particles of p that begins at
+ * entry `piece_start`: piece_start + TIP_PIECE, or the length of the list if that is smaller. The list is tested in
+ * parts of TIP_PIECE entries. */
 static inline int64_t tip_end_of_particle_list_piece(const struct particles *p, int64_t piece_start)
 {
     return piece_start + TIP_PIECE < p->n_of[KIND_PD] ? piece_start + TIP_PIECE : p->n_of[KIND_PD];
@@ -38,9 +38,10 @@ struct tip_reach {
     int64_t ends, particles;
 };
 
-/* Computes for every tip of t, from those particles of p that belong to its crack: the largest distance of one from the
- * start of the crack, the position of this farthest particle, and the number of branches, the separate groups of
- * particles at most one spacing nearer. extent: receives an element for each of TIPS_MAX tips; must be 0 on entry. */
+/* Computes the extent of the crack of every tip of t from those particles of p that belong to the crack: the largest
+ * distance of a particle from the start of the crack, the position of this farthest particle, and the number of
+ * branches, i.e. of separate groups of particles at most one spacing nearer. extent: receives an element for each of
+ * TIPS_MAX tips; must be 0 on entry. */
 void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent);
 
 /* Search for particles near a position, with a result array that is reused. p: particles; c: search cells over their

@@ -134,14 +134,15 @@ void levels_make_cell_rows_and_node_spans(struct mesh_levels *l);
  * to no cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent cell. */
 void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
 
-/* Computes grid.momentum of the nodes of coarse cells of l, their momentum divided by their mass [m/s], from their
- * velocities: inverts mesh_velocity iteratively up to round-off, then sets the velocities to the result of
- * mesh_velocity. The nodal forces serve as working memory and are 0 afterwards. */
+/* Computes grid.momentum of the nodes of coarse cells of l, i.e. momentum divided by nodal mass [m/s], from the nodal
+ * velocities. It differs from the velocity where the mass matrix is not diagonal. Inverts the kernel mesh_velocity
+ * (velocities from momenta) iteratively up to round-off, then sets the velocities to the result of mesh_velocity. The
+ * nodal forces serve as working memory and are 0 afterwards. */
 void levels_compute_momenta_from_velocities(struct mesh_levels *l);
 
 /* Returns true if the coarse cells of the mesh l are consistent: the fine cells that make up a coarse cell all state
- * the level of this coarse cell (l->level: 0 for a fine cell by itself, k for a cell 2^k times as long), and each of
- * them is completely filled with material. */
+ * the level of this coarse cell (l->level: 0 for a fine cell that is not part of one, k for a cell 2^k times as long),
+ * and each of them is completely filled with material. */
 bool levels_are_consistent(const struct mesh_levels *l);
 
 /* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,

@@ -125,9 +125,9 @@ bool run_has_load_steps(const char *folder);
 
 /* Draws the force over the displacement of each support and rigid body that carries a force, with the largest force
  * marked, to the file `sheet`: the components along which it is driven. title: heading of the picture; history: history
- * of the run; spacing: of the particles, by which round-off is told from motion [m], 0: unknown. If no support or body
- * carries a force or moves, prints this instead of drawing, and names the probe that would record it. Returns FAILED if
- * gnuplot fails. */
+ * of the run; spacing: particle spacing [m], by which round-off is distinguished from motion; 0 if unknown. If no
+ * support or body carries a force or moves, prints this instead of drawing, and names the probe that would record it.
+ * Returns FAILED if gnuplot fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, double spacing);
 
 /* Draws, for a run with load steps, the energy release rate against the new crack area (R-curve) to the file `sheet`,

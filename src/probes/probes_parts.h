@@ -178,8 +178,9 @@ struct pulse_shares {
  * if nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
 
-/* Returns the reflected and transmitted amplitudes of the PULSE probe q, relative to its incident amplitude, and the
- * energy change of the present state relative to that of the run on material points alone. */
+/* Returns the results of the PULSE probe q: the amplitudes of the reflected and the transmitted wave divided by the
+ * incident amplitude, and the relative energy change of run o minus that of the baseline, a run with material points
+ * alone (0 without a baseline). */
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
 /* Tests whether broken bonds separate the bar of a SPALL probe into two parts along x. If so, stores the position of

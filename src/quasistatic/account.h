@@ -25,7 +25,7 @@ void work_account_start(struct account *account, const struct statics *s, const 
  * initial and final force times the displacement (trapezoidal rule), and `curved_path_work`, the work of loads beyond
  * that mean along the curved path of the solver [J]. Frees the storage of *account. Returns an estimate of the error of
  * the work [J]: its difference from the work with the initial or the final force alone, plus the largest work of the
- * round-off of forces, without which a body that a rigid one carries along without load seems to gain energy. */
+ * round-off of forces, which is the only work on an unloaded body that moves along with a rigid body. */
 real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
                                          struct loads *loads, real curved_path_work);
 

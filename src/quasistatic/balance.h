@@ -19,7 +19,8 @@ status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, r
 
 /* Converts the material points that broken bonds or high stress require to peridynamic particles and finds the
  * equilibrium again, until no further point must be converted. broken_bonds: number of directed bonds that have broken
- * since the last call. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
+ * since the last call (a bond between two particles counts twice). Returns FAILED if no equilibrium is found,
+ * INTERRUPTED if the run is to stop. */
 status equilibrium_convert_points_and_solve_again(struct run *e, int64_t broken_bonds);
 
 #endif

@@ -17,17 +17,18 @@ real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct 
 real crack_area_of_growth_by_one_spacing(const struct run *e);
 
 /* Determines the next crack increment of run e from trial equilibria, unless it is already known. Stores its bonds in
- * statics.next, its energies in statics.ahead, and the load size at which it is due in statics.due. Returns FAILED if a
- * trial equilibrium is not found. */
+ * statics.next, its energies in statics.ahead, and in statics.due the load size (a measure proportional to the loads)
+ * at which it releases as much energy as it costs. Returns FAILED if a trial equilibrium is not found. */
 status crack_increment_find(struct run *e);
 
 /* Breaks the bonds of the next crack increment of run e and moves the tips of SIF-driven cracks, without finding the
- * new equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken. */
+ * new equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken (a bond between two
+ * particles counts twice). */
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e);
 
 /* Finds the equilibrium after crack_increment_break_bonds_and_move_tips has broken bonds, and converts material points
- * near the crack to peridynamic particles. broken_bonds: number of directed bonds that were broken. Returns FAILED if
- * no equilibrium is found, INTERRUPTED if the run is to stop. */
+ * near the crack to peridynamic particles. broken_bonds: number of directed bonds that were broken (a bond between two
+ * particles counts twice). Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
 status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
 
 /* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the

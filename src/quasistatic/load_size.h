@@ -23,9 +23,9 @@ real increments_joint_energy_balance_load_size(const struct crack_increment *inc
  * releases as much energy as it costs; INFINITY if it has no cost or releases no energy. */
 real increment_energy_balance_load_size(const struct crack_increment *increment);
 
-/* Returns a fictitious crack increment before the first one, as if the pre-crack had reached its length by increments.
- * The cost is that of *first; the release is extrapolated linearly from the first two increments, *first and *second,
- * and is at least 0. */
+/* Returns a fictitious crack increment before the first one, for increments_joint_energy_balance_load_size, as if the
+ * pre-crack had reached its length by increments. Its cost is that of *first; its release is extrapolated linearly from
+ * those of the first two increments, *first and *second, and is at least 0. */
 struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
                                                           const struct crack_increment *second);
 

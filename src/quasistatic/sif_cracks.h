@@ -121,8 +121,9 @@ void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
 
 /* Determines the next crack increment of the SIF-driven cracks of run e under the present loads. For each tip that can
  * grow, a trial equilibrium with the bonds of its increment broken gives the energy that is released. Stores the bonds
- * to break in statics.next, the energies in statics.ahead, and the load size at which the increment is due in
- * statics.due. Returns FAILED if an equilibrium is not found. */
+ * to break in statics.next, the energies in statics.ahead, and in statics.due the load size (a measure proportional to
+ * the loads) at which the increment releases as much energy as it costs. Returns FAILED if an equilibrium is not found.
+ * */
 status sif_increment_find(struct run *e);
 
 /* Moves all tips of `cracks` that take part in the present crack increment (member `selected` of struct sif_crack_tip)

@@ -14,12 +14,14 @@ real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *
  * from the largest one by at most the fraction `ratio_tolerance` [1]. No more than `max_pairs` pairs of particles are
  * separated, plus pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the
  * next crack increment (statics.next). Adds their energy at the critical stretch to *added_energy [J], and the crack
- * area that corresponds to it to *added_crack_area [m^2]. Returns the number of directed bonds broken. */
+ * area that corresponds to it to *added_crack_area [m^2]. Returns the number of directed bonds broken (a bond between
+ * two particles counts twice). */
 int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
                                   real *added_crack_area);
 
-/* Breaks the bonds of the list l. What a bond stores beyond its energy at the critical stretch (member `held` of its
- * record) is not fracture energy; it is added to the energy lost by the solver and by the run. */
+/* Breaks all bonds of the list l. Each adds its energy at the critical stretch (member `held` of its record) to the
+ * fracture energy, even if its present stretch differs. The difference from its present energy is added to the energy
+ * lost by the solver and by the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l);
 
 /* Restores the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and flags
@@ -31,7 +33,7 @@ void break_list_add(struct break_list *l, const struct broken_bond *record);
 
 /* Returns a record of the intact bond `bond`, from which bonds_restore_broken can restore it after it has been broken.
  * row: index of its row (all bonds of one particle). limit: critical stretches; the member `held` of the record is half
- * of the energy of the bond at its critical stretch [J]. */
+ * of the energy of the bond at its critical stretch [J], since the row of the other particle has the other half. */
 struct broken_bond broken_bond_make_record(const struct bonds *b, const struct particles *p,
                                            const struct bond_limit *limit, const struct bond *bond, int64_t row);
 

@@ -28,9 +28,9 @@ void unknown_compute_reference_position(const struct statics *s, const struct pa
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
                                   const struct field *displacement);
 
-/* Stores in sign[d] the factor, +1 or -1, between component d of the displacement of the mirror image (of `loads`) with
- * the index `image` and that of the particle that it mirrors. All factors are +1 if `image` is a particle of the
- * body. */
+/* Stores in sign[d] the factor, +1 or -1, between component d of the displacement of the mirror image `image` (an index
+ * of the particle arrays) and that of the particle that it mirrors. All factors are +1 if `image` is a particle of the
+ * body. loads: planes of symmetry. */
 void image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
                                       real sign[DIM_MAX]);
 

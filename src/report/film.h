@@ -64,26 +64,28 @@ struct film {
     bool lacks_extra;      /* extra fields are left out, so that the page does not become too large */
 };
 
-/* Reads at most about sixty frames of the run in `folder`. Finds the particle sets that frames share, the largest
- * displacements and the ranges of the fields. scene: scene of the run, NULL if it is not known; it must exist as long
- * as f. Returns FAILED if a frame cannot be read. Release f with film_free. */
+/* Reads at most about sixty output frames (states) of the run in `folder` into f. Finds the sets of particles that
+ * consecutive frames have in common, the largest displacements and the ranges of the fields. scene: scene of the run,
+ * NULL if it is not known; it must exist as long as f. Returns FAILED if a frame cannot be read. Release f with
+ * film_free. */
 status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene);
 
-/* Selects the frames, the fields and the groups of particles (each shown as one particle) that the page shows, such
- * that the film f takes at most `byte_budget` bytes on the page. */
+/* Selects the frames, the fields and the groups of particles (each shown as one particle) that the page (the HTML
+ * report of a run) shows of f, such that they take at most `byte_budget` bytes on the page. */
 void film_select_within_byte_budget(struct film *f, int64_t byte_budget);
 
-/* Writes the selected frames and fields of the film f to `page` as the entry `film` of the JSON text of the page.
- * Returns FAILED if a frame cannot be read again. */
+/* Writes the selected output frames of a run and their fields, f, to `page` as the entry `film` of the JSON text of the
+ * page (the HTML report of the run). Returns FAILED if a frame cannot be read again. */
 status film_write(struct page *page, const struct film *f);
 
 /* Releases the lists and values of *f, which film_read_frames_of_run has allocated. */
 void film_free(struct film *f);
 
-/* Divides the particles of the set `particle_set` into groups, each of which the page shows as one particle. Particles
- * that fill a cubic cell with up to 2^f->levels particles along an edge become one group, if none of them is damaged or
- * has yielded in any frame and all have the same kind and fragment in every frame. Each other particle is a group. If
- * f->every is above 1, marks the groups that are not shown as hidden. */
+/* Divides the particles of the set `particle_set` (particles that several output frames have in common) into groups,
+ * each of which the page (the HTML report) shows as one particle. Particles that fill a cubic cell with up to
+ * 2^f->levels particles along an edge become one group, if none of them is damaged or has yielded in any frame and all
+ * have the same kind and fragment in every frame. Each other particle is a group. If f->every is above 1, marks the
+ * groups that are not shown as hidden. */
 void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f);
 
 /* Returns the edge [m] with which the page draws group number `group` of the set `particle_set`: the spacing of a
@@ -95,36 +97,38 @@ double film_edge_length_of_group(const struct film_set *particle_set, const stru
  * have, and sets f->fields, their number. */
 void film_fill_table_of_fields(struct film *f);
 
-/* Updates the ranges and the sampled values of all fields of the film from the frame `frame`, which was read from the
- * file `path`. */
+/* Updates the ranges and the sampled values of all fields of f, the output frames of a run that a report shows, from
+ * one of these frames, `frame`, which was read from the file `path`. */
 void film_update_field_ranges_from_frame(struct film *f, const struct output_frame *frame, const char *path);
 
-/* Chooses for each field of the film the range of values that its stored numbers of 8 or 16 bits represent. Sets `used`
- * to false for fields with the same value in all frames at all particles. */
+/* Chooses for each field of f, the output frames of a run that a report shows, the range of values that its stored
+ * numbers of 8 or 16 bits represent. Sets `used` to false for fields with the same value in all frames at all
+ * particles. */
 void film_choose_stored_ranges_of_fields(struct film *f);
 
-/* Returns the number of bytes that the page of film f stores in each frame for one group (particles that are shown as
- * one): the sum over all fields that are shown and change with time. */
+/* Returns the number of bytes that the page (HTML report) stores in each output frame of the run, f, for one group
+ * (particles that are shown as one): the sum over all fields that are shown and change with time. */
 int film_bytes_per_group_and_frame(const struct film *f);
 
-/* Returns true if the field `field` (a quantity of the particles) of the film f is written to the page: its values
- * differ between particles or frames, and it is not left out to save space. */
+/* Returns true if the field `field` (a quantity of the particles) of the run f is written to the page (HTML report):
+ * its values differ between particles or frames, and it is not left out to save space. */
 bool film_field_is_shown(const struct film *f, const struct film_field *field);
 
-/* Writes the values of one field in the frame `frame` to the page as an array with one value for each shown group of
- * `particle_set`: the mean over the particles of the group. path: file from which the frame was read. */
+/* Writes the values of one field in the output frame `frame` to the page p (HTML report) as an array with one value for
+ * each shown group of `particle_set` (particles that are shown as one): the mean over the particles of the group. path:
+ * file from which the frame was read. */
 void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
                                       const struct film_set *particle_set, const struct output_frame *frame,
                                       const char *path);
 
-/* Writes the surfaces of the rigid bodies of f->scene to the page as the entry `rigid`: line segments in 2D,
- * quadrilaterals in 3D. */
+/* Writes the surfaces of the rigid bodies of f->scene to the page p (HTML report) as the entry `rigid`: line segments
+ * in 2D, quadrilaterals in 3D. */
 void film_write_rigid_body_surfaces(struct page *p, const struct film *f);
 
-/* Writes the positions and rotations of the rigid bodies in frame number `frame_number` of the run to the page as the
- * entry `rigid` of that frame: for each body f->dim coordinates [m], the displacement of the nearest particle of
- * `frame`, by which magnified bodies move, and the rotation matrix [dim][dim] by rows. Writes nothing if the run has no
- * file of rigid bodies for this frame. */
+/* Writes the positions and rotations of the rigid bodies in frame number `frame_number` of the run to the page p (HTML
+ * report) as the entry `rigid` of that frame: for each body f->dim coordinates [m], the displacement of the nearest
+ * particle of `frame`, with which the page moves the rigid body if displacements are magnified, and the rotation matrix
+ * [dim][dim] by rows. Writes nothing if the run has no file of rigid bodies for this frame. */
 void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, const struct output_frame *frame,
                                            int frame_number);
 

@@ -22,29 +22,31 @@ struct page {
     int count;           /* number of arrays */
 };
 
-/* Initialises an empty page in memory, with an open JSON object to which entries are added. Returns FAILED if there is
- * no memory for it. Release p with page_release. */
+/* Initialises p, an empty page (HTML report) in memory, with an open JSON object to which entries are added. Returns
+ * FAILED if there is no memory for it. Release p with page_release. */
 status page_begin_in_memory(struct page *p);
 
-/* Adds the array values[value_count], with elements of type `type`, to the page, and a reference {array, type, length}
- * to it to the JSON. key: name of the reference; NULL if it is an element of a list. */
+/* Adds the array values[value_count] to the page p (HTML report): the values as encoded binary data, and a reference
+ * {array, type, length} to them in the JSON text. type: type of the elements; key: name of the reference; NULL if the
+ * reference is an element of a list. */
 void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t value_count);
 
-/* Adds the PNG picture in the file `path` to the page as an array of bytes, and a reference to it to the JSON.
- * entry_name: name of the reference; NULL if it is an element of a list. Returns FAILED if the file cannot be read. */
+/* Adds the PNG picture in the file `path` to the page p (HTML report) as an array of bytes, and a reference to this
+ * array to the JSON text. entry_name: name of the reference; NULL if it is an element of a list. Returns FAILED if the
+ * file cannot be read. */
 status page_add_picture(struct page *p, const char *entry_name, const char *path);
 
-/* Adds the time `moment` to the JSON of the page as text, in UTC to the minute. entry_name: name of the entry. Adds
- * nothing for a time that has no date in the calendar. */
+/* Adds the time `moment` to the JSON text of the page p (HTML report), in UTC to the minute. entry_name: name of the
+ * entry. Adds nothing for a time that has no date in the calendar. */
 void page_add_time(struct page *p, const char *entry_name, time_t moment);
 
-/* Adds the text of the file `file_name` in `folder` to the JSON of the page p as a string. entry_name: name of the
- * entry. Adds nothing if there is no such file. */
+/* Adds the text of the file `file_name` in `folder` to the JSON text of the page p (HTML report) as a string.
+ * entry_name: name of the entry. Adds nothing if there is no such file. */
 void page_add_text_file(struct page *p, const char *entry_name, const char *folder, const char *file_name);
 
-/* Completes the page and writes it to the file `path` under a temporary name, which is then renamed. title: title of
- * the window, without markup. Stores the size of the file in *file_size. Returns FAILED if the file cannot be written,
- * REFUSED if it is an input of this command. */
+/* Completes the page p (HTML report) and writes it to the file `path` under a temporary name, which is then renamed.
+ * title: title of the window, without markup. Stores the size of the file in *file_size. Returns FAILED if the file
+ * cannot be written, REFUSED if it is an input of this command. */
 status page_complete_and_write_file(struct page *p, const char *path, const char *title, int64_t *file_size);
 
 /* Releases the texts and arrays of the composed page *p. */

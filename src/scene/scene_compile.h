@@ -33,7 +33,7 @@ struct compile {
 bool compile_write_fault_and_return_false(struct compile *c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Returns the number, from 1, of the character to which `character` points in the text c->text of the expression. */
+/* Returns the number, from 1, of the character to which `character` points in c->text, the text of the expression. */
 int compile_character_number(const struct compile *c, const char *character);
 
 /* The name of a unit as text for a message; a struct, so that functions can return the text by value. */
@@ -47,41 +47,42 @@ struct named quantity_unit_name(const struct quantity *q);
 /* Returns true if the quantity q is a pure number, i.e. all exponents of its unit are 0. */
 bool quantity_is_dimensionless(const struct quantity *q);
 
-/* Returns the operand that is `entries_below_top` entries below the topmost one on the stack of the compilation c; 0:
- * the topmost operand. The stack must have this many entries. */
+/* Returns the operand that is `entries_below_top` entries below the topmost one on the operand stack of c, the
+ * compilation of an expression; 0: the topmost operand. The stack must have this many entries. */
 struct operand *compile_operand_from_top(struct compile *c, int entries_below_top);
 
-/* Appends a step that pushes a value on the stack: a number or variable (`operation` is EXPRESSION_NUMBER), a
- * coordinate or the time. quantity: unit and, for a number, value. Returns false, with a message in c->what, if the
- * expression is too long or the stack too deep. */
+/* Appends a step to the compiled expression c that pushes a value on the stack: a number or variable (`operation` is
+ * EXPRESSION_NUMBER), a coordinate or the time. quantity: unit and, for a number, value. Returns false, with a message
+ * in c->what, if the expression is too long or the stack too deep. */
 bool compile_append_push_of_operand(struct compile *c, enum expression_op operation, const struct quantity *quantity);
 
-/* Appends a step that applies `operation` to the topmost operand, or to two of them for a binary operation.
- * result_unit: unit of the result. Returns false, with a message in c->what, if the expression is too long or a
- * constant result is not finite. */
+/* Appends a step to the compiled expression c that applies `operation` to the topmost operand, or to two of them for a
+ * binary operation. result_unit: unit of the result. Returns false, with a message in c->what, if the expression is too
+ * long or a constant result is not finite. */
 bool compile_append_operation(struct compile *c, enum expression_op operation, const struct quantity *result_unit);
 
-/* Appends a step that negates the topmost operand. Returns false, with a message in c->what, if the expression is too
- * long. */
+/* Appends a step to the compiled expression c that negates the topmost operand. Returns false, with a message in
+ * c->what, if the expression is too long. */
 bool compile_append_negation(struct compile *c);
 
-/* Appends a step that adds (sign '+') or subtracts (sign '-') the two topmost operands. operator_in_text: position of
- * the operator in the text, for messages. Returns false, with a message in c->what, if their units differ. */
+/* Appends a step to the compiled expression c that adds (sign '+') or subtracts (sign '-') the two topmost operands.
+ * operator_in_text: position of the operator in the text, for messages. Returns false, with a message in c->what, if
+ * their units differ. */
 bool compile_append_sum_or_difference(struct compile *c, char sign, const char *operator_in_text);
 
-/* Appends a step that multiplies (sign '*') or divides (sign '/') the two topmost operands and their units.
- * operator_in_text: position of the operator in the text, for messages. Returns false, with a message in c->what, if
- * the result is invalid. */
+/* Appends a step to the compiled expression c that multiplies (sign '*') or divides (sign '/') the two topmost operands
+ * and their units. operator_in_text: position of the operator in the text, for messages. Returns false, with a message
+ * in c->what, if the result is invalid. */
 bool compile_append_product_or_quotient(struct compile *c, char sign, const char *operator_in_text);
 
-/* Appends a step that raises the second topmost operand to the power of the topmost one. operator_in_text: position of
- * the operator in the text, for messages. Returns false, with a message in c->what, if the exponent has a unit or the
- * power has none that is valid. */
+/* Appends a step to the compiled expression c that raises the second topmost operand to the power of the topmost one.
+ * operator_in_text: position of the operator in the text, for messages. Returns false, with a message in c->what, if
+ * the exponent has a unit or the result has no valid unit. */
 bool compile_append_power(struct compile *c, const char *operator_in_text);
 
-/* Checks that the two topmost operands have the same unit. A constant 0 without unit first receives the unit of the
- * other operand. operation_name: name of the operation, and operator_in_text: its position in the text, for the
- * message. Returns false, with a message in c->what, if the units differ. */
+/* Checks that the two topmost operands of the compiled expression c have the same unit. A constant 0 without unit first
+ * receives the unit of the other operand. operation_name: name of the operation, and operator_in_text: its position in
+ * the text, for the message. Returns false, with a message in c->what, if the units differ. */
 bool compile_match_units_of_top_operands(struct compile *c, const char *operation_name, const char *operator_in_text);
 
 #endif

@@ -146,8 +146,9 @@ status scene_parse_tree(struct reader *r, const char *text, size_t length, struc
 status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root);
 
 struct pilot_wish;
-/* Reads what a scene with `method: auto` requires of its pilot runs into *requirements, which the caller has set to
- * zero. root: tree of the scene; text[length]: its text. Returns REFUSED, with a message, for an invalid scene. */
+/* Reads what a scene with `method: auto` requires of its pilot runs (short runs by which the method is chosen) into
+ * *requirements, which the caller has set to zero. root: tree of the scene; text[length]: its text. Returns REFUSED,
+ * with a message, for an invalid scene. */
 status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                                struct pilot_wish *requirements);
 
@@ -190,11 +191,11 @@ bool quantity_has_unit(const struct quantity *q, enum unit kind_of_unit, char *m
 bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, size_t capacity);
 
 /* Describes a unit for messages, as `a length`, or as `in m^2 s^-1` if its kind has no name, in text[capacity]. twice:
- * 2 times the exponents of m, kg and s. */
+ * exponents of m, kg and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
 void unit_describe(const int twice[3], char *text, size_t capacity);
 
-/* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`, to text[capacity]. twice: 2 times the
- * exponents of m, kg and s. */
+/* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`, to text[capacity]. twice: exponents of m, kg
+ * and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
 void unit_write_text(const int twice[3], char *text, size_t capacity);
 
 /* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
@@ -202,9 +203,10 @@ void unit_write_text(const int twice[3], char *text, size_t capacity);
 /* Arguments that an expression may contain besides numbers and variables of the scene: x, y, z; t. */
 enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 
-/* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *expression; a number is
- * one, too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release `expression` with
- * expression_free. Returns REFUSED, with a message of one line that states the position of the fault in the text. */
+/* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *expression. A plain
+ * number is allowed, too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release `expression`
+ * with expression_free. Returns REFUSED, with a message of one line that states the position of the fault in the text.
+ * */
 status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned allowed_variables,
                        struct expression *expression);
 

@@ -1,5 +1,5 @@
-/* Rows of the table of keys (scene_keys.c): keys of boundary conditions. KEY(path, type, unit, member that stores the
- * value, range, default, meaning, ..). */
+/* Rows of the table of keys (scene_keys.c): keys of boundary conditions in input files. KEY(path, type, unit, place,
+ * range, default, meaning, ..); place: AT(structure, member) that stores the value, NOWHERE if nothing is stored. */
 KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
     "boundary conditions; each has one kind: fixed, velocity, displacement, rotation, traction, pressure, "
     "body_force, mirror or absorbing"),

@@ -1,5 +1,5 @@
-/* Rows of the table of keys (scene_keys.c): keys of materials. KEY(path, type, unit, member that stores the value,
- * range, default, meaning, ..). */
+/* Rows of the table of keys (scene_keys.c): keys of materials in input files. KEY(path, type, unit, place, range,
+ * default, meaning, ..); place: AT(structure, member) that stores the value, NOWHERE if nothing is stored. */
 KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
     KEY("materials", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or material)",
         "several materials, each with the keys of material and a name"),

@@ -1,5 +1,6 @@
-/* Rows of the table of keys (scene_keys.c): keys of solids, their motions and patterns. KEY(path, type, unit, member
- * that stores the value, range, default, meaning, ..). */
+/* Rows of the table of keys (scene_keys.c): keys of solids, their motions and patterns in input files. KEY(path, type,
+ * unit, place, range, default, meaning, ..); place: AT(structure, member) that stores the value, NOWHERE if nothing is
+ * stored. */
 KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
     "what bodies and regions are made of: one of the following, or a list of them, built in order"),
     KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),

@@ -25,8 +25,9 @@ status read_mesh_solid(struct reader *r, const struct yaml_node *solid_node, str
  * REFUSED, with a message, for an invalid key or file. */
 status read_image_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Adds a part to `body` for each material that the images in its shape assign to grey values. shape_node: node of the
- * shape. Returns REFUSED, with a message, for an unknown material or invalid grey values. */
+/* Adds a part (a region with its own material) to `body` for each material that the images in its shape assign to grey
+ * values. shape_node: node of the shape. Returns REFUSED, with a message, for an unknown material or invalid grey
+ * values. */
 status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body);
 
 /* Returns true if the node n of the scene is a key that moves, rotates or repeats a solid, such as `rotate`; false if
@@ -41,8 +42,8 @@ status read_motions(struct reader *r, const struct yaml_node *solid_node, struct
  * invalid. */
 status read_materials(struct reader *r, const struct yaml_node *root);
 
-/* Returns the node of the key by which a material yields: yield_stress, johnson_cook or hardening; material_node, the
- * node of the material, if it has none of them. */
+/* Returns the node of the key by which a material yields: yield_stress, johnson_cook or hardening. Returns
+ * material_node itself, the node of the material, if none of these keys is given. */
 const struct yaml_node *scene_material_yield_key(const struct yaml_node *material_node);
 
 /* Reads the flow law (yield stress as a function of plastic strain, rate and temperature), kinematic hardening and

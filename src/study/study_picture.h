@@ -89,7 +89,7 @@ bool study_varies_seed_alone(const struct varied_key *key, int key_count);
 bool key_has_no_physical_meaning(const char *key);
 
 /* Fills value_at[key_count][study->n] with the index of the value that each of the keys key[key_count] has in each run
- * of `study`; -1 for another value. The caller frees each value_at[k]. */
+ * of `study`; -1 if the run has none of the values of the key. The caller frees each value_at[k]. */
 void values_find_indices_in_runs(int **value_at, const struct study *study, const struct shown_key *key, int key_count);
 
 /* Assigns a role (enum key_role) to each key of the picture and sets the number of lines per panel. Keys with several
