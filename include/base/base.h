@@ -79,7 +79,7 @@ const char *status_message(void);
  * a scene; the text is empty if the position is unknown. */
 enum { PLACE_LENGTH = 512 };
 
-/* Prepends `location`, a position in the scene file such as `file:line:column: key: `, to the message set by
+/* Prepends `location`, a position in the input file such as `file:line:column: key: `, to the message set by
  * status_set. Does nothing if s is not REFUSED, if the message has a position already, or if `location` is empty.
  * Returns s. */
 status status_prepend_location(const char *location, status s);
@@ -102,8 +102,8 @@ _Noreturn void invariant_report_violation_and_abort(const char *condition, const
  * found the fault. cleanup: removes half-written files; NULL: no function. */
 void invariant_set_cleanup_callback(void (*cleanup)(void));
 
-/* Replaces every control character of `text`, a text from outside (names of files, columns, scenes), by `?` in place,
- * so that a terminal does not act on it. */
+/* Replaces every control character of `text`, a text from outside (names of files and columns, input files), by `?` in
+ * place, so that a terminal does not act on it. */
 void text_replace_control_characters(char *text);
 
 /* Replaces every control character among the `length` bytes of `text` by `?`, zero bytes included;

@@ -3,7 +3,7 @@
 #define CLEAVE_OUTPUT_FILTER
 
 /* Makes standard output and standard error print `?` in place of control characters and of characters that change the
- * direction of writing, whatever their source: headers of tables, names in scenes, words of the command line. Line
+ * direction of writing, whatever their source: headers of tables, names in input files, words of the command line. Line
  * feeds and tabs are kept; on standard error also the carriage return and the erasing of a line, which the progress
  * line needs. Call once, before anything is printed. */
 void standard_streams_replace_control_characters(void);

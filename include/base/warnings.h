@@ -29,7 +29,7 @@ bool warnings_add_if_new(struct warnings *w, const char *format, ...) __attribut
 void warnings_append_new_from_list(struct warnings *w, const struct warnings *source_list, int first_warning);
 
 /* Prints the warnings of the list w, from number `first_warning` (from 0) on, to `out`, each as one line `warning:
- * text`. The line ends with the location in the scene file, in brackets, if w->locate is set and finds the location. */
+ * text`. The line ends with the location in the input file, in brackets, if w->locate is set and finds the location. */
 void warnings_print(const struct warnings *w, int first_warning, FILE *out);
 
 /* Appends the warning `text` to the list w while a run is in progress. Prints it on standard error if the list did not

@@ -59,8 +59,9 @@ enum softening_due {
     DUE_DENIED = 4 /* bit that is set while blocks of eight rows are examined; becomes DUE_AGAIN afterwards */
 };
 /* Softening of bonds (data/softening.h): k is the largest stretch of a bond so far, s_0 and s_f are the stretches at
- * which it begins to soften and breaks, d is its softening, 0 to 1. A block of eight rows, the bonds of eight
- * particles, stores the arrays [columns 8] once one of its bonds has begun to soften. */
+ * which it begins to soften and breaks, d is its softening, 0 to 1. Arrays [columns 8] have eight entries, one per
+ * bond, for each column (one bond of each of eight particles). They are valid in a block of eight rows, the bonds of
+ * eight particles, once one of its bonds has begun to soften. */
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
     float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of each bond [1] */

@@ -51,10 +51,10 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
 void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_source *source,
                                          const struct region *region);
 
-/* Computes into *region the region whose particles are peridynamic from step 0 on: the region that the scene gives, and
- * a ball round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller frees
+/* Computes into *region the region whose particles are peridynamic from step 0 on: the region that the input file
+ * gives, and a ball round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller frees
  * region->solid; a region without solids is empty. p: particles; source: inputs of the bonds, with the pre-cracks;
- * scene_region: region of the scene, NULL: none; tip_radius: radius of the balls and cylinders [m]. */
+ * scene_region: region of the input file, NULL: none; tip_radius: radius of the balls and cylinders [m]. */
 void initial_pd_region_make(struct region *region, const struct region *scene_region, const struct particles *p,
                             const struct bond_source *source, real tip_radius);
 

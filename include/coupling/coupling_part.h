@@ -24,9 +24,9 @@ struct coupling_state {
     struct region start_region;   /* peridynamic from the start; no solids: empty */
 };
 
-/* Sets how peridynamic particles and material points of run e are coupled: by the method that the scene names (partial
- * stress, hand-shake, ...) if particles can convert, else by hand-shake. Then computes, for the present bonds, the
- * partial stresses of material points and the interface zone, in which motion is damped. */
+/* Sets how peridynamic particles and material points of run e are coupled: by the method that the input file names
+ * (partial stress, hand-shake, ...) if particles can convert, else by hand-shake. Then computes, for the present bonds,
+ * the partial stresses of material points and the interface zone, in which motion is damped. */
 void coupling_choose_and_compute_partial_stress(struct run *e);
 
 /* Makes the mesh of run e for the bodies in the reference frame, with the present partial stresses (parts of the stress
@@ -52,8 +52,8 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
 
 /* Decides whether each pre-crack of run e becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its
  * length, and makes particles peridynamic that are so from the start: particles near the ends of slits, with bonds cut
- * by a pre-crack, beside narrow voids, or in the region that the scene gives. Returns REFUSED, with a message, if the
- * scene requires slits where they are impossible. */
+ * by a pre-crack, beside narrow voids, or in the region that the input file gives. Returns REFUSED, with a message, if
+ * the input file requires slits where they are impossible. */
 status precracks_apply_as_slits_or_cut_bonds(struct run *e);
 
 /* Writes to text[capacity], in words, how pre-crack number `crack_number` (from 0) is represented: as a slit of the
@@ -77,7 +77,8 @@ bool flag_points_at_closing_slits(const struct notches *n, struct reference_fram
 void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
 
 /* Returns true if a mesh with the nodes of grid g has no free surfaces at voids (narrow gaps of a body): in 1D, and if
- * a mirror plane of scene s does not pass through nodes of g, because doubled nodes are not possible then. */
+ * a mirror plane of scene s (the input file) does not pass through nodes of g, because doubled nodes are not possible
+ * then. */
 bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s);
 
 /* Adds warnings to `warning_list` for voids of bodies of run e that are too narrow, so that the run treats them as
@@ -110,15 +111,15 @@ int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_b
  * changed. Energy lost by removing points from the mesh is added to e->damped. */
 void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count);
 
-/* Checks that the other settings of scene s allow reversion (`conversion.reversion: true`), in which peridynamic
- * particles become material points again. Returns REFUSED, with a message, if the scene has no conversion by stress,
- * another coupling than partial stress or hand-shake, growing cracks, a solver of a single equilibrium, or a material
- * that yields. Returns OK if the scene has no reversion. */
+/* Checks that the other settings of scene s (the input file) allow reversion (`conversion.reversion: true`), in which
+ * peridynamic particles become material points again. Returns REFUSED, with a message, if the scene has no conversion
+ * by stress, another coupling than partial stress or hand-shake, growing cracks, a solver of a single equilibrium, or a
+ * material that yields. Returns OK if the scene has no reversion. */
 status reversion_check_scene_allows_reversion(const struct scene *s);
 
 /* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no
  * bond near them was ever cut (reversion_select_particles_to_become_mpm). Called before each step; examines the
- * particles only in step numbers that are multiples of a period. Does nothing if the scene has no reversion. */
+ * particles only in step numbers that are multiples of a period. Does nothing if the input file has no reversion. */
 void reversion_convert_relaxed_particles_to_mpm(struct run *e);
 
 #endif

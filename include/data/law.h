@@ -23,7 +23,8 @@
     X(JOHNSON_COOK, johnson_cook, NULL, true, true)
 /* clang-format on */
 #define FLOW_NAME(upper, ...) FLOW_##upper,
-/* Flow laws, in the order of the table above; FLOW_LAWS is their number. */
+/* Flow laws (yield stress as a function of plastic strain, rate and temperature): an enumerator for each row of the
+ * table FLOWS, in its order. FLOW_LAWS is their number. */
 enum flow { FLOWS(FLOW_NAME) FLOW_LAWS };
 
 /* Properties of a flow law (yield stress as a function of plastic strain). flow_properties is indexed by enum flow.

@@ -130,8 +130,8 @@ real material_critical_stretch(const struct material *m, enum space space, real 
  * m->law is not given. */
 real material_uniaxial_stress(const struct material *m, real strain);
 
-/* Computes the members of m that follow from the members given by the scene, for the space `space` (line, plane stress,
- * plane strain or solid): hardening modulus, elastic constants and wave speeds. */
+/* Computes the members of m that follow from the members given by the input file, for the space `space` (line, plane
+ * stress, plane strain or solid): hardening modulus, elastic constants and wave speeds. */
 void material_compute_derived_constants(struct material *m, enum space space);
 
 /* Strengths [Pa] that follow from the strength surface of a material: in uniaxial tension, equal biaxial tension,

@@ -21,9 +21,9 @@ struct run_arguments {
 status option_read_count(int *count, const char *option, const char *text, int smallest, int largest);
 
 /* Reads the size of pictures from `text`, the text that follows the option `option`, into *size: width and height as
- * 1200x800 [pixel] or as 90mmx60mm, or the width alone, 90mm, with a height of 0 in *size: what each picture needs.
- * Returns REFUSED, with a message, unless the width is from 300 (53 mm) and the height from 226 (40 mm) to 10000
- * pixels, since a smaller picture has no space beside its letters. */
+ * 1200x800 [pixel] or as 90mmx60mm, or the width alone, as 90mm. The height in *size is then 0: each picture chooses
+ * its height. Returns REFUSED, with a message, unless the width is from 300 (53 mm) and the height from 226 (40 mm) to
+ * 10000 pixels, since a smaller picture has no space beside its letters. */
 status option_read_picture_size(struct picture_size *size, const char *option, const char *text);
 
 /* Reads the resolution of pictures [pixel/inch] from `text`, the text that follows the option `option`, into size->dpi.
@@ -44,9 +44,9 @@ status option_read_size_dpi_or_format(struct picture_size *size, const char *opt
  * that contains the usage line `cleave USAGE`, USAGE being the text `usage`. */
 status option_check_has_value(const char *option, bool has_value, const char *usage);
 
-/* Refuses a surplus word of a command that reads one scene: always returns REFUSED. scene: the scene that was read
- * before; word: the surplus word. The message suggests -s if the word has the form KEY=VALUE, else it names both
- * words. */
+/* Refuses a surplus word of a command that reads one input file: always returns REFUSED. scene: name of the input file,
+ * which was the earlier word; word: the surplus word. The message suggests -s if the word has the form KEY=VALUE, else
+ * it names both words. */
 status arguments_refuse_second_scene(const char *scene, const char *word);
 
 /* Removes the option `option`, which has no value, from the argument list argv and reduces *argc by one. Returns true

@@ -16,7 +16,7 @@ enum { ANY_MATERIAL = -1 }; /* piece.material: all materials of the body */
 bool piece_contains(const struct piece *p, const real *X, real tolerance);
 
 /* Computes a bounding box of the piece p (a body, or its part of one material). Stores its lower and upper corners [m]
- * in `lower` and `upper`. Returns false if the piece is unbounded, or if no point inside it is known. */
+ * in `lower` and `upper`. Returns false if the piece is unbounded, or empty as far as the boxes of its regions show. */
 bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* The lattice cells in the bounding box of a piece (a body, or its part of one material), one cell per possible

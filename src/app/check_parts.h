@@ -46,19 +46,20 @@ struct cost {
     struct warnings found;  /* warnings of the trial steps of this scene */
 };
 
-/* Estimates the cost c of a run by trial steps, on the number of OpenMP threads that is set. a: arguments from which
- * the scene was read, so that other scenes can be made for comparison. The run cannot be used afterwards. Returns
- * FAILED if one of the first steps fails. */
+/* Estimates the cost c (time and memory) of a run by trial steps, on the number of OpenMP threads that is set. a:
+ * arguments by which the input file was read, so that variants of it can be run for comparison. The run cannot be used
+ * afterwards. Returns FAILED if one of the first steps fails. */
 status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct run_arguments *a);
 
 /* ---- check_strength.c -------------------------------------------------------------------------------------------- */
 
-/* Prints, for a material m of scene s whose bonds soften, its strengths, its softening law and the limits that they set
- * to the horizon. Prints nothing for other materials. */
+/* Prints, for a material m of scene s (the input file) whose bonds soften, its strengths, its softening law and the
+ * largest or smallest horizon that these allow. Prints nothing for other materials. */
 void print_softening_and_horizon_limits(const struct scene *s, const struct material *m);
 
-/* Prints, as a part of a sentence, the strength that brittle bonds of material m have at the horizon of the scene s.
- * Prints nothing if no strength is known for these bonds. */
+/* Prints, as a part of a sentence, the tensile strength that follows from the critical stretch of brittle bonds of
+ * material m at the horizon of scene s (the input file), Young's modulus times critical stretch. Prints nothing for
+ * other models than the bond-based one, and for materials that yield. */
 void print_brittle_strength(const struct scene *s, const struct material *m);
 
 /* Size of a part or length of a crack [horizons] below which the two faces of the part, or the two tips of the crack,
@@ -71,9 +72,9 @@ void print_brittle_strength(const struct scene *s, const struct material *m);
  * plane and its bonds soften. */
 void print_smallest_precrack_length(const struct run *e);
 
-/* Writes a remark to `out` for each 2D crack of scene s whose two tips are less than FEATURE horizons apart, so that
- * they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as half of a
- * crack of twice its length. fracture: holds the crack tips. */
+/* Writes a remark to `out` for each 2D crack of scene s (the input file) whose two tips are less than FEATURE horizons
+ * apart, so that they affect each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as
+ * half of a crack of twice its length. fracture: holds the crack tips. */
 void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
 /* Adds a hint to *warning_list for each 2D pre-crack of run e that ends exactly on bonds, so that rounding decides
@@ -85,8 +86,8 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
 /* Prints to standard output the solver of the load steps of run e and the rule by which cracks grow. */
 void print_load_step_solver(const struct run *e);
 
-/* Writes a line to `out` for each setting of run e that reduces the accuracy of load steps: loads, supports, lengths of
- * cracks. */
+/* Writes a line to `out` for each setting of loads, supports or lengths of cracks of run e that reduces the accuracy of
+ * load steps. */
 void print_load_step_accuracy_advice(const struct run *e, FILE *out);
 
 /* Estimates the cost of a run with load steps from the time of its first equilibrium, into *c. The run cannot be
@@ -99,8 +100,8 @@ void print_load_steps_cost(const struct run *e, const struct cost *cost, int thr
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints for each file from which the scene of run e reads a solid whether its surface is closed, and the volume that
- * the surface encloses. */
+/* Prints for each file from which the input file of run e reads a solid whether its surface is closed, and the volume
+ * that the surface encloses. */
 void print_shape_file_volumes(const struct run *e);
 
 /* Prints a line for each body of run e that consists of several pieces without bonds between them (check_pieces.c). */
@@ -112,26 +113,29 @@ void print_bodies_of_separate_pieces(const struct run *e);
  * symmetry of run e counts with its mirror image. Returns INFINITY if the solid has none of these. */
 real solid_smallest_edge(const struct run *e, const struct solid *solid);
 
-/* Returns the number of particle layers across the thin parts of a body of run e and the bodies joined to it. For a
- * single solid this is its smallest edge divided by the spacing, INFINITY unless this is less than `max_layers`. For
- * other shapes it is a count, INFINITY unless at least half of the particles have fewer layers than half of
- * `max_layers`. Returns INFINITY for a body that is joined to one of a lower index. body_index: index of the body. */
+/* Returns the number of particle layers across the thin parts of body number `body_index` of run e, together with the
+ * bodies joined to it; INFINITY if it is not thin. A body of a single solid is thin if its smallest edge is less than
+ * `max_layers` spacings; this number of spacings is returned. Any other body is thin if across at least half of its
+ * particles it has fewer layers than max_layers / 2; the median number of layers there is returned. Returns INFINITY
+ * for a body that is joined to a body of lower index. */
 double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
 
 /* Writes a line to `out` for each body of run e of nearly incompressible material whose particles near faces are too
  * stiff, or whose mesh cells are too soft, in bending. */
 void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
 
-/* Writes a line to `out` for each support of run e that holds a layer of particles behind a face, a horizon deep by
- * default, and so stiffens a body of bonds in equilibrium by more than a few percent. */
+/* Writes a line to `out` for each support of run e that prescribes the motion of a layer of particles behind a face, a
+ * horizon deep by default, if this layer stiffens a body of bonds in equilibrium by more than a few percent. */
 void print_advice_on_held_layers(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints size and number of the coarse mesh cells of the run e, and why coarse cells are used or not. */
+/* Prints size and number of the coarse mesh cells of the run e (larger cells, in which no particles are made), and why
+ * they are used or not. */
 void print_coarse_cells(const struct run *e);
 
-/* Prints the memory and time that coarse cells of the mesh save. cost: measured cost of the run. */
+/* Prints the memory and time that coarse cells of the mesh (larger cells, in which no particles are made) save. cost:
+ * measured cost of the run. */
 void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
@@ -174,9 +178,9 @@ void print_volume_filled_by_particles(const struct run *e);
 
 /* ---- check_idle.c ------------------------------------------------------------------------------------------------ */
 
-/* Adds one line to *warning_list with those keys of the scene s that have no effect in it. Adds further lines for
- * materials of which no body consists, and for fracture criteria in scenes without bonds. No line about keys is added
- * for a scene that gives all keys, as the scene.yaml of a run does. */
+/* Adds one line to *warning_list with those keys of scene s (the input file) that have no effect in it. Adds further
+ * lines for materials of which no body consists, and for fracture criteria in runs without bonds. Adds no line about
+ * keys if the input file gives all keys, as the file scene.yaml of a run does. */
 void hint_keys_without_effect(const struct scene *s, struct warnings *warning_list);
 
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
@@ -187,26 +191,26 @@ void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *warning
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
-/* Writes to `out` a line for each property of the scene that limits the accuracy of the run e, with the size of the
- * error and a remedy. The run must not have taken a step. */
+/* Writes to `out` a line for each property of the input file that limits the accuracy of the run e, with the size of
+ * the error and a remedy. The run must not have taken a step. */
 void print_accuracy_advice(const struct run *e, FILE *out);
 
-/* Adds a line to *warning_list for each setting of the scene that costs more than necessary or has no effect, and for
- * each end of a crack that is exactly on bonds. The run must not have taken a step. */
+/* Adds a line to *warning_list for each setting of the input file that costs more than necessary or has no effect, and
+ * for each end of a crack that is exactly on bonds. The run must not have taken a step. */
 void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list);
 
-/* Writes to `out` by how much the stiffness of a part of scene s that is `layer_count` particle layers thick differs at
- * most from that of the material, for example "about 2 % in bending and tension". In 3D, torsion is included. The
- * values are from a table. surface: correction of bonds near faces. */
+/* Writes to `out` by how much the stiffness of a part of scene s (the input file) that is `layer_count` particle layers
+ * thick differs at most from that of the material, for example "about 2 % in bending and tension". In 3D, torsion is
+ * included. The values are from a table. surface: correction of bonds near faces. */
 void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out);
 
 /* Writes a line to `out` for each body of run e that has thin parts and whose particles are read from a list and form
  * no lattice. */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
-/* Returns true if the scene of run e equals its mirror image in the plane normal to axis `normal_axis` through the
- * middle of its particles. *plane_position receives the position of this plane along the axis [m]
- * (check_symmetry.c). */
+/* Returns true if the input file of run e equals its mirror image in the plane normal to axis `normal_axis` through the
+ * middle of its particles. *plane_position receives the position of this plane along the axis [m] (check_symmetry.c).
+ * */
 bool scene_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
 
 #endif

@@ -90,15 +90,16 @@ status manual_print_page_on_runs(FILE *out);
 /* Prints the manual page cleave.1 to `out`, in troff. Returns FAILED if it cannot be written. */
 status manual_print(FILE *out);
 
-/* Finds the JSON schema of scenes, in the installation or else in the build folder of the program, and writes its path
- * to path[capacity]. Returns false if neither has one. */
+/* Finds the JSON schema of input files, in the installation or else in the build folder of the program, and writes its
+ * path to path[capacity]. Returns false if neither has one. */
 bool schema_find_file_path(char *path, size_t capacity);
 
-/* Finds the folder `inputs` of manual and scenes, in the installation or else in the source tree of the program, and
- * writes its path to path[capacity]. Returns false if neither has one. */
+/* Finds the folder `inputs` of manual and input files, in the installation or else in the source tree of the program,
+ * and writes its path to path[capacity]. Returns false if neither has one. */
 bool documents_find_folder_path(char *path, size_t capacity);
 
-/* Prints to `out` the names of the kinds of scenes that the command `cleave new` can create, separated by blanks. */
+/* Prints to `out` the names of the kinds of input files that the command `cleave new` can create, separated by blanks.
+ * */
 void new_scene_kinds_print(FILE *out);
 
 /* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the

@@ -7,13 +7,14 @@
 /* Returns true if `folder` contains a run of LAMMPS that `cleave export lammps` has set up. */
 bool lammps_run_exists(const char *folder);
 
-/* Lists the frames of the run of LAMMPS in `folder`, from its file plate.dump. Stores their number in *frame_count and
- * an allocated array in *frames, which the caller releases with memory_free. Returns FAILED if in.lammps or plate.dump
- * cannot be read or has no frame. */
+/* Lists the output frames (states at output times) of the run of LAMMPS in `folder`, from its file plate.dump. Stores
+ * their number in *frame_count and an allocated array in *frames, which the caller releases with memory_free. Returns
+ * FAILED if in.lammps or plate.dump cannot be read or has no frame. */
 status lammps_frames_list(const char *folder, int *frame_count, struct listed_frame **frames);
 
-/* Reads the frame with the number `frame_number` of the run of LAMMPS in `folder` into *f. The frame has no stress.
- * Returns FAILED if a file of the run cannot be read or is damaged. Release f with frame_free. */
+/* Reads the output frame (state at one output time) with the number `frame_number` of the run of LAMMPS in `folder`
+ * into *f. The frame has no stress. Returns FAILED if a file of the run cannot be read or is damaged. Release f with
+ * frame_free. */
 status lammps_run_read_frame(struct output_frame *f, const char *folder, int frame_number);
 
 /* Prints the differences between the run of LAMMPS in `folder` and the particle positions that Cleave has computed for

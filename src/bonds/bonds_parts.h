@@ -120,7 +120,8 @@ struct row_block_found {
 };
 
 /* Returns a newly allocated copy of the neighbours listed in row[0] .. row[row_count - 1] (each row has the bonds of
- * one particle), for bond_rows_restore_found_neighbours. Release with memory_free. */
+ * one particle), so that a second pass over the rows, after the bonds were counted, need not search again
+ * (bond_rows_restore_found_neighbours). Release with memory_free. */
 struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, int row_count);
 
 /* Copies the neighbours that bond_rows_save_found_neighbours has saved in `saved` back to row[0] .. row[row_count - 1]
@@ -198,10 +199,10 @@ struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 void stencil_cache_free(struct stencil_cache *t);
 
 /* Searches the cache bonds->stencil_cache for eight consecutive particles whose bonds have the same bits (lengths,
- * weights and sums of weights) as `bonds`, the bonds of the eight particles from `first_particle` on, none of which a
- * pre-crack may cut. Returns the first of the particles found; -1 if the cache has no such particles, or if the lattice
- * is not uniform. If the lattice is uniform and the search fails, adds `bonds` to the cache. weight_inputs: inputs
- * besides lattice sites on which weights depend; NULL if there are none. */
+ * weights and sums of weights) as `bonds`, the bonds of the eight particles from `first_particle` on. None of these
+ * bonds may be cut by a pre-crack. Returns the first of the particles found; -1 if the cache has no such particles, or
+ * if the lattice is not uniform. If the lattice is uniform and the search fails, adds `bonds` to the cache.
+ * weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are none. */
 int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 
@@ -269,8 +270,9 @@ int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t 
 
 /* Fills the columns of block `row_block` of eight rows of b, which stores the bonds of eight particles, from the first
  * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, neighbourhood volumes
- * and the flag `aligned` of the block. p: particles; one_offset_per_column: true if the bonds of each column have the
- * same offset on the lattice, as bond_row_block_count_columns returns. */
+ * and the flag `aligned` of the block (1: its eight particles have consecutive indices). p: particles;
+ * one_offset_per_column: true if the bonds of each column have the same offset on the lattice, as
+ * bond_row_block_count_columns returns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
@@ -334,9 +336,9 @@ bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, 
  * bond arrays of b. */
 void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number, const struct column_copy *bonds);
 
-/* Sets moduli and normalisation of the state-based model in b->state, and allocates the weighted volumes there. source:
- * inputs of the bonds. Call before rows (bonds of particles) are filled (bonds_state.c). Does nothing for bond-based
- * models. */
+/* Sets the elastic moduli of the state-based model in b->state, and the rule by which they are divided by a weighted
+ * volume Q, and allocates the volumes Q of all neighbourhoods there. source: inputs of the bonds. Call before rows
+ * (bonds of particles) are filled (bonds_state.c). Does nothing for bond-based models. */
 void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *source);
 
 /* Allocates the arrays of b->state, the data of state-based models for each row (the bonds of one particle of p),

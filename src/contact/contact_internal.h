@@ -88,7 +88,8 @@ void contact_activate_newly_moving_particles(struct contact *c, const struct par
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
  * (contact_select_active_and_count_changes): one per particle of the contact list of c (particles that may come into
- * contact) for the form `surface`, one per pair for the form `pair`. Returns NULL if overlapping contacts act. */
+ * contact) for the contact law of form `surface` (forces of smooth faces), one per pair of particles for the form
+ * `pair`. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_selection_marks(const struct contact *c)
 {
     return c->by_overlap ? NULL : c->touch;

@@ -21,10 +21,10 @@ struct predecessor {
     int32_t *now; /* [particles and mirror images of `run`] their indices in the new run; -1: not in the new run */
 };
 
-/* Creates the run e of the scene s without the particles of the cells listed in `omitted_cells`: cells inside a body
- * that coarse cells replace. output: output of the run. predecessor: NULL, or a run from which particles, bonds and
- * time are transferred. In the latter case the caller sets all other state that time steps have changed, and the levels
- * of the mesh cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
+/* Creates the run e of scene s (the input file) without the particles of the cells listed in `omitted_cells`: cells
+ * inside a body that coarse cells replace. output: output of the run. predecessor: NULL, or a run from which particles,
+ * bonds and time are transferred. In the latter case the caller sets all other state that time steps have changed, and
+ * the levels of the mesh cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
 status engine_create_run_from_predecessor(struct run *e, const struct scene *s, struct output *output,
                                           struct cells_without_particles omitted_cells,
                                           struct predecessor *predecessor);
@@ -47,8 +47,8 @@ void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
  * Each part saves only the state that a->scope selects. Returns FAILED if an entry is missing or has another size. */
 status parts_save_or_load_state(struct run *e, struct archive *a);
 
-/* Adds warnings to *warnings about bodies of scene s in which particles of p have no neighbours within the horizon. b:
- * bonds; cells: neighbour search over reference positions. */
+/* Adds warnings to *warnings about bodies of scene s (the input file) in which particles of p have no neighbours within
+ * the horizon. b: bonds; cells: neighbour search over reference positions. */
 void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
                                        const struct particles *p, struct warnings *warnings);
 
@@ -56,10 +56,10 @@ void engine_warn_of_isolated_particles(const struct scene *s, const struct cells
  * corners box_low[dim] and box_high[dim] [m]. */
 bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin);
 
-/* Adds warnings to *warnings about pre-cracks of scene s that are outside of all bodies, cut no bond or cannot grow,
- * and about probes of cracks where no bond can break. p, b, loads: particles, bonds and loads; cells: neighbour search
- * over reference positions; longest_bond: length of the longest bonds [m]; wave_speed: speed of the fastest wave in any
- * material [m/s]. */
+/* Adds warnings to *warnings about pre-cracks of scene s (the input file) that are outside of all bodies, cut no bond
+ * or cannot grow, and about probes of cracks where no bond can break. p, b, loads: particles, bonds and loads; cells:
+ * neighbour search over reference positions; longest_bond: length of the longest bonds [m]; wave_speed: speed of the
+ * fastest wave in any material [m/s]. */
 void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct cells *cells,
                            const struct bonds *b, const struct loads *loads, real longest_bond, real wave_speed,
                            struct warnings *warnings);
@@ -69,21 +69,22 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
 void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
                                         const struct crack_tips *tips, real wave_speed, struct warnings *warnings);
 
-/* Adds a warning to *warnings if all loads of scene s are tractions that press the pre-cracks shut. p: particles. */
+/* Adds a warning to *warnings if all loads of scene s (the input file) are tractions that press the pre-cracks shut. p:
+ * particles. */
 void engine_warn_of_cracks_pressed_shut(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
 /* Returns a new array [p->n] with the components of motion that supports in `loads` prescribe for each particle, as
  * bits (bit d for component d). The caller releases the array with memory_free. */
 uint8_t *engine_find_prescribed_components(const struct loads *loads, const struct particles *p);
 
-/* Adds warnings to *warnings about values that look like mistakes of units, unless the key `accept` of the scene
- * silences them. s, p, loads: scene, particles and loads; clock: time step and number of steps; wave_speed: speed of
- * the fastest wave in any material [m/s]. */
+/* Adds warnings to *warnings about values that look like mistakes of units, unless the key `accept` of the input file
+ * silences them. s: scene (the input file); p, loads: particles and loads; clock: time step and number of steps;
+ * wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *loads,
                                    const struct run_clock *clock, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports of scene s whose prescribed speed is so high that bonds break between the
- * particles that the support drives and their neighbours. p, loads: particles and loads. */
+/* Adds warnings to *warnings about supports of scene s (the input file) whose prescribed speed is so high that bonds
+ * break between the particles that the support drives and their neighbours. p, loads: particles and loads. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *warnings);
 
@@ -91,68 +92,74 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
  * in any material. */
 void engine_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports of scene s that hold all particles of p, about pairs of supports that
- * prescribe different motions of the same particles, and about loads on particles whose motion a support prescribes. */
+/* Adds warnings to *warnings about supports of scene s (the input file) that hold all particles of p, about pairs of
+ * supports that prescribe different motions of the same particles, and about loads on particles whose motion a support
+ * prescribes. */
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 
-/* Warns of each support of scene s at an end face of a body that lies within a grid cell instead of on a row of nodes,
- * where cells have an edge of two particle spacings: the body is then computed too long or too short. The warning
- * states by how much. p, loads: particles and loads; grid: any grid of the run, whose members `anchor` and `h` give
- * the positions of all nodes. */
+/* Warns of each support of scene s (the input file) at an end face of a body that lies within a grid cell instead of on
+ * a row of nodes, where cells have an edge of two particle spacings: the body is then computed too long or too short.
+ * The warning states by how much. p, loads: particles and loads; grid: any grid of the run, whose members `anchor` and
+ * `h` give the positions of all nodes. */
 void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
                                           const struct grid *grid, struct warnings *warnings);
 
-/* Adds warnings to *warnings about bodies of scene s only a few particles (of p) thick, whose stiffness the correction
- * of bonds near faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds near faces; the function
- * also warns if the solver that computes these weights has not converged. */
+/* Adds warnings to *warnings about bodies of scene s (the input file) only a few particles (of p) thick, whose
+ * stiffness the correction of bonds near faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds
+ * near faces; the function also warns if the solver that computes these weights has not converged. */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
                                       const struct surface_weights *weights, struct warnings *warnings);
 
-/* Computes the bounding box of those particles of p that are in body number `body_number` of scene s or in a body
- * joined to this body, and stores the corners of the box in box_low[dim] and box_high[dim] [m]. Returns true, or false
- * if there are no such particles. */
+/* Computes the bounding box of those particles of p that are in body number `body_number` of scene s (the input file)
+ * or in a body joined to this body, and stores the corners of the box in box_low[dim] and box_high[dim] [m]. Returns
+ * true, or false if there are no such particles. */
 bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
                                          real *box_low, real *box_high);
 
-/* Returns the number of particles of scene s in a row along axis `axis` between the coordinates `low` and `high` [m],
- * including mirror images beyond planes of symmetry. */
+/* Returns the number of particles of scene s (the input file) in a row along axis `axis` between the coordinates `low`
+ * and `high` [m], including mirror images beyond planes of symmetry. */
 real engine_particle_count_between_positions(const struct scene *s, real low, real high, int axis);
 
-/* Adds warnings to *warnings about room temperatures of the materials of scene s that seem to be in degrees Celsius
- * and, if particles p have temperatures, about materials that start at different ones, or flow without being heated. */
+/* Adds warnings to *warnings about room temperatures of the materials of scene s (the input file) that seem to be in
+ * degrees Celsius and, if particles p have temperatures, about materials that start at different ones, or flow without
+ * being heated. */
 void engine_warn_of_temperatures(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Warns of materials of scene s whose strength surface (failure criterion in stress) averages strains over more than
- * half of the shortest side of a body: the mean of bending strains is then near 0, and the computed strength too high.
- * p: particles of the run. Adds the warnings to *warnings. */
+/* Warns of materials of scene s (the input file) whose strength surface (failure criterion in stress) averages strains
+ * over more than half of the shortest side of a body: the mean of bending strains is then near 0, and the computed
+ * strength too high. p: particles of the run. Adds the warnings to *warnings. */
 void engine_warn_of_wide_strength_means(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds warnings to *warnings about solids in the shapes of the bodies of scene s that add nothing to the body or remove
- * nothing from it. */
+/* Adds warnings to *warnings about solids in the shapes of the bodies of scene s (the input file) that add nothing to
+ * the body or remove nothing from it. */
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *warnings about surfaces of scene s, read from files, whose closed shells overlap or are inside one
- * another, so that a part of the body is enclosed twice. */
+/* Adds warnings to *warnings about surfaces of scene s (the input file), read from files, whose closed shells overlap
+ * or are inside one another, so that a part of the body is enclosed twice. */
 void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *warnings about bodies of scene s that move at the start and meet no other body within the duration.
- * p: particles. */
+/* Adds warnings to *warnings about bodies of scene s (the input file) that move at the start and meet no other body
+ * within the duration. p: particles. */
 void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds a warning to *warnings about each pair of bodies of scene s that overlap at the start. p: particles. */
+/* Adds a warning to *warnings about each pair of bodies of scene s (the input file) that overlap at the start. p:
+ * particles. */
 void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds warnings to *warnings about planes of symmetry of scene s with a gap between plane and bodies, and about parts,
- * initial states or a pd.region that contain no particle of p. horizon: length of the longest bonds [m]. */
+/* Adds warnings to *warnings about planes of symmetry of scene s (the input file) with a gap between plane and bodies,
+ * and about parts of bodies with materials of their own, initial states or a pd.region that contain no particle of p.
+ * horizon: length of the longest bonds [m]. */
 void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
                                               struct warnings *warnings);
 
-/* Adds warnings to *warnings about times of frames in scene s that are beyond the end of the run. */
+/* Adds warnings to *warnings about times of output frames in scene s (the input file) that are beyond the end of the
+ * run. */
 void engine_warn_of_frames_after_end_of_run(const struct scene *s, struct warnings *warnings);
 
-/* Checks whether the run of scene s fits the memory that the process may use. p: particles; bond_source: inputs of the
- * bonds. Returns OK if the run fits, else REFUSED, with a message that contains the estimated size. */
+/* Checks whether the run of scene s (the input file) fits the memory that the process may use. p: particles;
+ * bond_source: inputs of the bonds. Returns OK if the run fits, else REFUSED, with a message that contains the
+ * estimated size. */
 status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *bond_source);
 
 #endif

@@ -17,9 +17,9 @@ struct export_mesh {
     int64_t first[258]; /* first position of material number m; [materials]: n */
 };
 
-/* Reads the scene of the request with its overrides, creates all particles of its bodies and sorts the particles by
- * material and id into *m. Returns REFUSED, with a message, if the scene is faulty. Release *m with export_mesh_free,
- * also after a failure. */
+/* Reads the input file of the request with its overrides, creates all particles of its bodies and sorts the particles
+ * by material and id into *m. Returns REFUSED, with a message, if the input file is faulty. Release *m with
+ * export_mesh_free, also after a failure. */
 status export_mesh_make(struct export_mesh *m, const struct export_request *request);
 
 /* Name of a set of nodes in the exported mesh; a structure, so that functions can return a name by value. */

@@ -27,13 +27,14 @@ struct lammps_settings {
     struct lammps_setting of[SETTINGS_MOST];
 };
 
-/* Lists in *changes the keys of scene s that must be changed so that LAMMPS gives the same results, with the required
- * values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED, with a message, if
- * LAMMPS lacks a feature of the scene. */
+/* Lists in *changes the keys of scene s (the input file) that must be changed so that LAMMPS gives the same results,
+ * with the required values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED, with a
+ * message, if LAMMPS lacks a feature of the scene. */
 status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style);
 
-/* Returns true if the results of LAMMPS differ in a way that no key of scene s removes: in the state-based model LAMMPS
- * continues to normalise by the weighted volume of the intact neighbourhood after bonds have broken. */
+/* Returns true if the results of LAMMPS differ in a way that no key of scene s (the input file) removes: in the
+ * state-based model LAMMPS continues to normalise by the weighted volume of the intact neighbourhood after bonds have
+ * broken. */
 bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */
@@ -95,10 +96,10 @@ struct exported {
     int64_t bonds, cut; /* number of pairs bonded in the scene; of pairs that LAMMPS would bond in addition */
 };
 
-/* Compares the bonds that LAMMPS would create with those of the scene. Stores the numbers of bonds in exported->bonds
- * (bonds of the scene) and exported->cut (further ones of LAMMPS, which must be cut). Lists in *touched the particles
- * at bonds that must be cut. Returns REFUSED, with a message, if LAMMPS would lack a bond of the scene or give a bond
- * another weight. Release *touched with touched_particles_free. */
+/* Compares the bonds that LAMMPS would create with those of Cleave. Stores the numbers of bonds in exported->bonds
+ * (bonds of Cleave) and exported->cut (further bonds of LAMMPS, which must be cut). Lists in *touched the particles at
+ * bonds that must be cut. Returns REFUSED, with a message, if LAMMPS would lack a bond of Cleave or give a bond another
+ * weight. Release *touched with touched_particles_free. */
 status lammps_find_bonds_to_cut(struct touched *touched, struct exported *exported);
 
 /* The n types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs
@@ -111,7 +112,7 @@ struct lammps_types {
     int32_t (*pair)[2]; /* [pairs] pairs of types excluded while bonds are created */
 };
 
-/* Assigns a LAMMPS type to each particle of the scene of `exported`. Particles of one type have the same material and
+/* Assigns a LAMMPS type to each particle of the run of `exported`. Particles of one type have the same material and
  * loads. Where bonds must be cut, further types distinguish particles, so that pairs of types can be excluded from
  * bonding. Stores the types in *types. Returns REFUSED, with a message, if too many types are needed. Release *types
  * with lammps_types_free. */
@@ -129,7 +130,7 @@ status lammps_find_loads_of_particles(struct exported *exported);
 
 /* Computes into `velocity` the velocity [m/s] with which the particle with the index `particle` of the export
  * `exported` starts in LAMMPS. Components that a boundary condition prescribes have their value at half a time step,
- * all others the value of the initial velocity in the scene. */
+ * all others the value of the initial velocity in the input file. */
 void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX]);
 
 /* Writes the names of all per-particle columns exported->column to the file `file`, as arguments of the LAMMPS command

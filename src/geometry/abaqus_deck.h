@@ -28,9 +28,10 @@ struct deck {
     bool in_step;      /* between *STEP and *END STEP, whose loads are not read */
 };
 
-/* Finds or creates the set whose name is the value of the parameter `name` of the current keyword, of the current part
- * of deck d or of what is outside parts, and stores its index in *set; -1 if the parameter is missing. of_nodes: true
- * for a set of nodes, false for a set of elements. Returns REFUSED, with a message, if there are too many sets. */
+/* Finds or creates the set whose name is the value of the parameter `name` of the current keyword, and stores its index
+ * in *set; -1 if the parameter is missing. The set belongs to the current part of the input deck d or, outside of
+ * parts, to the whole deck. of_nodes: true for a set of nodes, false for a set of elements. Returns REFUSED, with a
+ * message, if there are too many sets. */
 status abaqus_find_set_of_keyword(struct deck *d, const char *name, bool of_nodes, int *set);
 
 /* Returns the index of the part of deck d called `name` or, if `instance` is true, of the part of which an instance is

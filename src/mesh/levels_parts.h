@@ -19,7 +19,7 @@ static inline void grid_advance_to_next_node_indices(const struct grid *g, int64
     for (int d = 0; d < g->dim && ++axis_index[d] == g->count[d]; d++) axis_index[d] = 0;
 }
 
-/* Returns the index of the cell of coarsening level `level` of l that contains a cell of level 0 (the finest).
+/* Returns the index of the cell of coarsening level `level` of the mesh l that contains a cell of level 0 (the finest).
  * fine_index: dim indices of the cell of level 0 along the axes; coarse_index: receives the dim indices of the coarse
  * cell, NULL if they are not needed. */
 static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *l, int level, const int64_t *fine_index,
@@ -35,8 +35,8 @@ static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *
     return I;
 }
 
-/* Returns the index of the node of level 0 (the finest) at the position of a node of coarsening level `level`.
- * coarse_index: dim indices of the coarse node along the axes. */
+/* Returns the index of the node of level 0 (the finest) at the position of a node of coarsening level `level` of the
+ * mesh l. coarse_index: dim indices of the coarse node along the axes. */
 static inline int64_t levels_fine_node_of_coarse_node(const struct mesh_levels *l, int level,
                                                       const int64_t *coarse_index)
 {
@@ -48,7 +48,7 @@ static inline int64_t levels_fine_node_of_coarse_node(const struct mesh_levels *
 }
 
 /* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of coarsening level `level`
- * that contains it. fine_index: indices of the cell of level 0 along the axes. */
+ * of the mesh l that contains it. fine_index: indices of the cell of level 0 along the axes. */
 static inline bool levels_fine_cell_is_at_lower_corner(const struct mesh_levels *l, int level,
                                                        const int64_t *fine_index)
 {
@@ -58,14 +58,15 @@ static inline bool levels_fine_cell_is_at_lower_corner(const struct mesh_levels 
     return lowest;
 }
 
-/* Returns the number of cells of level 0 (the finest) in one cell of coarsening level `level` of l. */
+/* Returns the number of cells of level 0 (the finest) in one cell of coarsening level `level` of the mesh l: 2^(dim
+ * level). */
 static inline int levels_fine_cells_per_cell(const struct mesh_levels *l, int level)
 {
     return 1 << l->fine->grid.dim * level;
 }
 
-/* Returns the index of one of the cells of level 0 (the finest) that form a cell of coarsening level `level`.
- * number_in_coarse_cell: number of this cell of level 0 in the coarse cell, 0 to 2^(dim level) - 1, x fastest;
+/* Returns the index of one of the cells of level 0 (the finest) that form a cell of coarsening level `level` of the
+ * mesh l. number_in_coarse_cell: number of this cell of level 0 in the coarse cell, 0 to 2^(dim level) - 1, x fastest;
  * first_cell: index of the cell of level 0 at the lower corner of the coarse cell. */
 static inline int64_t levels_fine_cell_in_coarse_cell(const struct mesh_levels *l, int level, int64_t first_cell,
                                                       int number_in_coarse_cell)
@@ -75,9 +76,9 @@ static inline int64_t levels_fine_cell_in_coarse_cell(const struct mesh_levels *
     return first_cell;
 }
 
-/* Returns true if one of the cells of level 0 (the finest) in a cell of coarsening level `level` has a lower level in
- * `cell_level`, an array with a level for each cell of level 0. first_cell: index of the cell of level 0 at the lower
- * corner. */
+/* Returns true if one of the cells of level 0 (the finest) in a cell of coarsening level `level` of the mesh l has a
+ * lower level in `cell_level`, an array with a level for each cell of level 0. first_cell: index of the cell of level 0
+ * at the lower corner. */
 static inline bool levels_coarse_cell_contains_finer_level(const struct mesh_levels *l, int level, int64_t first_cell,
                                                            const uint8_t *cell_level)
 {
@@ -87,23 +88,24 @@ static inline bool levels_coarse_cell_contains_finer_level(const struct mesh_lev
     return any;
 }
 
-/* Returns the material (index in the materials of the run) of cell `cell` of `finest_mesh`, level 0; the cell must be
- * completely filled. If its particles p are not made, the body has only one material, which is returned. */
+/* Returns the material (index in the materials of the run) of cell `cell` of `finest_mesh`, the finest mesh; the cell
+ * must be completely filled with material points. For a cell whose particles are not made (inside a coarse cell)
+ * returns the material of particle 0 of p, since the body then has only one material. */
 static inline uint8_t mesh_whole_cell_material(const struct mesh *finest_mesh, const struct particles *p, int64_t cell)
 {
     const int32_t i = finest_mesh->point[cell << finest_mesh->grid.dim];
     return p->material[i >= 0 ? i : 0];
 }
 
-/* Returns true if cell `cell` of the mesh has material points and is not replaced by a coarse cell, so that it
- * contributes forces to its nodes. */
+/* Returns true if cell `cell` of the mesh has material points and is not part of a coarse cell (a cell of a coarser
+ * level of the mesh), so that it contributes forces to its nodes. */
 static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t cell)
 {
     return mesh->kind[cell] == CELL_WHOLE || mesh->kind[cell] == CELL_PARTIAL;
 }
 
-/* Copies displacement and velocity to the ghosts of coarsening level `level` > 0: nodes of its mesh at the positions of
- * nodes of the next finer level, from which the motion is copied. */
+/* Copies displacement and velocity to the ghosts of coarsening level `level` > 0 of the mesh l: nodes of that level
+ * whose motion is that of the node of the next finer level at the same position. */
 void levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level);
 
 /* Sets displacement and velocity of hanging nodes to the mean of the nodes around them. These are nodes of level
@@ -127,7 +129,8 @@ void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
 void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta);
 
 /* Finds the runs of all coarsening levels of l (rows of consecutive cells of equal material), the spans of nodes with
- * mass, and the active blocks of nodes. To be called after levels_add_masses_of_dependent_nodes. */
+ * mass, and the active blocks of nodes (eight nodes each, included in computations). To be called after
+ * levels_add_masses_of_dependent_nodes. */
 void levels_make_cell_rows_and_node_spans(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells of l to nodes of level 0 (the finest) inside them that belong
@@ -146,7 +149,8 @@ void levels_compute_momenta_from_velocities(struct mesh_levels *l);
 bool levels_are_consistent(const struct mesh_levels *l);
 
 /* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,
- * less than l->roomy_cells, or more (enum levels_distance). */
+ * less than l->roomy_cells, or more (enum levels_distance). Particles convert to peridynamics only at a safe distance,
+ * and finer cells are requested below the roomy one. */
 void levels_classify_distances_to_coarse_cells(struct mesh_levels *l);
 
 #endif

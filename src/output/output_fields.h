@@ -16,7 +16,8 @@ struct frame_source {
  * the fill value of the dataset. */
 enum row_kind { ROW_WHOLE, ROW_VECTOR, ROW_TENSOR };
 
-/* Describes a dataset with one row per particle (or material point of a coarse cell). */
+/* Describes a dataset of an output frame (state of the run at one time), with one row per particle (or material point
+ * of a coarse cell). */
 struct frame_field {
     const char *path, *unit; /* path in the file; unit as people write it, "" for a pure number */
     enum hdf_type type;
@@ -40,26 +41,29 @@ extern const struct frame_field frame_fields[FRAME_FIELDS];
 enum { CELLS_CONNECTIVITY, CELLS_OFFSETS, CELLS_TYPES, CELL_LISTS };
 extern const struct frame_field frame_cells[CELL_LISTS];
 
-/* Returns the set of fields that a frame from `source` contains, as bits in the order of the table frame_fields: the
- * basic ones, plastic strain if a material yields, contact force if the scene has contact, fragments if bodies can
- * break, and those that the scene requests. */
+/* Returns the set of fields that an output frame (state of the run at one time) from `source` contains, as bits in the
+ * order of the table frame_fields: the basic ones, plastic strain if a material yields, contact force if the input file
+ * has contact, fragments if bodies can break, and those that the input file requests. */
 unsigned frame_field_bits_of_source(const struct frame_source *source);
 
-/* Copies the numbers of a field that a frame stores from the particles in *source to `rows`, an array of row_order->n
- * rows with frame_field_bytes_per_row bytes each. row_order: which particle each row shows. Rows of material points of
- * coarse cells (source->extra.more) are 0 in fields that such points lack. */
+/* Copies the numbers that an output frame (state of the run at one time) stores of the field `field` from the particles
+ * in *source to `rows`, an array of row_order->n rows with frame_field_bytes_per_row bytes each. row_order: which
+ * particle each row belongs to. Rows of material points of coarse cells (source->extra.more) are 0 in fields that such
+ * points lack. */
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
                            const struct frame_rows *row_order, char *rows);
 
-/* Writes a field as a dataset with its unit to `file`. rows: stored numbers of the field at `row_count` points, as
- * frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in file->failed. */
+/* Writes the field `field` of an output frame as a dataset with its unit to `file`. rows: stored numbers of the field
+ * at `row_count` points, as frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in
+ * file->failed. */
 void frame_field_write(struct hdf *file, const struct frame_field *field, int64_t row_count, int dim, const char *rows);
 
 /* Writes one line `field [unit]` for every field with a unit to text[capacity]; a longer text is cut. field_bits: set
  * of fields, one bit per entry of the table frame_fields. */
 void frame_units_write_text(unsigned field_bits, char *text, size_t capacity);
 
-/* Returns how many bytes a frame stores of a field per row (particle). dim: dimension of the space. */
+/* Returns how many bytes an output frame (state of the run at one time) stores of the field `field` per row (particle).
+ * dim: dimension of the space. */
 size_t frame_field_bytes_per_row(const struct frame_field *field, int dim);
 
 #endif

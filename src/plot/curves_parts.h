@@ -115,25 +115,25 @@ void curves_write_time_axis(FILE *gnuplot, const struct series *series);
 status sif_curves_draw(const char *title, const struct series *series);
 
 /* Draws the paths of the crack tips that GROWTH probes follow as the picture `path` in the folder series->pictures,
- * with the angle measured in an experiment if the scene states one. folder: folder of the run; title: heading of the
- * picture; series: history of the run. Returns OK without a picture if the run has no GROWTH probe, FAILED if gnuplot
- * fails. */
+ * with the angle measured in an experiment if the input file states one. folder: folder of the run; title: heading of
+ * the picture; series: history of the run. Returns OK without a picture if the run has no GROWTH probe, FAILED if
+ * gnuplot fails. */
 status crack_paths_draw(const char *folder, const char *title, const struct series *series);
 
 /* Returns true if the run in `folder` consists of load steps, not of steps in time. */
 bool run_has_load_steps(const char *folder);
 
-/* Draws the force over the displacement of each support and rigid body that carries a force, with the largest force
- * marked, to the file `sheet`: the components along which it is driven. title: heading of the picture; history: history
- * of the run; spacing: particle spacing [m], by which round-off is distinguished from motion; 0 if unknown. If no
- * support or body carries a force or moves, prints this instead of drawing, and names the probe that would record it.
- * Returns FAILED if gnuplot fails. */
+/* Draws the force over the displacement of each support and rigid body that carries a force to the picture file
+ * `sheet`, for each component along which it is driven, with the largest force marked. title: heading of the picture;
+ * history: history of the run; spacing: particle spacing [m], by which round-off is distinguished from motion; 0 if
+ * unknown. If no support or body carries a force or moves, prints this instead of drawing, and names the probe that
+ * would record it. Returns FAILED if gnuplot fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, double spacing);
 
-/* Draws, for a run with load steps, the energy release rate against the new crack area (R-curve) to the file `sheet`,
- * with lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture;
- * history: history of the run. If no crack has grown, prints this instead of drawing. Returns FAILED if gnuplot fails.
- */
+/* Draws, for a run with load steps, the energy release rate against the new crack area (R-curve) to the picture file
+ * `sheet`, with lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the
+ * picture; history: history of the run. If no crack has grown, prints this instead of drawing. Returns FAILED if
+ * gnuplot fails. */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history);
 
 /* Draws all pictures of the history of the run in request->folder into the folder request->pictures: crack, energy,
@@ -142,14 +142,14 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
 status history_curves_draw(const struct plot_request *request, const char *title);
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
- * frame[frame_count], to the file `sheet`. title: heading of the picture; projection: states whether the frames are
- * load steps. Returns FAILED if gnuplot fails. */
+ * frame[frame_count], output frames of a run, to the picture file `sheet`. title: heading of the picture; projection:
+ * tells whether the frames are load steps or times. Returns FAILED if gnuplot fails. */
 status bar_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                          const struct output_frame *frame, int frame_count);
 
 /* Draws the field projection->field over the position along a one-dimensional bar, one curve for each of
- * frame[frame_count], to the file `sheet`. title: heading of the picture; value_of_frame[k]: values of the field at the
- * particles of frame k. Returns FAILED if gnuplot fails. */
+ * frame[frame_count], output frames of a run, to the picture file `sheet`. title: heading of the picture;
+ * value_of_frame[k]: values of the field at the particles of frame k. Returns FAILED if gnuplot fails. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct projection *projection,
                            float *const *value_of_frame, const struct output_frame *frame, int frame_count);
 
@@ -158,8 +158,8 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
 bool run_find_exact_probe(const char *folder, char probe_name[NAME_MAX_LENGTH]);
 
 /* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe_name`,
- * with the closed-form solution, to the file `sheet`. title: heading of the picture; shown_frame[frame_count]: frames
- * of the run in `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
+ * with the closed-form solution, to the picture file `sheet`. title: heading of the picture; shown_frame[frame_count]:
+ * output frames of the run in `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
 status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe_name,
                                    const struct listed_frame *shown_frame, int frame_count);
 

@@ -90,7 +90,7 @@ void map_key_draw(FILE *gnuplot, const struct layout *layout, const struct map_k
 
 /* Writes the gnuplot commands that draw the colour bar of a picture at its position in the layout, with the percentages
  * of the particles whose values are below and above the range of the bar. shown: content of the picture;
- * particle_count: number of particles of a frame. */
+ * particle_count: number of particles of an output frame. */
 void map_colour_bar_draw(FILE *gnuplot, const struct layout *layout, const struct maps_shown *shown,
                          int64_t particle_count);
 

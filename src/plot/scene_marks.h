@@ -35,24 +35,25 @@ void marks_add_point(struct marks *m, const real *position, const double *arrow)
  * (legend), "" for no entry. */
 void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry);
 
-/* Adds symbols for loads, supports, mirrors and absorbing faces of the scene to the marks *m of its picture. */
+/* Adds symbols for loads, supports, mirrors and absorbing faces of the input file to the marks *m of its picture. */
 void marks_draw_symbols_of_loads(struct marks *m);
 
 /* Draws arrows in the picture m for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
 void marks_draw_arrows_of_velocities(struct marks *m);
 
-/* Draws the pre-cracks of the scene in the picture m as lines, and an arrow where each crack with prescribed growth
- * starts. */
+/* Draws the pre-cracks of the input file in the picture m as lines, and an arrow where each crack with prescribed
+ * growth starts. */
 void marks_draw_lines_of_precracks(struct marks *m);
 
-/* Adds symbols at the positions of the probes of the scene to the marks *m of its picture. */
+/* Adds symbols at the positions of the probes (measurements during the run) of the input file to the marks *m of its
+ * picture. */
 void marks_draw_symbols_of_probes(struct marks *m);
 
-/* Draws in the picture m the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each size of
+/* Draws in the picture m the outlines of the coarse mesh cells of a plane body, in one shade of grey for each size of
  * cells. */
 void marks_draw_outlines_of_coarse_cells(struct marks *m);
 
-/* Adds boxes around the named regions of the scene to the marks *m of its picture. */
+/* Adds boxes around the named regions of the input file to the marks *m of its picture. */
 void marks_draw_boxes_of_named_regions(struct marks *m);
 
 /* Adds an entry to the key (legend) of the picture m: a square in the colour `colour` and the text `text`. */

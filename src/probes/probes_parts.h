@@ -94,12 +94,11 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
  * Must be called before the time step. */
 void probe_motion_store_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes the velocities of the particles of probe q in run o at the time of the sample by interpolation between the
- * velocities that probe_motion_store_before_step copied and the present ones; after the last step they are
- * extrapolated, and the present positions are used. Must be called after the time step. present_velocity_time: time of
- * the present velocities, and a factor on the result that removes half a step of damping. Does nothing if
- * probe_motion_store_before_step was not called, as for equilibria: probe_particle_velocity_component then returns the
- * present velocities. */
+/* Computes the velocities of the particles of probe q in run o at the time of the sample. Call it after the time step.
+ * Interpolates between the velocities that probe_motion_store_before_step has copied and the present ones; after the
+ * last step, extrapolates them and uses the present positions. present_velocity_time: time of the present velocities,
+ * and a factor on the result that removes half a step of damping. Does nothing if probe_motion_store_before_step was
+ * not called, as for equilibria: probe_particle_velocity_component then returns the present velocities. */
 void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
                                              const struct velocity_time *present_velocity_time);
 
@@ -248,7 +247,7 @@ static inline real sif_probe_result(const struct probe *q, int figure)
 extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q at the start of run o.
- * Returns REFUSED if the scene is not plane. */
+ * Returns REFUSED if the run is not in a plane. */
 status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
 /* Computes the rotation angle value[0] of the body of a RIGID probe [rad], its largest absolute principal stress

@@ -16,7 +16,7 @@ bool crack_faces_are_in_contact(const struct contact *c);
  * now. */
 bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *contact);
 
-/* Searches for pairs in contact of run e before its first solution. Does nothing in scenes without contact and rigid
+/* Searches for pairs in contact of run e before its first solution. Does nothing in runs without contact and rigid
  * bodies, or if the search has been made. */
 void statics_contact_search_before_first_solution(struct run *e);
 

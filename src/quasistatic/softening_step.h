@@ -10,8 +10,8 @@
  * INTERRUPTED if the run is to stop. */
 status softening_make_load_step(struct run *e, real pseudo_time);
 
-/* Returns the smallest crack energy per area [J/m^2] of the materials of the scene s whose bonds soften; INFINITY if
- * none do. bond_source: inputs of the bonds. */
+/* Returns the smallest crack energy per area [J/m^2] of the materials of scene s (the input file) whose bonds soften;
+ * INFINITY if none do. bond_source: inputs of the bonds. */
 real softening_least_toughness(const struct scene *s, const struct bond_source *bond_source);
 
 #endif

@@ -9,9 +9,10 @@
 
 struct contact;
 
-/* Lists the particles and mesh nodes whose displacements are unknown, with their weights, the boundaries that prescribe
- * their components and their present displacements, and allocates the fields of s->balance. The caller has set the
- * member `length` of s->balance. loads: boundaries. Release with unknowns_free. */
+/* Lists the particles and mesh nodes whose displacements are unknown, with their weights (1, or 1/2 on planes of
+ * symmetry, where half of a particle belongs to the body), the boundaries that prescribe their components and their
+ * present displacements, and allocates the fields of s->balance. The caller has set s->balance.length, the distance
+ * between neighbouring nodes. loads: boundaries. Release with unknowns_free. */
 void unknowns_list_particles_and_nodes(struct statics *s, const struct particles *p, const struct mesh *mesh,
                                        const struct loads *loads);
 

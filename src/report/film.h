@@ -65,9 +65,9 @@ struct film {
 };
 
 /* Reads at most about sixty output frames (states) of the run in `folder` into f. Finds the sets of particles that
- * consecutive frames have in common, the largest displacements and the ranges of the fields. scene: scene of the run,
- * NULL if it is not known; it must exist as long as f. Returns FAILED if a frame cannot be read. Release f with
- * film_free. */
+ * consecutive frames have in common, the largest displacements and the ranges of the fields. scene: contents of the
+ * input file of the run, kept by reference; NULL if it is not known. Returns FAILED if a frame cannot be read. Release
+ * f with film_free. */
 status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene);
 
 /* Selects the frames, the fields and the groups of particles (each shown as one particle) that the page (the HTML
@@ -121,7 +121,7 @@ void film_write_field_values_of_frame(struct page *p, const struct film_field *f
                                       const struct film_set *particle_set, const struct output_frame *frame,
                                       const char *path);
 
-/* Writes the surfaces of the rigid bodies of f->scene to the page p (HTML report) as the entry `rigid`: line segments
+/* Writes the surfaces of the rigid bodies of the run f to the page p (HTML report) as the entry `rigid`: line segments
  * in 2D, quadrilaterals in 3D. */
 void film_write_rigid_body_surfaces(struct page *p, const struct film *f);
 

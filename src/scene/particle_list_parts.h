@@ -48,7 +48,7 @@ const char *particle_list_reason_value_is_invalid(int column, real value);
 bool unit_find_factor_to_si(real *factor, const char *unit, enum unit expected_kind, char *message, size_t capacity);
 
 /* Returns the factor to SI units of a number in the column `column` (COLUMN_*) if the file gives no unit for it. For
- * coordinates and volumes the factor follows from the unit that the scene gives for the list l, else it is 1. */
+ * coordinates and volumes the factor follows from the unit that the input file gives for the list l, else it is 1. */
 real particle_list_default_factor_to_si(const struct particle_list *l, int column);
 
 /* Appends the text `addition` to the note in *head, which is printed about the list, preceded by `separator` if the

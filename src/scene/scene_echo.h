@@ -48,11 +48,11 @@ void yaml_write_keys_of_group(struct writer *w, const char *group_path, const vo
  * `group_path`. group_values: structure with their values. */
 void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *group_path, const void *group_values);
 
-/* Writes to w the key `key` with the absolute path of the file `file`, so that the scene can be run from any folder.
- * contents_hash: hash of the file, which is written as a comment. */
+/* Writes to w the key `key` with the absolute path of the file `file`, so that the input file can be run from any
+ * folder. contents_hash: hash of the file, which is written as a comment. */
 void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents_hash);
 
-/* Writes all boundary conditions (loads, supports, mirrors) of the scene to the YAML text of w. */
+/* Writes all boundary conditions (loads, supports, mirrors) of the input file to the YAML text of w. */
 void yaml_write_boundaries(struct writer *w);
 
 /* Writes the key `key` with a vector of w->scene->dim components to the YAML text of w: component d is the formula
@@ -63,7 +63,7 @@ void yaml_write_vector_of_formulas(struct writer *w, const char *key, const real
 /* Writes the region `region` to the YAML text of w, as a list of its solids. */
 void yaml_write_region(struct writer *w, const struct region *region);
 
-/* Writes the named regions of the scene to the YAML text of w. */
+/* Writes the named regions of the input file to the YAML text of w. */
 void yaml_write_named_regions(struct writer *w);
 
 /* Writes the solid `solid`, which was read from a file, to the YAML text of w, for example as `stl: {..}`. */

@@ -93,31 +93,31 @@ struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 /* Removes the node `child` from the entries of the list or mapping `parent`. */
 void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child);
 
-/* Reads the scene files that the tree `root` includes and adds their keys to the tree; keys that the tree has itself
+/* Reads the input files that the tree `root` includes and adds their keys to the tree; keys that the tree has itself
  * keep their values. Returns REFUSED, with a message, for an invalid list of files or an invalid file. */
 status tree_merge_included_files(struct reader *r, struct yaml_node *root);
 
-/* Returns true if the value of the key at `path` ("" for the whole scene) is a mapping that is merged key by key with
- * that of an included scene. Other values, such as solids, replace the included value as a whole. */
+/* Returns true if the value of the key at `path` ("" for the whole input file) is a mapping that is merged key by key
+ * with that of an included file. Other values, such as solids, replace the included value as a whole. */
 bool key_is_merged_with_included_scene(const char *path);
 
-/* Applies all overrides of the command line, r->override, to the tree `root` of the scene. Returns REFUSED, with a
+/* Applies all overrides of the command line, r->override, to the tree `root` of the input file. Returns REFUSED, with a
  * message, for an invalid one. */
 status tree_apply_all_overrides(struct reader *r, struct yaml_node *root);
 
-/* Replaces keys of earlier versions of Cleave in the tree `root` by their present names, and notes them in the scene
- * for a warning. Returns REFUSED if both names of a key are given, and for keys that no longer exist. */
+/* Replaces keys of earlier versions of Cleave in the tree `root` by their present names, and notes them in r->scene for
+ * a warning. Returns REFUSED if both names of a key are given, and for keys that no longer exist. */
 status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key `path` of an override. If `path` is a name of an earlier version of Cleave, notes
- * this in the scene for a warning; otherwise returns `path` itself. */
+ * this in r->scene for a warning; otherwise returns `path` itself. */
 const char *key_path_current_name_of_override(struct reader *r, const char *path);
 
 /* Returns the present name of a key that had the name `former_path` in an earlier version of Cleave; NULL if there was
  * no such key. */
 const char *key_current_name_of_former_key(const char *former_path);
 
-/* Returns the name of the file from which a node was read; for an override it is the scene file. origin_index: member
+/* Returns the name of the file from which a node was read; for an override it is the input file. origin_index: member
  * of struct yaml_node. */
 const char *origin_file_name(const struct reader *r, int origin_index);
 
@@ -137,18 +137,18 @@ status tree_apply_override(struct reader *r, struct yaml_node *root, const char 
  * tree has no such node. */
 const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
 
-/* Parses the scene text[length], merges the files that it includes, applies overrides, and stores the tree in *root.
- * Returns REFUSED, with a message, if the text is malformed or a file is missing. */
+/* Parses the input file text[length], merges the files that it includes, applies overrides, and stores the tree in
+ * *root. Returns REFUSED, with a message, if the text is malformed or a file is missing. */
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
 
-/* Reads all keys of the tree `root` into r->scene and checks the scene. Returns REFUSED, with a message, if it is
- * invalid. */
+/* Reads all keys of the tree `root` of an input file into r->scene and checks them. Returns REFUSED, with a message, if
+ * one is invalid. */
 status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root);
 
 struct pilot_wish;
-/* Reads what a scene with `method: auto` requires of its pilot runs (short runs by which the method is chosen) into
- * *requirements, which the caller has set to zero. root: tree of the scene; text[length]: its text. Returns REFUSED,
- * with a message, for an invalid scene. */
+/* Reads what an input file with `method: auto` requires of its pilot runs (short runs by which the method is chosen)
+ * into *requirements, which the caller has set to zero. root: tree of the input file; text[length]: its text. Returns
+ * REFUSED, with a message, for an invalid file. */
 status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                                struct pilot_wish *requirements);
 
@@ -194,8 +194,8 @@ bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, 
  * exponents of m, kg and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
 void unit_describe(const int twice[3], char *text, size_t capacity);
 
-/* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`, to text[capacity]. twice: exponents of m, kg
- * and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
+/* Writes a unit in the form in which input files give it, such as ` m^2 s^-1`, to text[capacity]. twice: exponents of
+ * m, kg and s in the unit, multiplied by 2, so that those of square roots are whole numbers. */
 void unit_write_text(const int twice[3], char *text, size_t capacity);
 
 /* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
@@ -225,23 +225,23 @@ bool is_variable_of_formulas(const char *text);
 
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
 
-/* Evaluates the variables of the scene with the tree `root` and stores them in r. Returns REFUSED, with a message, for
- * an invalid variable, and for one that an override sets but no value uses. */
+/* Evaluates the variables of the input file with the tree `root` and stores them in r. Returns REFUSED, with a message,
+ * for an invalid variable, and for one that an override sets but no value uses. */
 status read_variables(struct reader *r, const struct yaml_node *root);
 
 /* Returns the value of the variable `name`. Returns NULL, and writes the fault to message[capacity], if there is none
  * of this name or it cannot be evaluated. */
 const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity);
 
-/* Reads a number of a scene from `text` into *value [SI]. It may be a number with a unit, or an expression of
+/* Reads a number of an input file from `text` into *value [SI]. It may be a number with a unit, or an expression of
  * variables. kind_of_unit: expected kind of unit; allow_infinity: true if inf is allowed. On failure returns false and
  * writes the fault to message[capacity], as the rest of a sentence that begins with `text`. */
 bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit kind_of_unit, bool allow_infinity,
                           char *message, size_t capacity);
 
 /* Improves the message message[capacity] about the invalid value `text` of key k. If `text` is a length although the
- * key counts spacings, replaces the message by one that states the length in spacings. The spacing of the scene must
- * have been read. */
+ * key counts spacings, replaces the message by one that states the length in spacings. The spacing of the input file
+ * must have been read. */
 void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity);
 
 /* Returns the unit that is meant by the name `unknown_name` of an unknown unit, as text for a message, such as `us?`
@@ -283,8 +283,8 @@ struct range {
     bool open, given;
 };
 
-/* A row of the table of keys: a key that scenes may contain, its type, unit and range, and where its value is stored.
- */
+/* A row of the table of keys: a key that input files may contain, its type, unit and range, and where its value is
+ * stored. */
 struct key {
     const char *path; /* keys from the top of the scene, joined by dots */
     enum key_type type;
@@ -316,7 +316,7 @@ bool key_is_at_or_below_path(const struct key *k, const char *path);
 /* Writes the type, SI unit, range or allowed words, and default of key k to text[capacity], in one line. */
 void key_describe_type(const struct key *k, char *text, size_t capacity);
 
-/* Returns true if key k is directly below the key `group_path` ("" for the top of a scene). */
+/* Returns true if key k is directly below the key `group_path` ("" for the top of an input file). */
 bool key_is_directly_below(const struct key *k, const char *group_path);
 
 /* Returns the path of the group in which the table has the keys of an item of list k: material for `materials`,
@@ -333,23 +333,23 @@ void key_write_example(const struct key *k, int dim, const char *wanted, char *t
  * NULL for an example of a number of key k. */
 void key_write_example_vector(const struct key *k, int dim, const char *first, char *text, size_t capacity);
 
-/* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of a scene); NULL
- * if there is none. */
+/* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of an input file);
+ * NULL if there is none. */
 const struct key *key_find(const char *group_path, const char *last_part);
 
-/* Returns the key directly below the key `group_path` ("" for the top of a scene) whose last part has the smallest edit
- * distance to `last_part`. */
+/* Returns the key directly below the key `group_path` ("" for the top of an input file) whose last part has the
+ * smallest edit distance to `last_part`. */
 const struct key *key_find_most_similar(const char *group_path, const char *last_part);
 
-/* Returns a key whose last part is `last_part`, in any group; one at the top of a scene if there is one. Returns NULL
- * if there is none. Stores the number of keys with this last part in *matching_key_count. */
+/* Returns a key whose last part is `last_part`, in any group; one at the top of an input file if there is one. Returns
+ * NULL if there is none. Stores the number of keys with this last part in *matching_key_count. */
 const struct key *key_find_in_any_group(const char *last_part, int *matching_key_count);
 
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
-/* Writes advice for `foreign_word`, a word of another program that is no key of `group` ("" for the top of a scene) to
- * text[capacity]: the equivalent key, or a note that Cleave has none. Returns false, and writes nothing, for unknown
- * words. */
+/* Writes advice for `foreign_word`, a word of another program that is no key of `group` ("" for the top of an input
+ * file) to text[capacity]: the equivalent key, or a note that Cleave has none. Returns false, and writes nothing, for
+ * unknown words. */
 bool foreign_word_advice(const char *foreign_word, const char *group, char *text, size_t capacity);
 
 /* Returns advice, a static text, about the invalid value `foreign_value` of the key at `key_path`, if it is a word of
@@ -357,7 +357,7 @@ bool foreign_word_advice(const char *foreign_word, const char *group, char *text
 const char *foreign_value_advice(const char *key_path, const char *foreign_value);
 
 /* Returns REFUSED, with a message, if text[length], the file read by r, is the input of Abaqus, LS-DYNA or LAMMPS, a
- * mesh of Gmsh or an STL file; OK if it may be a scene. Defined in scene_foreign_file.c. */
+ * mesh of Gmsh or an STL file; OK if it may be an input file. Defined in scene_foreign_file.c. */
 status foreign_file_refuse(struct reader *r, const char *text, size_t length);
 
 /* Returns the keys that are equivalent to `foreign_word`, a word of another program, separated by spaces ("" if there
@@ -381,19 +381,19 @@ status fault_at_location(const struct reader *r, int origin, int line, int colum
  * file or override (see struct yaml_node). */
 void location_write_text(const struct reader *r, int origin_index, int line, int column, char *text, size_t capacity);
 
-/* Stores in r->scene where each key of the scene was given, for keys up to two levels below `root`, so that later
+/* Stores in r->scene where each key of the input file was given, for keys up to two levels below `root`, so that later
  * messages (scene_prepend_location) can state the location. */
 void scene_store_key_locations(const struct reader *r, const struct yaml_node *root);
 
 /* Writes the text with which messages about node `node` begin, its location and key, to text[capacity]. It is for
- * messages that are composed after the scene has been read. */
+ * messages that are composed after the input file has been read. */
 void fault_write_location_of_node(const struct reader *r, const struct yaml_node *node, char *text, size_t capacity);
 
 /* Returns REFUSED with the message that the required key k is missing in `map`. */
 status fault_report_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k);
 
 /* Returns REFUSED with the message that the keys of the nodes `one` and `other` exclude each other. The message gives
- * the location of the key that was set last: by an override, else in the scene file. */
+ * the location of the key that was set last: by an override, else in the input file. */
 status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other);
 
 /* Returns REFUSED, with a message, if an entry of the mapping `map` before its entry n has the key of n. */
@@ -414,9 +414,9 @@ const char *words_for_message(struct reader *r, const char *words);
  * twice; else OK. */
 status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path);
 
-/* Returns REFUSED if keys of the scene with the tree `root` are not in the table of keys, with a message of one line
- * for each of the first ten of them; else OK. Does not check names that the user chooses, such as those of variables.
- */
+/* Returns REFUSED if keys of the input file with the tree `root` are not in the table of keys, with a message of one
+ * line for each of the first ten of them; else OK. Does not check names that the user chooses, such as those of
+ * variables. */
 status check_all_keys_known(const struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with an example, if node n is no mapping; else OK. group_path: path of its keys in the table. */
@@ -444,8 +444,8 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
  * message, for an invalid value. */
 status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
 
-/* Returns the space in which points are read at present, in words for messages: that of the scene, or the plane of an
- * extrusion. */
+/* Returns the space in which points are read at present, in words for messages: that of the input file, or the plane of
+ * an extrusion. */
 const char *space_name_for_message(const struct reader *r);
 
 /* Returns REFUSED, with an example of a value of key k, if node n is no list; else OK. */
@@ -455,8 +455,8 @@ status expect_list(struct reader *r, const struct key *k, const struct yaml_node
  * k. */
 status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n);
 
-/* Reads a file name from node name_node: searches the folder of the scene, then the current folder. Stores the path in
- * *path and a hash of the contents of the file in *contents_hash. The caller releases *path with memory_free.
+/* Reads a file name from node name_node: searches the folder of the input file, then the current folder. Stores the
+ * path in *path and a hash of the contents of the file in *contents_hash. The caller releases *path with memory_free.
  * file_kind: kind of file, for messages. If r->files is false, copies the name without opening the file. Returns
  * REFUSED, with a message, if the file cannot be read. */
 status read_input_file_path(struct reader *r, const struct yaml_node *name_node, const char *file_kind, char **path,

@@ -4,13 +4,13 @@
 
 #include "scene_internal.h"
 
-/* Reads a region, a list of solids, from the node `region_node` of the scene into *region. An entry of the list may be
- * the name of another region, whose solids are inserted. r: reader of the scene. Returns REFUSED, with a message, if
- * the region is invalid. */
+/* Reads a region, a list of solids, from the node `region_node` of the input file into *region. An entry of the list
+ * may be the name of another region, whose solids are inserted. r: reader of the input file. Returns REFUSED, with a
+ * message, if the region is invalid. */
 status read_region(struct reader *r, const struct yaml_node *region_node, struct region *region);
 
-/* Reads the named regions of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
- * invalid. */
+/* Reads the named regions of the input file with the tree `root` into r->scene. Returns REFUSED, with a message, if one
+ * is invalid. */
 status read_regions(struct reader *r, const struct yaml_node *root);
 
 /* Reads a solid whose surface is in an STL file from the node `solid_node` into *solid. Returns REFUSED, with a
@@ -30,15 +30,15 @@ status read_image_solid(struct reader *r, const struct yaml_node *solid_node, st
  * values. */
 status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body);
 
-/* Returns true if the node n of the scene is a key that moves, rotates or repeats a solid, such as `rotate`; false if
- * the node is a solid. */
+/* Returns true if the node n of the input file is a key that moves, rotates or repeats a solid, such as `rotate`; false
+ * if the node is a solid. */
 bool node_is_motion_key_of_solid(const struct yaml_node *n);
 
 /* Reads the keys of the node `solid_node` that move, turn and repeat a solid, and stores these motions in *solid.
  * Returns REFUSED, with a message, for invalid keys. */
 status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads the materials of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
+/* Reads the materials of the input file with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
  * invalid. */
 status read_materials(struct reader *r, const struct yaml_node *root);
 
@@ -52,8 +52,8 @@ const struct yaml_node *scene_material_yield_key(const struct yaml_node *materia
  * flow laws. */
 status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
-/* Reads the bodies of the scene with the tree `root`, deformable and rigid ones, into r->scene. Returns REFUSED, with a
- * message, if one is invalid. */
+/* Reads the bodies of the input file with the tree `root`, deformable and rigid ones, into r->scene. Returns REFUSED,
+ * with a message, if one is invalid. */
 status read_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Moves the materials of which no body consists behind the others and counts them in s->unused_materials, no longer in
@@ -65,16 +65,16 @@ void scene_set_unused_materials_aside(struct scene *s);
 status read_body_parts(struct reader *r, const struct yaml_node *parts_node, const struct key *k,
                        struct scene_body *body);
 
-/* Reads the pre-cracks of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
+/* Reads the pre-cracks of the input file with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
  * invalid. */
 status read_cracks(struct reader *r, const struct yaml_node *root);
 
-/* Reads the settings of cracks with prescribed or controlled growth from the tree `root` into r->scene. Returns
- * REFUSED, with a message, if one is invalid. */
+/* Reads the settings of cracks with prescribed or controlled growth from the tree `root` of the input file into
+ * r->scene. Returns REFUSED, with a message, if one is invalid. */
 status read_crack_growths(struct reader *r, const struct yaml_node *root);
 
-/* Reads the initial states (velocities, strains, wave pulses) from the tree `root` into r->scene. Returns REFUSED, with
- * a message, if one is invalid. */
+/* Reads the initial states (velocities, strains, wave pulses) from the tree `root` of the input file into r->scene.
+ * Returns REFUSED, with a message, if one is invalid. */
 status read_initial_states(struct reader *r, const struct yaml_node *root);
 
 /* Reads the function of time of the boundary `boundary` from the node `function_node`. If the node is NULL or
@@ -93,44 +93,44 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
 status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *vector_node,
                                unsigned further_variables, real *value, struct expression *formula);
 
-/* Reads the boundary conditions of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if
- * one is invalid. */
+/* Reads the boundary conditions of the input file with the tree `root` into r->scene. Returns REFUSED, with a message,
+ * if one is invalid. */
 status read_boundaries(struct reader *r, const struct yaml_node *root);
 
-/* Reads the settings of the probes (measurements during the run) from the tree `root` into r->scene. Returns REFUSED,
- * with a message, if one is invalid. */
+/* Reads the settings of the probes (measurements during the run) from the tree `root` of the input file into r->scene.
+ * Returns REFUSED, with a message, if one is invalid. */
 status read_probes(struct reader *r, const struct yaml_node *root);
 
-/* Reads the regions for which the scene requests frames of their own from the tree `root` into r->scene. Returns
+/* Reads the regions for which the input file requests frames of their own from the tree `root` into r->scene. Returns
  * REFUSED, with a message, if one is invalid. */
 status read_regions_of_output_frames(struct reader *r, const struct yaml_node *root);
 
 /* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. root:
- * tree of the scene. Returns REFUSED, with a message, for keys that contradict each other. */
+ * tree of the input file. Returns REFUSED, with a message, for keys that contradict each other. */
 status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Materials
- * must have been read before. root: tree of the scene, to see whether the key is given. */
+ * must have been read before. root: tree of the input file, to see whether the key is given. */
 void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root);
 
-/* Sets the default of contact.between, the bodies between which contact acts. root: tree of the scene. Returns REFUSED
- * for contact with a static solver, and for friction without contact. */
+/* Sets the default of contact.between, the bodies between which contact acts. root: tree of the input file. Returns
+ * REFUSED for contact with a static solver, and for friction without contact. */
 status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED if the bodies of the scene would have more particles than 32-bit indices can count. Bodies must have
- * been read before. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED if the bodies of the input file would have more particles than 32-bit indices can count. Bodies must
+ * have been read before. root: tree of the input file, for the location in the message. */
 status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root);
 
-/* Reads the interfaces between bodies into r->scene and joins these bodies. root: tree of the scene. Returns REFUSED,
- * with a message, for an invalid interface. */
+/* Reads the interfaces between bodies into r->scene and joins these bodies. root: tree of the input file. Returns
+ * REFUSED, with a message, for an invalid interface. */
 status read_interfaces(struct reader *r, const struct yaml_node *root);
 
 /* Checks that each boundary condition that applies to one of several joined bodies applies to all of them. r: reader of
- * the scene; root: tree of the scene. Returns REFUSED, with a message, if one does not. */
+ * the input file; root: tree of the input file. Returns REFUSED, with a message, if one does not. */
 status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m, with the model,
- * horizon and space of the scene s. */
+ * horizon and space of scene s (the input file). */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
 /* Limits the spacing that `method: auto` searches for: reduces its upper bound *r->spacing_most to `largest_spacing`,
@@ -145,10 +145,10 @@ static inline bool limit_spacing_of_spacing_search(struct reader *r, real larges
 
 /* Sets material->onset_stretch, the stretch at which bonds of `material` begin to soften, from its tensile strength;
  * material->critical_stretch must be set. material_node: node of the material. Returns REFUSED if bonds cannot soften
- * with the method or model of the scene, or if they would break before the tensile strength is reached. */
+ * with the method or model of the input file, or if they would break before the tensile strength is reached. */
 status read_softening_onset(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
-/* Sets the strength surface of `material`, if the scene gives strengths other than the tensile one, and
+/* Sets the strength surface of `material`, if the input file gives strengths other than the tensile one, and
  * material->onset_stretch; material->critical_stretch must be set. material_node: node of the material. Returns REFUSED
  * if the strengths contradict each other, or if bonds would begin to soften before the stress reaches the surface in
  * tension. */
@@ -160,57 +160,59 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
                                              const struct material *material, real strength);
 
 /* Returns REFUSED if the material with the index `material_index`, read from the node `material_node`, has another
- * softening law than an earlier material. All bonds of a scene must have one law, since bonds between two materials
- * have one curve. */
+ * softening law than an earlier material. All bonds of a run must have one law, since bonds between two materials have
+ * one curve. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
-/* Returns the first material of the scene s for which has(material) returns true; NULL if there is none. */
+/* Returns the first material of scene s (the input file) for which has(material) returns true; NULL if there is none.
+ * */
 const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *));
 
 /* Returns REFUSED if bonds of one material soften while another material yields, and for keys that state-based models
- * do not support with bonds that soften. root: tree of the scene. */
+ * do not support with bonds that soften. root: tree of the input file. */
 status check_softening_is_supported(struct reader *r, const struct yaml_node *root);
 
-/* Checks the friction of contact in the scene. Returns REFUSED, with a message, where friction is not supported: with
- * the contact law between pairs of particles, or together with planes of symmetry. root: tree of the scene. */
+/* Checks the friction of contact in the input file. Returns REFUSED, with a message, where friction is not supported:
+ * with the contact law between pairs of particles, or together with planes of symmetry. root: tree of the input file.
+ * */
 status check_friction_is_supported(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with a message, if a static problem has absorbing boundaries. root: tree of the scene, for the
+/* Returns REFUSED, with a message, if a static problem has absorbing boundaries. root: tree of the input file, for the
  * location in the message. */
 status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml_node *root);
 
-/* Checks the loads of the scene with the tree `root`. Returns REFUSED, with a message, for loads that static solvers,
- * or particles at randomly shifted positions, do not support. */
+/* Checks the loads of the input file with the tree `root`. Returns REFUSED, with a message, for loads that static
+ * solvers, or particles at randomly shifted positions, do not support. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root);
 
-/* Decides where shape functions are evaluated for bodies of scene s whose frame is `auto`. The frame is `current` (at
- * the present positions of material points) if a body does not support `reference`, with the reason in
+/* Decides where shape functions are evaluated for bodies of scene s (the input file) whose frame is `auto`. The frame
+ * is `current` (at the present positions of material points) if a body does not support `reference`, with the reason in
  * body.frame_reason. Otherwise it remains `auto`, and the choice is made when the particles exist. Bodies must have
  * been read before. */
 void resolve_automatic_frames_of_bodies(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and then sets the default of the correction of bonds near faces (key
- * pd.surface), which depends on it. Bodies must have been read before. root: tree of the scene, to see which keys are
- * given. */
+ * pd.surface), which depends on it. Bodies must have been read before. root: tree of the input file, to see which keys
+ * are given. */
 void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root);
 
-/* Checks the keys of a scene with a static solver. Returns REFUSED, with a message, for keys that static solvers do not
- * support. Materials and probes must have been read before. root: tree of the scene. */
+/* Checks the keys of an input file that requests a static solver. Returns REFUSED, with a message, for keys that static
+ * solvers do not support. Materials and probes must have been read before. root: tree of the input file. */
 status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root);
 
-/* Checks the keys of a scene that is solved in load steps. Returns REFUSED, with a message, for keys that this solver
- * does not support. root: tree of the scene. */
+/* Checks the keys of an input file that requests load steps. Returns REFUSED, with a message, for keys that this solver
+ * does not support. root: tree of the input file. */
 status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
 
-/* Returns true if the scene s is solved in load steps and has a material whose bonds soften. */
+/* Returns true if scene s (the input file) is solved in load steps and has a material whose bonds soften. */
 bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
 
-/* Returns REFUSED if the scene gives settings of load steps but has another solver, unless all of them have their
- * default values. root: tree of the scene. */
+/* Returns REFUSED if the input file gives settings of load steps but has another solver, unless all of them have their
+ * default values. root: tree of the input file. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
 
-/* Returns the scene s as it is run, every key with its value or default, as YAML text. Returns NULL if there is no
- * memory. The caller releases the text with memory_free. */
+/* Returns the contents s of an input file as they are run, every key with its value or default, as YAML text. Returns
+ * NULL if there is no memory. The caller releases the text with memory_free. */
 char *scene_to_yaml(const struct scene *s);
 
 #endif

@@ -43,40 +43,42 @@ struct pilot_search {
     int n;
 };
 
-/* Lists the methods that are applicable to the scene of `search` in search->at[] and stores their number in search->n.
- * Returns REFUSED if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of
- * the scene has the requested result. */
+/* Lists the methods (peridynamics, material points, ..) that are applicable to the input file of `search` in
+ * search->at[] and stores their number in search->n. Returns REFUSED if no method is applicable, if the particle
+ * spacing of the input file cannot be varied, or if no run of the input file has the requested result. */
 status pilot_list_applicable_methods(struct pilot_search *search);
 
-/* Returns the name of the scalar result whose accuracy the scene requests, or a description of the default result if it
- * names none. The text belongs to *search or is static. */
+/* Returns the name of the scalar result whose accuracy the input file requests, or a description of the default result
+ * if it names none. The text belongs to *search or is static. */
 const char *pilot_name_of_requested_result(const struct pilot_search *search);
 
 /* Allocates the array choice->override, after releasing an earlier one, and fills it. The first entries are the
  * overrides of the user, user_override[user_override_count]. They are followed by `chosen_key_count` keys that pilot
- * runs have chosen, with the texts choice->key[k] and choice->value[k]. */
+ * runs (short runs before the real one) have chosen, with the texts choice->key[k] and choice->value[k]. */
 void pilot_combine_overrides(struct pilot *choice, const struct scene_override *user_override, int user_override_count,
                              int chosen_key_count);
 
-/* Determines, from `study`, the convergence study of the method `candidate`, the particle spacing that the method
- * requires for the accuracy requested in `search`, and stores it with its cost in *candidate (pilot_judge.c). Returns
- * REFUSED if no accuracy can be attributed to the result (it is missing or zero), FAILED if no result has values at
- * every spacing. */
+/* Determines, from `study`, the pilot runs (short runs at several spacings) of the method `candidate`, the particle
+ * spacing that the method requires for the accuracy requested in `search`, and stores it with its cost in *candidate
+ * (pilot_judge.c). Returns REFUSED if no accuracy can be attributed to the result (it is missing or zero), FAILED if no
+ * result has values at every spacing. */
 status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
                                         const struct convergence_study *study);
 
-/* Prints the results of the pilot runs of the method `candidate` to standard output: spacing, accuracy, and expected
- * time of the run. search: the scene and the requested accuracy. */
+/* Prints the results of the pilot runs (short runs before the real one) of the method `candidate` to standard output:
+ * spacing, accuracy, and expected time of the run. search: the input file and the requested accuracy. */
 void pilot_print(const struct pilot_search *search, const struct pilot_candidate *candidate);
 
-/* Stores the choice *choice as files in the folder of the pilot runs, with the scene and the overrides for which it was
- * made and the error bars of the chosen method *chosen_method. search: state of the choice. Returns FAILED if the scene
- * cannot be read or a file cannot be written. */
+/* Stores *choice, the method and spacing that pilot runs (short runs before the real one) have chosen, as files in
+ * their folder, with the input file and the overrides for which it was made and the error bars of the chosen method
+ * *chosen_method. search: state of the choice. Returns FAILED if the input file cannot be read or a file cannot be
+ * written. */
 status pilot_store_choice(const struct pilot *choice, const struct pilot_search *search,
                           const struct pilot_candidate *chosen_method);
 
-/* Reads the choice that earlier pilot runs of the same scene with the same overrides have stored, into *choice. search:
- * the scene, its overrides and the folder of the pilot runs. Returns false if there is none. */
+/* Reads the choice of method and spacing that earlier pilot runs (short runs before the real one) of the same input
+ * file with the same overrides have stored, into *choice. search: the input file, its overrides and the folder of the
+ * pilot runs. Returns false if there is none. */
 bool pilot_read_stored_choice(struct pilot *choice, const struct pilot_search *search);
 
 #endif

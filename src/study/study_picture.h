@@ -77,8 +77,8 @@ void panels_choose_figures(struct study_picture *picture);
  * Returns REFUSED if a name is not in picture->table. */
 status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
 
-/* Returns true if `key`, the path of a key of the scene, is the seed of random numbers, such as material.scatter.seed.
- */
+/* Returns true if `key`, the path of a key of the input file, is the seed of random numbers, such as
+ * material.scatter.seed. */
 bool key_is_seed(const char *key);
 
 /* Returns true if a seed is the only one of the keys key[key_count] with several values. */
