@@ -65,11 +65,11 @@ enum softening_due {
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
     float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of each bond [1] */
-    /* [columns 8] weight of a bond that has begun, before it softened [1]; only in state-based models, where the weight
-     * in bonds.w is this times 1 - d (kernels/pd/state_soften.c). NULL: bond-based model */
+    /* [columns 8] weight that a bond which softens had before [1]; only in state-based models, where the weight in
+     * bonds.w is this times 1 - d (kernels/pd/state_soften.c). NULL: bond-based model */
     float *whole;
-    /* [columns 8] load steps: k of the last equilibrium, 0 for a bond that had not begun [1]. NULL: explicit steps.
-     * With it, forces are those of the stored k, whatever the stretch: bonds are springs of their secant stiffness */
+    /* [columns 8] load steps: k of the last equilibrium, 0 for a bond that did not soften then [1]; forces follow from
+     * this k at any stretch, so that bonds are springs of their secant stiffness. NULL: explicit time steps */
     float *settled;
     uint8_t *begun;   /* [row_blocks] 1: the arrays are valid */
     uint8_t *due;     /* [row_blocks] enum softening_due */
@@ -123,9 +123,10 @@ struct clamped {
 };
 
 /* State of the neighbourhood of each particle (all its neighbours) in state-based models, from which bond forces
- * follow: weighted volume Q, pressure P, spring g and, in models with particle rotations, rotation R. V is the volume
- * of the particle. Material points with bonds have the members end_* of struct particles instead of P, g and R. Blocks
- * of eight rows hold the bonds of eight particles. */
+ * follow (kernels/pd/state_laws.h): weighted volume Q, pressure P (force by dilatation), spring g (force by extension)
+ * and, in models with particle rotations, rotation R. V is the volume of the particle. Material points with bonds have
+ * the members end_* of struct particles instead of P, g and R. Blocks of eight rows hold the bonds of eight particles.
+ */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
     const struct state_modulus *modulus; /* [materials] elastic moduli, borrowed; NULL: bond-based model */

@@ -46,12 +46,12 @@ bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count
 
 /* Returns an upper bound of the number of neighbours of any particle within the cutoff, to which arrays are allocated:
  * source->room if it is set (> 0), else computed from the numbers of particles in search cells. source: inputs of the
- * bonds. */
+ * bonds (horizon, materials, cracks, mirrors). */
 int bonds_neighbour_count_bound(const struct bond_source *source);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
  * V_j is the volume of neighbour j and beta the fraction of this volume within the horizon. volume[p->n_all]: receives
- * the results [m^3]; source: inputs of the bonds. */
+ * the results [m^3]; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *source);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`.
@@ -129,13 +129,13 @@ bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
  * the stress of the particle to the stress on the strength surface. Where U reaches 1 (or the strength factor of the
  * particle, if strength scatters), those bonds of the particle that have not begun to soften do so from their present
  * stretch on. Material points at such bonds are marked for conversion. Does nothing if no material has a surface.
- * source: inputs of the bonds. */
+ * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Computes into stress_ratio[p->n] [1] the ratio of the stress of each particle of p to the stress on the strength
  * surface of its material: 1 on the surface, 0 if the material has no surface. The stress of a material point is its
- * own, that of a peridynamic particle follows from the strain averaged over its bonds in b. source: inputs of the
- * bonds. */
+ * own, that of a peridynamic particle follows from the strain averaged over its bonds in b. source: inputs of the bonds
+ * (horizon, materials, cracks, mirrors). */
 void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
                                              const struct bond_source *source, real *stress_ratio);
 

@@ -37,7 +37,8 @@ bool site_map_make_if_on_lattice(struct site_map *map, const struct bond_source 
 void site_map_free(struct site_map *map);
 
 /* Returns a map from lattice sites to particles for bonds that are rebuilt: `existing` with one more user or, if
- * `existing` is NULL, a new map of p. source: inputs of the bonds. Release with site_map_release. */
+ * `existing` is NULL, a new map of p. source: inputs of the bonds (horizon, materials, cracks, mirrors). Release with
+ * site_map_release. */
 struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *source,
                                         const struct particles *p);
 

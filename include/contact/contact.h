@@ -59,8 +59,7 @@ struct contact_law {
 struct contact_spring {
     real length[DIM_MAX]; /* elongation [m] */
     real drag[DIM_MAX];   /* force on the particle [N] */
-    real density;         /* sum of the weights of the face's particles, by which the reaction is distributed
- (contact_weight) */
+    real density;         /* sum of the weights (contact_weight) by which particles of the face share the reaction */
     real stored, lost;    /* stored energy [J]; work of friction since the last search [J] */
 };
 

@@ -63,8 +63,8 @@ void initial_pd_region_make(struct region *region, const struct region *scene_re
  * the matrix M by which the stress of the point must be multiplied to obtain it: M = T C^-1 with the elastic stiffness
  * C of the material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds b, with stiffness
  * K, length xi, direction e and share l of the length inside the cell; V: volume of the point. source: inputs of the
- * bonds; changed[n]: indices of the particles converted since the last call; only points near them are recomputed. If
- * `changed` is NULL, all points are. */
+ * bonds (horizon, materials, cracks, mirrors); changed[n]: indices of the particles converted since the last call; only
+ * points near them are recomputed. If `changed` is NULL, all points are. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 

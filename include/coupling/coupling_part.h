@@ -38,7 +38,7 @@ status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
  * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
  * material points beside peridynamic particles whose motion is damped, for FLIP with partial stress only. p: particles;
- * source: inputs of the bonds. */
+ * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p,
                                               const struct bonds *b, const struct bond_source *source);
 

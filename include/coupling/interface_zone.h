@@ -35,7 +35,7 @@ struct interface_zone {
  * configuration. The zone contains the material points whose distance from a peridynamic particle of their body is at
  * most the cutoff of bonds plus one spacing. Neighbours of a point are particles within 1.5 spacings. Pairs cut by a
  * pre-crack and particles with prescribed motion are left out. Replaces the previous zone in *r. source: inputs of the
- * bonds. Release with interface_zone_free. */
+ * bonds (horizon, materials, cracks, mirrors). Release with interface_zone_free. */
 void interface_zone_find_points_and_neighbours(struct interface_zone *r, const struct particles *p,
                                                const struct bond_source *source);
 

@@ -44,7 +44,8 @@ void notches_choose_slits_or_cut_bonds(struct notches *n, const struct particles
                                        real tip_radius, const char *reason_against_slits);
 
 /* Makes peridynamic, before step 0, the particles of p within n->radius of an end of a slit (a pre-crack as free
- * surface of the mesh) if the slit separates them from some of their neighbours. source: inputs of the bonds. */
+ * surface of the mesh) if the slit separates them from some of their neighbours. source: inputs of the bonds (horizon,
+ * materials, cracks, mirrors). */
 void notches_make_slit_ends_peridynamic(const struct notches *n, struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays of n, the pre-cracks of a run. The corners of the cracks and the voids stay with their owners. */

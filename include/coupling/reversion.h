@@ -30,7 +30,7 @@ int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *ru
  * volume from the determinant of the deformation gradient of the family. The velocity gradient becomes 0; positions and
  * velocities are unchanged. Beside a surface the stress is that of a full neighbourhood under the same strain. Rebuilds
  * the bonds b and, if `partial` is not NULL, the partial stresses around the particles. Counts the reversion in c.
- * source: inputs of the bonds. */
+ * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void reversion_convert_listed_particles_to_mpm(struct conversion *c, struct particles *p, struct bonds *b,
                                                const struct bond_source *source, struct partial_stress *partial,
                                                const int32_t *particle_list, int64_t particle_count);

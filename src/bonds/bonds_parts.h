@@ -35,9 +35,9 @@ void bond_row_buffer_make(struct row *row, int capacity);
 void bond_row_buffer_free(struct row *row);
 
 /* Lists in neighbour[capacity] the neighbours within the cutoff of the particle or mirror image number `particle` of p,
- * in ascending order. Particles behind a void (a narrow gap of the body) are left out. source: inputs of the bonds;
- * map: from lattice sites to particles, used where possible instead of a search; NULL: always search. Returns the
- * number of neighbours; if this number exceeds `capacity`, the list is incomplete. */
+ * in ascending order. Particles behind a void (a narrow gap of the body) are left out. source: inputs of the bonds
+ * (horizon, materials, cracks, mirrors); map: from lattice sites to particles, used where possible instead of a search;
+ * NULL: always search. Returns the number of neighbours; if this number exceeds `capacity`, the list is incomplete. */
 int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *source,
                                            const struct particles *p, int32_t particle, int32_t *neighbour,
                                            int capacity);
@@ -54,8 +54,9 @@ struct row_maker {
     int room;                   /* largest number of bonds of a row */
 };
 
-/* Allocates the softening data of the bonds b of the particles p. Does nothing if all bonds are brittle. previous:
- * bonds before a rebuild, whose softening is kept, NULL if there are none; source: inputs of the bonds. */
+/* Allocates the softening data (largest stretch, onset and end of softening) of the bonds b of the particles p. Does
+ * nothing if all bonds are brittle. previous: bonds before a rebuild, whose softening is kept, NULL if there are none;
+ * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                                     const struct particles *p);
 
@@ -93,12 +94,12 @@ static inline bool bond_row_previous_is_still_valid(const struct row_maker *make
 }
 
 /* Finds the neighbours of the particle with index `particle` and stores their indices in row->nbr, their number in
- * row->n. maker: inputs of the rows. */
+ * row->n. maker: inputs of the bonds and the previous bonds. */
 void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Computes lengths and weights of the bonds from the particle with index `particle` to the neighbours in row->nbr and
- * stores them in `row`. maker: inputs of the rows. Bonds that are broken in the previous bonds maker->old are broken in
- * `row`, too; the plastic state of bonds is copied from there. */
+ * stores them in `row`. maker: inputs of the bonds and the previous bonds. Bonds that are broken in the previous bonds
+ * maker->old are broken in `row`, too; the plastic state of bonds is copied from there. */
 void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns the number of the previous block of eight rows (bonds of eight particles) in maker->old that equals block
@@ -128,10 +129,11 @@ struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, i
  * (each row has the bonds of one particle). */
 void bond_rows_restore_found_neighbours(const struct row_block_found *saved, struct row *row, int row_count);
 
-/* Assigns a range of columns (eight bonds each) to every block of eight rows (the bonds of eight particles) of b and
- * allocates the column arrays. previous_row_block[row_blocks]: number of the previous block in maker->old whose columns
- * are used again in place, -1 for a block that is rebuilt; NULL if there are no previous bonds. Rebuilt blocks use
- * columns of removed blocks if these are enough, else columns behind all others (bonds_columns.c). */
+/* Assigns a range of columns of the arrays of stored bonds to every block of eight rows (the bonds of eight particles)
+ * of b and allocates these arrays. A column has eight bonds, one of each particle. previous_row_block[row_blocks]:
+ * number of the previous block in maker->old whose columns are used again in place, -1 for a block that is rebuilt;
+ * NULL if there are no previous bonds. Rebuilt blocks use columns of removed blocks if these are enough, else columns
+ * behind all others (bonds_columns.c). */
 void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *maker,
                                         const int64_t *previous_row_block);
 
@@ -145,7 +147,7 @@ bool particle_is_near_precrack_or_void(const struct bond_source *source, const s
 
 /* Returns the stretch [1] above which the fast vector test of breaking passes the bond between the particles `particle`
  * and `other_particle` of p on to the exact test: the critical stretch of the bond less a tolerance for round-off.
- * source: inputs of the bonds. */
+ * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle);
 
@@ -183,8 +185,9 @@ bool regular_bonds_find_for_eight_particles(const struct site_map *map, const st
                                             int64_t first_particle, struct regular_bonds *found_bonds);
 
 /* Lists the neighbours of the eight particles of p from `first_particle` on in `found_bonds` as
- * regular_bonds_find_for_eight_particles does, without regard to pre-cracks. source: inputs of the bonds. Returns false
- * also if one of the eight is a mirror image or near a void, or if `map` has no sites. */
+ * regular_bonds_find_for_eight_particles does, without regard to pre-cracks. source: inputs of the bonds (horizon,
+ * materials, cracks, mirrors). Returns false also if one of the eight is a mirror image or near a void, or if `map` has
+ * no sites. */
 bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
@@ -200,22 +203,22 @@ void stencil_cache_free(struct stencil_cache *t);
 
 /* Searches the cache bonds->stencil_cache for eight consecutive particles whose bonds have the same bits (lengths,
  * weights and sums of weights) as `bonds`, the bonds of the eight particles from `first_particle` on. None of these
- * bonds may be cut by a pre-crack. Returns the first of the particles found; -1 if the cache has no such particles, or
- * if the lattice is not uniform. If the lattice is uniform and the search fails, adds `bonds` to the cache.
- * weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are none. */
+ * bonds may be cut by a pre-crack. Returns the index of the first of the eight particles found; -1 if the cache has no
+ * such particles, or if the lattice is not uniform. If the lattice is uniform and the search fails, adds `bonds` to the
+ * cache. weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are none. */
 int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 
 /* Computes the inverse lengths inverse_length[8] [1/m] and weights weight[8] [1] of the bonds between the particles
  * first_particle + l and first_neighbour + l of p, l = 0 to 7, without regard to cracks and voids. source: inputs of
- * the bonds; pairs: micro-moduli by pair of materials. */
+ * the bonds (horizon, materials, cracks, mirrors); pairs: micro-moduli by pair of materials. */
 void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
                                    const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
                                    real *inverse_length, real *weight);
 
 /* Computes the bonds of the eight particles of p from `first_particle` on into `found_bonds`, by the map `map` from
- * lattice sites to particles. source: inputs of the bonds. Returns true, or false if that is not possible, e.g. because
- * a crack is near. */
+ * lattice sites to particles. source: inputs of the bonds (horizon, materials, cracks, mirrors). Returns true, or false
+ * if that is not possible, e.g. because a crack is near. */
 bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const struct bond_source *source,
                                           const struct particles *p, int64_t first_particle,
                                           struct regular_bonds *found_bonds);
@@ -230,7 +233,7 @@ int regular_bonds_count_columns(const struct regular_bonds *bonds);
 int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds);
 
 /* Returns the micro-moduli of bonds for all pairs of materials, divided by that of bonds within material 0. s: inputs
- * of the bonds. Release the array `ratio` of the result with memory_free. */
+ * of the bonds (horizon, materials, cracks, mirrors). Release the array `ratio` of the result with memory_free. */
 struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s);
 
 /* Returns the number of rows in block `row_block` of eight rows of b, i.e. of the particles whose bonds the block
@@ -268,17 +271,17 @@ void bond_row_block_buffer_free(struct row_block_buffer *buffer);
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column);
 
-/* Fills the columns of block `row_block` of eight rows of b, which stores the bonds of eight particles, from the first
- * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, neighbourhood volumes
- * and the flag `aligned` of the block (1: its eight particles have consecutive indices). p: particles;
- * one_offset_per_column: true if the bonds of each column have the same offset on the lattice, as
- * bond_row_block_count_columns returns. */
+/* Fills block `row_block` of eight rows of b, which stores the bonds of eight particles, from the first `row_count`
+ * rows in `buffer` (the bonds of one particle each): arranges the bonds in columns, one bond of each particle, and sets
+ * breaking limits, neighbourhood volumes and the flag `aligned` of the block (1: its eight particles have consecutive
+ * indices). p: particles; one_offset_per_column: true if the bonds of each column are to have the same offset on the
+ * lattice, as bond_row_block_count_columns returns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
 /* Fills block `row_block` of eight rows of b (the bonds of eight particles) from the bonds in buffer->regular, which
- * were found without a search, because its eight particles are consecutive on one lattice. maker: parameters of the
- * bonds. */
+ * were found without a search, because its eight particles are consecutive on one lattice. maker: inputs of the bonds
+ * and the previous bonds. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                             const struct row_maker *maker);
 
@@ -313,10 +316,10 @@ void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 /* Releases the arrays of `stencil`, a bond pattern for blocks of eight rows of a lattice. */
 void stencil_free(struct stencil *stencil);
 
-/* Appends the column `added_column` (eight bonds) of the block of eight rows with the eight consecutive particles from
- * `first_particle` on to the stencil `stencil`. A lane of `added_column` with weight 0 and inverse length 0 has no
- * bond. b, p: bonds and particles. Returns false, and leaves an unusable stencil, if the eight neighbours are not
- * consecutive, or if bonds differ in length or are cut. */
+/* Appends a column, one bond of each of the eight consecutive particles from `first_particle` on, to `stencil`, a bond
+ * pattern that blocks of eight rows (bonds of eight particles) of a lattice share. added_column: these bonds; weight 0
+ * and inverse length 0 where a particle has none. b, p: bonds and particles. Returns false, and leaves an unusable
+ * stencil, if the eight neighbours are not consecutive, or if bonds differ in length or are cut. */
 bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
                         int64_t first_particle, const struct column_copy *added_column);
 
@@ -326,10 +329,10 @@ bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const st
 const struct stencil *stencil_find_or_add(struct stencils *table, const struct stencil *stencil,
                                           const struct stencil *first_guess);
 
-/* Makes block `row_block` of eight rows of b use the stencil of the block that contains particle `particle`, so that it
- * needs no stored columns; breaking limits and neighbourhood volumes are copied from there, too. If particle = -1, the
- * block keeps the stencil that it already has. A stencil is a list of columns that many blocks (bonds of eight
- * particles) of a lattice share. Returns false, and changes nothing, if there is no stencil. */
+/* Makes block `row_block` of eight rows of b (the bonds of eight particles) use a stencil, a bond pattern that many
+ * blocks of a lattice share, so that it needs no stored bonds: the stencil of the block that contains particle
+ * `particle`, from which breaking limits and neighbourhood volumes are copied, too. If particle = -1, the block keeps
+ * the stencil that it already has. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
 /* Writes `bonds`, one bond of each of eight particles, to the entries of column number `column_number` (from 0) in the
@@ -337,8 +340,9 @@ bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, 
 void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number, const struct column_copy *bonds);
 
 /* Sets the elastic moduli of the state-based model in b->state, and the rule by which they are divided by a weighted
- * volume Q, and allocates the volumes Q of all neighbourhoods there. source: inputs of the bonds. Call before rows
- * (bonds of particles) are filled (bonds_state.c). Does nothing for bond-based models. */
+ * volume Q, and allocates the volumes Q of all neighbourhoods there. source: inputs of the bonds (horizon, materials,
+ * cracks, mirrors). Call before rows (bonds of particles) are filled (bonds_state.c). Does nothing for bond-based
+ * models. */
 void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *source);
 
 /* Allocates the arrays of b->state, the data of state-based models for each row (the bonds of one particle of p),
@@ -350,7 +354,8 @@ void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, c
 void bonds_free_state_based_arrays(struct bonds *b);
 
 /* Lists in b->clamped the bonds of particles p to their mirror images in clamped planes (planes in which all motion is
- * prevented). source: inputs of the bonds. To be called after all rows were made (bonds_clamped.c). */
+ * prevented). source: inputs of the bonds (horizon, materials, cracks, mirrors). To be called after all rows were made
+ * (bonds_clamped.c). */
 void clamped_bonds_list_at_clamped_mirrors(struct bonds *b, const struct particles *p,
                                            const struct bond_source *source);
 

@@ -13,8 +13,8 @@ struct offsets {
     int n, dim, reach;
     /* [n] components [spacings], ascending (the negative of number k is n - 1 - k) */
     int (*at)[DIM_MAX];
-    /* [n] length [spacings]; direction; share: weight as rows store it; weight: force divided by stretch (state-based:
-     * share times length) */
+    /* [n] length [spacings]; direction; share: weight as it is stored for a bond; weight: force divided by stretch
+     * (state-based: share times length) */
     real *length, (*direction)[DIM_MAX], *share, *weight;
     int axis[DIM_MAX][2]; /* index of the nearest neighbour down and up an axis */
     int32_t *number;      /* [(2 reach + 1)^dim] index of an offset, -1: none */
@@ -92,9 +92,10 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
  * reflected at the mirror. b: holds the list. */
 int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
 
-/* Lists the particles of p near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
- * message, if the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is
- * not a whole number of spacings away, unfitting_pair[1] this neighbour. Release with near_faces_free. */
+/* Lists the particles of p near faces and their neighbours in b. source: inputs of the bonds (horizon, materials,
+ * cracks, mirrors). Returns REFUSED, with a message, if the particles are not on a lattice; unfitting_pair[0] is then
+ * the first particle with a neighbour that is not a whole number of spacings away, unfitting_pair[1] this neighbour.
+ * Release with near_faces_free. */
 status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,
                                                 const struct bond_source *source, int64_t unfitting_pair[2]);
 
@@ -106,8 +107,8 @@ void near_faces_free(struct near_faces *b);
 struct surface_fit_targets {
     real (*area)[DIM_MAX]; /* [n] area of the faces in the particle's cell times outward normal, extrapolated from
                               layers to the face [spacing^(dim-1)] */
-    real *dipole; /* [n] tau/alpha: relative increase tau of the required fourth moment of the bonds, divided by the
-                     constant alpha of the model [1] */
+    real *dipole; /* [n] required increase of the fourth moment of the bonds over that of a full neighbourhood, relative
+                     to the latter and divided by a constant alpha of the model [1] */
     real (*normal2)[DIM_MAX][DIM_MAX]; /* [n] N (x) N of the face normal N, averaged over nearby faces; trace 1 at a
                                           plane face, less at smaller faces, 0 without a face nearby */
     uint8_t *thin;                     /* [n] too few layers between two faces: fewer than THIN or THIN_ROTATING */
@@ -116,8 +117,10 @@ struct surface_fit_targets {
 /* Number of layers from which on a part is not thin: of models without and with particle rotations. */
 enum { THIN = 4, THIN_ROTATING = 5 };
 
-/* Computes into f, for the particles `near` near faces, the outward areas, moments and normals to which bond weights
- * are fitted. with_rotations: true for the model with particle rotations. Release with surface_fit_targets_free. */
+/* Computes into f, for each of the particles `near` near faces, the quantities to which the weights of its bonds are
+ * fitted: face area with outward normal, increase of the fourth moment of the bonds, and mean product of normals
+ * (members area, dipole, normal2). with_rotations: true for the model with particle rotations. Release with
+ * surface_fit_targets_free. */
 void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *near,
                                          bool with_rotations);
 

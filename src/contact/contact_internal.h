@@ -160,8 +160,8 @@ real contact_notch_width_between_entries(const struct contact *c, const struct p
                                          int64_t other);
 
 /* Computes three arrays for all entries of the contact list (particles of p that may come into contact): c->root, the
- * entry of the particle that a mirror image mirrors (for other entries the entry itself); c->size, the spacing [m];
- * c->rise, the height of the surface of the body above the particle, minus 1/2 [spacings]. */
+ * entry of the particle that a mirror image mirrors (for other entries the entry itself); c->size, the spacing of the
+ * particle [m]; c->rise, the height of the surface of the body above the particle, minus 1/2 [spacings]. */
 void contact_list_compute_entry_data(struct contact *c, const struct particles *p);
 
 /* Adds the contact forces of all pairs of particle number `row` of the contact list of c (particles that may come into
@@ -232,8 +232,8 @@ struct contact_weight {
 
 /* Returns the contribution of entry `other` of the contact list of c (particles of p that may come into contact) to the
  * density at entry `entry` (number of particles of a face nearby, weighted by a kernel), at the positions x - v t,
- * where x and v are the present positions and velocities and t is `time_before_present` [s]. The energy derivative in
- * the result is that at the present positions. */
+ * where x and v are the present positions and velocities and t is `time_before_present` [s]. The derivative of the
+ * contact energy in the result is that at the present gap. */
 struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
                                                         int64_t entry, int64_t other, real time_before_present);
 
@@ -256,9 +256,9 @@ void contact_face_add_friction_on_particle(const struct contact *c, struct parti
 /* Returns the elastic energy [J] stored in all friction springs of the contact c. */
 real contact_friction_stored_energy(const struct contact *c);
 
-/* Allocates c->reaction, by which the forces of friction springs are distributed over the particles of the opposite
- * face, one entry for each particle of the contact list (particles that may come into contact). The values are computed
- * with the next contact forces. */
+/* Allocates c->reaction, the reactions to the friction springs, one entry for each particle of the contact list
+ * (particles that may come into contact): with them the force of a spring is distributed over the particles of the
+ * opposite face. The values are computed with the next contact forces. */
 void contact_friction_reactions_make(struct contact *c);
 
 /* Allocates the friction springs of c, whose list of particles is new, and copies to them the springs of particles that

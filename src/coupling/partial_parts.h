@@ -8,8 +8,8 @@
 #include "data/cells.h"
 
 /* Lists the particles and mirror images of p within the cutoff of bonds around `particle`, without `particle` itself,
- * in near->at, and stores their number in near->n. source: inputs of the bonds; map: map of the lattice sites of the
- * bonds, which makes this faster; NULL: a search is done. */
+ * in near->at, and stores their number in near->n. source: inputs of the bonds (horizon, materials, cracks, mirrors);
+ * map: map of the lattice sites of the bonds, which makes this faster; NULL: a search is done. */
 void particle_find_family_members(struct neighbour_list *near, const struct bond_source *source,
                                   const struct site_map *map, const struct particles *p, int64_t particle);
 
@@ -28,7 +28,7 @@ struct reflection {
 
 /* Returns the reflection, by one or several mirrors, that maps a particle of the body to its mirror image `image`, an
  * entry of the particle arrays of p. The reflection is the identity if `image` itself is a particle of the body. s:
- * inputs of the bonds. */
+ * inputs of the bonds (horizon, materials, cracks, mirrors). */
 struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image);
 
 /* Strain response of a bond: derivative of the force F of the bond by a uniform strain eps, times the length of the
@@ -40,7 +40,7 @@ struct response {
 
 /* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond [N m], as the three
  * factors of struct response (central, pressure and vector part of the force). i: particle of p to whose bonds in b
- * `bond` belongs; source: inputs of the bonds. */
+ * `bond` belongs; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
                                                 const struct bond_source *source, int32_t i, const struct bond *bond);
 
@@ -55,20 +55,21 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
 /* Reduces the tensor `tensor` [J] of the material point `point` of p, by which its state-based bonds b reduce the
  * stiffness of its cell, as far as needed for a positive elastic energy of the point (partial_positive.c).
  * mean_strain_derivative: receives the derivative of the point's mean strain by the strain of its cell, in symmetric
- * components [1]; 0 if the point has no bonds. source: inputs of the bonds. Returns true if the point has bonds. */
+ * components [1]; 0 if the point has no bonds. source: inputs of the bonds (horizon, materials, cracks, mirrors).
+ * Returns true if the point has bonds. */
 bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
 /* Reduces the tensor `tensor` [J] of the material point `point` of p, by which bond-based bonds to peridynamic
  * particles reduce the stiffness of its cell, as far as needed for V C - `tensor` without negative eigenvalues. source:
- * inputs of the bonds; V, C: volume and elastic tensor of the point. A cell with a negative eigenvalue would be
- * unstable with any time step. This has an effect only if particles are not on a lattice or bonds are stiffer than the
- * material. */
+ * inputs of the bonds (horizon, materials, cracks, mirrors); V, C: volume and elastic tensor of the point. A cell with
+ * a negative eigenvalue would be unstable with any time step. This has an effect only if particles are not on a lattice
+ * or bonds are stiffer than the material. */
 void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
 /* Returns half the edge [m] of the square or cubic cell of particle i of p, from the volume of the particle. source:
- * inputs of the bonds. */
+ * inputs of the bonds (horizon, materials, cracks, mirrors). */
 real particle_cell_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
 
 /* Table for particles on a lattice (partial_table.c): for every possible bond and every cell that it crosses, the
@@ -78,8 +79,8 @@ struct partial_table;
 
 /* Creates the table that contains, for every possible bond between particles p on a lattice, the fraction of the length
  * of the bond inside each cell that the bond crosses. The table is empty if the particles are not on lattices or have
- * too many bond vectors. source: inputs of the bonds; tensor_size: number of values of the tensor T, by which bonds
- * reduce the stiffness of a cell. Release with partial_table_free. */
+ * too many bond vectors. source: inputs of the bonds (horizon, materials, cracks, mirrors); tensor_size: number of
+ * values of the tensor T, by which bonds reduce the stiffness of a cell. Release with partial_table_free. */
 struct partial_table *partial_table_make_of_bond_shares_in_cells(const struct particles *p,
                                                                  const struct bond_source *source, int tensor_size);
 
@@ -96,7 +97,8 @@ bool partial_table_is_filled(const struct partial_table *t);
 bool partial_table_covers_all_particles(const struct partial_table *t);
 
 /* Returns true if the table of bond lengths inside cells (struct partial_table) can be used for particle number
- * `particle` of p, because the particle has the volume of a lattice cell. source: inputs of the bonds. */
+ * `particle` of p, because the particle has the volume of a lattice cell. source: inputs of the bonds (horizon,
+ * materials, cracks, mirrors). */
 bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *source, int64_t particle);
 
 /* Recomputes the strain responses that the table t stores for each bond in b of a material point of p: the derivative
@@ -109,8 +111,8 @@ void partial_table_update_strain_responses(struct partial_table *t, const struct
 
 /* Computes the tensor `tensor` [J] of the material point `point` of p, by which the bonds b reduce the stiffness of its
  * cell, from the table t and the strain responses that it stores for the bonds of the material points around `point`.
- * The responses must be up to date (partial_table_update_strain_responses). source: inputs of the bonds; near: working
- * memory. */
+ * The responses must be up to date (partial_table_update_strain_responses). source: inputs of the bonds (horizon,
+ * materials, cracks, mirrors); near: working memory. */
 void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                                         const struct bond_source *source, int64_t point, struct neighbour_list *near,
                                         real *tensor);

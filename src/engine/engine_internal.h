@@ -158,8 +158,8 @@ void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struc
 void engine_warn_of_frames_after_end_of_run(const struct scene *s, struct warnings *warnings);
 
 /* Checks whether the run of scene s (the input file) fits the memory that the process may use. p: particles;
- * bond_source: inputs of the bonds. Returns OK if the run fits, else REFUSED, with a message that contains the
- * estimated size. */
+ * bond_source: inputs of the bonds (horizon, materials, cracks, mirrors). Returns OK if the run fits, else REFUSED,
+ * with a message that contains the estimated size. */
 status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *bond_source);
 
 #endif

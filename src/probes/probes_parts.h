@@ -133,8 +133,8 @@ static inline real probe_particle_velocity_component(const struct probe *q, cons
 extern const char *const axis_name[DIM_MAX];
 
 /* Returns the index of the particle nearest to the reference position `position`, dim components [m]. Returns -1 if
- * `position` is outside the bodies, i.e. if no particle is within 3/4 of the diagonal of a lattice cell. o: view of the
- * run. */
+ * `position` is outside the bodies, i.e. if no particle is within 3/4 of the diagonal of a lattice cell. o: the run as
+ * probes see it (particles, bonds, time). */
 int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
 /* Computes the reference position of station number `station` of a LINE probe, position[dim] [m]. Stations 0 ..
@@ -183,7 +183,8 @@ status pulse_probe_store_incident_amplitude(struct probe *q, const struct observ
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
 /* Tests whether broken bonds separate the bar of a SPALL probe into two parts along x. If so, stores the position of
- * the plane of separation and the time in q->memory; else changes nothing. o: view of the run. */
+ * the plane of separation and the time in q->memory; else changes nothing. o: the run as probes see it (particles,
+ * bonds, time). */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
 /* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q, which broken bonds have
@@ -252,7 +253,7 @@ status rigid_probe_store_initial_motion(struct probe *q, const struct observed_r
 
 /* Computes the rotation angle value[0] of the body of a RIGID probe [rad], its largest absolute principal stress
  * value[1] and its largest in-plane shear stress value[2] [Pa] at the present positions, and updates q->memory.rigid.
- * o: view of the run. */
+ * o: the run as probes see it (particles, bonds, time). */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
 
 /* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
@@ -272,14 +273,15 @@ struct bar {
 };
 
 /* Finds the particles, ends, material and load of the bar of an EXACT probe and allocates q->bar. Returns REFUSED if
- * the bar or its loads differ from what the closed-form solution describes. o: view of the run. */
+ * the bar or its loads differ from what the closed-form solution describes. o: the run as probes see it (particles,
+ * bonds, time). */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
 /* Frees the bar of an EXACT probe, which bar_probe_find_bar_and_load has made, with its arrays; `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
- * arrays of *bar. o: view of the run. */
+ * arrays of *bar. o: the run as probes see it (particles, bonds, time). */
 void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
 
 /* Computes the stress by bond flux of each particle of `bar` in run o, flux[n] by rank from left to right [Pa]: the sum
@@ -299,8 +301,8 @@ int bar_probe_value_count(enum exact_form closed_form);
 struct column bar_probe_value_column(enum exact_form closed_form, int value_number);
 
 /* Updates the measured fields of a bar (bar_probe_measure_fields), compares them with the closed-form solution, and
- * stores the reported quantities in value[bar_probe_value_count], in the order of bar_probe_value_column. o: view of
- * the run. */
+ * stores the reported quantities in value[bar_probe_value_count], in the order of bar_probe_value_column. o: the run as
+ * probes see it (particles, bonds, time). */
 void bar_probe_compute_values(struct bar *bar, const struct observed_run *o, real *value);
 
 /* Number of columns of the profile of a bar, the table of values along the bar that is written with each frame. */

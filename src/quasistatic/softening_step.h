@@ -11,7 +11,7 @@
 status softening_make_load_step(struct run *e, real pseudo_time);
 
 /* Returns the smallest crack energy per area [J/m^2] of the materials of scene s (the input file) whose bonds soften;
- * INFINITY if none do. bond_source: inputs of the bonds. */
+ * INFINITY if none do. bond_source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 real softening_least_toughness(const struct scene *s, const struct bond_source *bond_source);
 
 #endif
