@@ -105,12 +105,12 @@ static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t ce
 }
 
 /* Copies displacement and velocity to the ghosts of coarsening level `level` > 0 of the mesh l: nodes of that level
- * whose motion is that of the node of the next finer level at the same position. */
+ * that move with the node of the next finer level at the same position. */
 void levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level);
 
-/* Sets displacement and velocity of hanging nodes to the mean of the nodes around them. These are nodes of level
- * `level` - 1 in the middle of an edge or a face of a cell of the coarser level `level`; the mean is over the ends of
- * the edge or the corners of the face. */
+/* Sets displacement and velocity of the hanging nodes of the mesh l to the mean of the nodes around them. These are
+ * nodes of level `level` - 1 in the middle of an edge or a face of a cell of the coarser level `level`; the mean is
+ * over the ends of the edge or the corners of the face. */
 void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level);
 
 /* Determines the cells of all coarse levels with particles p from l->level, the coarsening level of each cell of level
@@ -118,14 +118,14 @@ void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level
  * among its corners). The transfer of mass between levels follows in levels_add_masses_of_dependent_nodes. */
 void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p);
 
-/* Finds the nodes at interfaces of the coarsening levels of l: ghosts, at the position of a node of the next finer
- * level, and hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose
- * inertia is matched to the dispersion of the bonds (levels_match_wave_dispersion_of_bonds). */
+/* Finds the nodes at interfaces of the coarsening levels of the mesh l: ghosts, at the position of a node of the next
+ * finer level, and hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose
+ * mass matrix is to be blended such that waves disperse as with bonds (levels_match_wave_dispersion_of_bonds). */
 void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
 
 /* Adds the masses of ghosts (nodes at the position of a node of the next finer level) and hanging nodes (in the middle
- * of an edge or face of a coarser cell) to the nodes that determine their motion. transfer_momenta: true to transfer
- * their momentum in grid.momentum [kg m/s], too. */
+ * of an edge or face of a coarser cell) of the mesh l to the nodes that determine their motion. transfer_momenta: true
+ * to transfer their momentum in grid.momentum [kg m/s], too. */
 void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta);
 
 /* Finds the runs of all coarsening levels of l (rows of consecutive cells of equal material), the spans of nodes with
@@ -133,8 +133,9 @@ void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_m
  * levels_add_masses_of_dependent_nodes. */
 void levels_make_cell_rows_and_node_spans(struct mesh_levels *l);
 
-/* Interpolates displacement and velocity of coarse cells of l to nodes of level 0 (the finest) inside them that belong
- * to no cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent cell. */
+/* Interpolates displacement and velocity of coarse cells of the mesh l to nodes of level 0 (the finest) inside them
+ * that belong to no cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent
+ * cell. */
 void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
 
 /* Computes grid.momentum of the nodes of coarse cells of l, i.e. momentum divided by nodal mass [m/s], from the nodal

@@ -21,8 +21,9 @@ struct mesh_partial {
     real *stiffness;
 };
 
-/* Removes all partial cells (cells with missing points, partial stresses, several materials or doubled nodes) from the
- * mesh, and returns their list with their stiffness, for mesh_partial_compute_stiffness. */
+/* Removes all partial cells (cells with missing points, points whose stress is partly carried by bonds, several
+ * materials or doubled nodes) from the mesh, and returns their list with their stiffness, for
+ * mesh_partial_compute_stiffness. */
 struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh);
 
 /* Appends cell number `cell` to the list of partial cells of the mesh: cells in which points are missing or have
@@ -30,16 +31,17 @@ struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh);
  * mesh_partial_compute_stiffness. */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 
-/* Computes the stiffness of all partial cells of the mesh with particles p (cells with missing points, partial
- * stresses, several materials or doubled nodes). source: material constants and partial stresses; cell_needs_update: a
- * byte for each cell, not 0 where the stiffness must be computed anew, NULL for all cells; previous_cells: result of
- * mesh_partial_remove_and_return_cells, from which the stiffness of all other cells is copied, and which is freed. */
+/* Computes the stiffness of all partial cells of the mesh with particles p (cells with missing points, points whose
+ * stress is partly carried by bonds, several materials or doubled nodes). source: material constants, and the parts of
+ * stresses that bonds carry; cell_needs_update: a byte for each cell, not 0 where the stiffness must be computed anew,
+ * NULL for all cells; previous_cells: result of mesh_partial_remove_and_return_cells, from which the stiffness of all
+ * other cells is copied, and which is freed. */
 void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                     const uint8_t *cell_needs_update, struct mesh_partial *previous_cells);
 
-/* Recomputes the stiffness of the partial cells of `mesh` (cells with missing points, partial stresses, several
- * materials or doubled nodes) marked in `cell_is_marked`, a byte for each cell. The list of partial cells is unchanged.
- * source: material constants and partial stresses. */
+/* Recomputes the stiffness of the partial cells of `mesh` (cells with missing points, points whose stress is partly
+ * carried by bonds, several materials or doubled nodes) marked in `cell_is_marked`, a byte for each cell. The list of
+ * partial cells is unchanged. source: material constants, and the parts of stresses that bonds carry. */
 void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                          const uint8_t *cell_is_marked);
 
@@ -68,9 +70,9 @@ void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
 /* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh, which mesh_slits_double_nodes has made. */
 void mesh_slits_free(struct mesh_slits *s);
 
-/* Computes nodal values of a vector field from values at the points of the mesh, by least squares weighted with mass;
- * the iteration starts from the lumped projection. point_value: dim arrays with a value for each particle; nodal_value:
- * dim arrays, receives a value for each node. */
+/* Computes nodal values of a vector field from values at the points p of the mesh, by least squares weighted with mass;
+ * the iteration starts from the projection with the lumped mass matrix. point_value: dim arrays with a value for each
+ * particle; nodal_value: dim arrays, receives a value for each node. */
 void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                            real *const *nodal_value);
 
@@ -80,8 +82,9 @@ void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, r
 void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                                      real *const *nodal_value, const int32_t *node_list, int64_t node_count);
 
-/* Returns the cell of `mesh` that contains `particle` of p and its number in this cell as (cell << dim) + number, from
- * its reference position, or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
+/* Returns the cell of `mesh` that contains `particle` of p, and the number (0 to 2^dim - 1) of the quadrature point of
+ * this cell at which the particle is, as (cell << dim) + number, from its reference position. Returns -1 if the
+ * particle is not at a quarter or three quarters of each edge of a cell. */
 int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
 
 /* Recomputes mass [kg] and inverse mass of the mesh node with the index `node` from the points p in the cells around
@@ -89,8 +92,9 @@ int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const st
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
- * mesh->level, the coarsening level of each cell, has changed in some cells. p: particles; source: material constants
- * and partial stresses; level_has_changed: [mesh->grid.n + LANES] not 0 for cells whose level has changed. */
+ * mesh->level, the coarsening level of each cell, has changed in some cells. p: particles; source: material constants,
+ * and the parts of stresses that bonds carry; level_has_changed: [mesh->grid.n + LANES] not 0 for cells whose level has
+ * changed. */
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
                                            const struct mesh_source *source, const uint8_t *level_has_changed);
 

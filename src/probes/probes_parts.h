@@ -68,12 +68,13 @@ struct probe {
  * stress (in plane strain also zz), damage, plastic strain and temperature. */
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 3 };
 
-/* Returns the number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity
- * and stress, the damage, and plastic strain and temperature if p has these arrays. */
+/* Returns the number of values that a POINT or LINE probe (values at a point or along a line) reports of a particle:
+ * components of displacement, velocity and stress, the damage, and plastic strain and temperature if p has these
+ * arrays. */
 int particle_probe_value_count(const struct particles *p);
 
-/* Returns the name and unit of value `value_number` of those that a POINT or LINE probe reports of a particle, 0 <=
- * value_number < particle_probe_value_count(p). */
+/* Returns the name and unit of value `value_number` of those that a POINT or LINE probe (values at a point or along a
+ * line) reports of a particle, 0 <= value_number < particle_probe_value_count(p). */
 struct column particle_probe_value_column(const struct particles *p, int value_number);
 
 /* Returns the damage of `particle` of the run: the share of its bonds that are broken or have softened, by volume [1].
@@ -137,16 +138,17 @@ extern const char *const axis_name[DIM_MAX];
  * probes see it (particles, bonds, time). */
 int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
-/* Computes the reference position of station number `station` of a LINE probe, position[dim] [m]. Stations 0 ..
- * q->request.points - 1 are equidistant from one end of the line to the other. */
+/* Computes the reference position, position[dim] [m], of measuring point number `station` (0 .. q->request.points - 1)
+ * of a LINE probe. These points are equidistant from one end of the line to the other. */
 void line_probe_compute_station_position(const struct probe *q, int dim, int station, real *position);
 
 /* Returns the crack tip that the TIP probe q follows at present, or NULL if there is none. The tip belongs to *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips);
 
-/* Computes the reaction at the boundary that probe q observes, force[dim] [N]: the sum of the members `reaction` of all
- * entries of `loads` with the name of this boundary, i.e. of its supports, in load steps also of its forces.
- * mean_displacement[dim]: receives the mean displacement of the particles that they act on, each counted alike [m]. */
+/* Computes the reaction at the boundary that probe q (a measurement during the run) observes, force[dim] [N]: the sum
+ * of the members `reaction` of all entries of `loads` with the name of this boundary, i.e. of its supports, in load
+ * steps also of its forces. mean_displacement[dim]: receives the mean displacement of the particles that they act on,
+ * each counted alike [m]. */
 void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *loads, int dim, real *force,
                                         real *mean_displacement);
 
@@ -155,15 +157,16 @@ struct energies {
     real kinetic, strain, fracture; /* [J] */
 };
 
-/* Returns the kinetic, strain and fracture energy [J] of the particles of probe q in the current state o of the run. */
+/* Returns the kinetic, strain and fracture energy [J] of the particles of probe q (a measurement during the run). o:
+ * the current state of the run. */
 struct energies probe_energies(const struct probe *q, const struct observed_run *o);
 
-/* Returns the kinetic energy [J] of the particles of the probe q, with the velocities of
- * probe_particle_velocity_component. */
+/* Returns the kinetic energy [J] of the particles that probe q (a measurement during the run) observes, with the
+ * velocities of probe_particle_velocity_component. */
 real probe_kinetic_energy(const struct probe *q, const struct particles *p);
 
-/* Computes the momentum of the particles of the probe q, momentum[dim] [kg m/s], with the velocities of
- * probe_particle_velocity_component. */
+/* Computes the momentum, momentum[dim] [kg m/s], of the particles that probe q (a measurement during the run) observes,
+ * with the velocities of probe_particle_velocity_component. */
 void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum);
 
 /* Results of a PULSE probe [1]: amplitudes of the reflected packet (difference from the baseline, a run on material
@@ -173,13 +176,13 @@ struct pulse_shares {
     real reflected, transmitted, energy_change;
 };
 
-/* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q. Returns REFUSED
- * if nothing moves at the start. */
+/* Stores the largest initial speed of the body of run o as the incident amplitude of the PULSE probe q (amplitudes of a
+ * wave packet). Returns REFUSED if nothing moves at the start. */
 status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
 
-/* Returns the results of the PULSE probe q: the amplitudes of the reflected and the transmitted wave divided by the
- * incident amplitude, and the relative energy change of run o minus that of the baseline, a run with material points
- * alone (0 without a baseline). */
+/* Returns the results of the PULSE probe q (amplitudes of a wave packet): the amplitudes of the reflected and the
+ * transmitted wave divided by the incident amplitude, and the relative energy change of run o minus that of the
+ * baseline, a run with material points alone (0 without a baseline). */
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
 /* Tests whether broken bonds separate the bar of a SPALL probe into two parts along x. If so, stores the position of
@@ -187,8 +190,9 @@ struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct
  * bonds, time). */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
-/* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q, which broken bonds have
- * separated: *lighter_part_speed and *remaining_part_speed [m/s]. NAN for a part without particles. */
+/* Computes the mean velocities along x of the two parts of the bar of the SPALL probe q (place and time at which a bar
+ * spalls), which broken bonds have separated: *lighter_part_speed and *remaining_part_speed [m/s]. NAN for a part
+ * without particles. */
 void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
                                      real *remaining_part_speed);
 
@@ -212,17 +216,17 @@ enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 /* Names and units of the quantities that a SIF probe reports: K_I, K_II, J, contour_spread. */
 extern const struct column sif_figure[SIF_FIGURES];
 
-/* Finds in run o the crack tip of the SIF probe q, its integration contours, and the material around the tip. Returns
- * REFUSED if the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or
- * contain another crack tip or material. */
+/* Finds in run o the crack tip of the SIF probe q (stress-intensity factors), its integration contours, and the
+ * material around the tip. Returns REFUSED if the body is not plane, no pre-crack ends inside a body, or the contours
+ * are too narrow, leave the body, or contain another crack tip or material. */
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
-/* Frees w, the crack tip and the contours of a SIF probe, which sif_probe_find_tip_and_contours has made; w may be
- * NULL. */
+/* Frees w, the crack tip and the contours of a SIF probe (stress-intensity factors), which
+ * sif_probe_find_tip_and_contours has made; w may be NULL. */
 void sif_probe_free(struct sif_tracked *w);
 
-/* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of the SIF probe q, before
- * the time step. */
+/* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of the SIF probe q
+ * (stress-intensity factors), before the time step. */
 void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
 
 /* Computes K_I, K_II, J and their spread between the integration contours of the SIF probe q in run o at the time of
@@ -247,18 +251,19 @@ static inline real sif_probe_result(const struct probe *q, int figure)
  * of angular momentum and kinetic energy. */
 extern const struct column rigid_figure[RIGID_FIGURES];
 
-/* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q at the start of run o.
- * Returns REFUSED if the run is not in a plane. */
+/* Stores in q the angular momentum and the kinetic energy of the particles of the RIGID probe q (conservation in a body
+ * that moves rigidly) at the start of run o. Returns REFUSED if the run is not in a plane. */
 status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
-/* Computes the rotation angle value[0] of the body of a RIGID probe [rad], its largest absolute principal stress
- * value[1] and its largest in-plane shear stress value[2] [Pa] at the present positions, and updates q->memory.rigid.
- * o: the run as probes see it (particles, bonds, time). */
+/* Computes the rotation angle value[0] of the body of a RIGID probe (conservation in a body that moves rigidly) [rad],
+ * its largest absolute principal stress value[1] and its largest in-plane shear stress value[2] [Pa] at the present
+ * positions, and updates q->memory.rigid. o: the run as probes see it (particles, bonds, time). */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
 
 /* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of the RIGID
- * probe q, from the particles p, relative to the values at the start [1]; both should be conserved. NAN if the value at
- * the start is 0. Call this function when the velocities at the time of the sample are known. */
+ * probe q (conservation in a body that moves rigidly), from the particles p, relative to the values at the start [1];
+ * both should be conserved. NAN if the value at the start is 0. Call this function when the velocities at the time of
+ * the sample are known. */
 void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
@@ -277,7 +282,8 @@ struct bar {
  * bonds, time). */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
-/* Frees the bar of an EXACT probe, which bar_probe_find_bar_and_load has made, with its arrays; `bar` may be NULL. */
+/* Frees the bar of an EXACT probe (comparison of a bar with a closed-form solution), which bar_probe_find_bar_and_load
+ * has made, with its arrays; `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the

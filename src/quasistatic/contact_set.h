@@ -12,8 +12,8 @@ struct rigid_set;
  * other, and some particles are in contact at present. */
 bool crack_faces_are_in_contact(const struct contact *c);
 
-/* Returns true if any particles or rigid bodies were in contact before the present solution of s or are in contact
- * now. */
+/* Returns true if any particles or rigid bodies were in contact before the present solution of s (state of the load
+ * steps) or are in contact now. */
 bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact of run e before its first solution. Does nothing in runs without contact and rigid
@@ -29,8 +29,9 @@ int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, 
  * moves rigid bodies to their positions at that time, and searches for contacts there. */
 void statics_contact_begin_solution(struct run *e, real pseudo_time);
 
-/* Moves particles and nodes to the displacements of the solution and updates the set of active contacts (callback
- * `settle` of solver/equilibrium.h). run: a struct run. Returns true if the set has not changed. */
+/* Moves particles and nodes of the run to the displacements of the present solution and updates the set of active
+ * contacts (callback `settle` of solver/equilibrium.h). run: a struct run. Returns true if no contact was added or
+ * removed. */
 bool statics_contact_update_and_is_set_unchanged(void *run);
 
 /* Selects the contacts that exert forces (callback `laws` of solver/equilibrium.h): the fixed set of active contacts

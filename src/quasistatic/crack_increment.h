@@ -16,14 +16,15 @@ real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct 
  * bar in one dimension (`space: line`) counts as 25 spacings wide. */
 real crack_area_of_growth_by_one_spacing(const struct run *e);
 
-/* Determines the next crack increment of run e from trial equilibria, unless it is already known. Stores its bonds in
- * statics.next, its energies in statics.ahead, and in statics.due the load size (a measure proportional to the loads)
- * at which it releases as much energy as it costs. Returns FAILED if a trial equilibrium is not found. */
+/* Determines the next crack increment of run e (the next piece of crack growth) from trial equilibria, unless it is
+ * already known. Stores in e->statics its bonds (`next`), its energies (`ahead`), and the load size (`due`, a measure
+ * proportional to the loads) at which it releases as much energy as it costs. Returns FAILED if a trial equilibrium is
+ * not found. */
 status crack_increment_find(struct run *e);
 
-/* Breaks the bonds of the next crack increment of run e and moves the tips of SIF-driven cracks, without finding the
- * new equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken (a bond between two
- * particles counts twice). */
+/* Breaks the bonds of the next crack increment of run e and moves the tips of SIF-driven cracks (growth direction from
+ * stress-intensity factors), without finding the new equilibrium (crack_increment_equilibrate does). Returns the number
+ * of directed bonds broken (a bond between two particles counts twice). */
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e);
 
 /* Finds the equilibrium after crack_increment_break_bonds_and_move_tips has broken bonds, and converts material points
@@ -32,8 +33,8 @@ int64_t crack_increment_break_bonds_and_move_tips(struct run *e);
 status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
 
 /* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the
- * equilibrium there, and makes the increment. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to
- * stop. */
+ * equilibrium there, and makes the increment: breaks its bonds and finds the new equilibrium. Returns FAILED if no
+ * equilibrium is found, INTERRUPTED if the run is to stop. */
 status crack_increment_apply_at_energy_balance(struct run *e);
 
 /* Makes the next crack increment as a dynamic release (release.c): breaks its bonds, integrates the motion of the body

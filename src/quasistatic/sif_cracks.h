@@ -18,45 +18,46 @@
 const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struct crack_tips *tips,
                                             const struct crack_list *precracks, const struct particles *p);
 
-/* Projects the point `point`, dim components [m], onto the plane, and stores the two coordinates of the projection in
- * the plane in projection[2] [m]. */
+/* Projects the point `point`, dim components [m], onto `plane`, the plane in which crack tips move, and stores the two
+ * coordinates in this plane in projection[2] [m]. */
 void sif_plane_project(const struct sif_plane *plane, const real *point, real projection[2]);
 
-/* Projects the reference position of the particle with the index `particle` onto the plane and stores the two
- * coordinates of the projection in the plane in projection[2] [m]. */
+/* Projects the reference position of particle number `particle` of p onto `plane`, the plane in which crack tips move,
+ * and stores the two coordinates in this plane in projection[2] [m]. */
 void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t particle,
                                 real projection[2]);
 
-/* Computes the straight segment in which the pre-crack `precrack` intersects the plane, and stores its ends in
- * segment_end[0] and segment_end[1], as coordinates in the plane [m]. Returns false if the pre-crack is not parallel to
- * the crack fronts, i.e. not perpendicular to the plane. */
+/* Computes the straight segment in which the pre-crack `precrack` intersects `plane`, the plane in which crack tips
+ * move, and stores the ends of the segment in segment_end[0] and segment_end[1], as coordinates in the plane [m].
+ * Returns true, or false if the pre-crack is not parallel to the crack fronts, i.e. not perpendicular to the plane. */
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
                                real segment_end[2][DIM_MAX]);
 
 /* Returns the width [m] of the body p along the crack front, averaged over the segment between the points
- * `segment_start` and `segment_end` of the plane, two coordinates each [m]. For a plane body the width is its
- * thickness. */
+ * `segment_start` and `segment_end` of `plane`, the plane in which crack tips move, two coordinates each [m]. For a
+ * plane body the width is its thickness. */
 real sif_plane_body_width_along_front(const struct sif_plane *plane, const struct particles *p,
                                       const real *segment_start, const real *segment_end);
 
-/* Returns the area of the crack face that intersects the plane in the segment between the points `segment_start` and
- * `segment_end`, two coordinates each [m]: length times width of the body p along the front [m^2]. The area is halved
- * if the segment lies on a plane of symmetry. */
+/* Returns the area of the crack face that intersects `plane`, the plane in which crack tips move, in the segment
+ * between the points `segment_start` and `segment_end`, two coordinates each [m]: length times width of the body p
+ * along the front [m^2]. The area is halved if the segment lies on a plane of symmetry. */
 real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *segment_start,
                           const real *segment_end);
 
-/* Returns true if the segment between the points `segment_start` and `segment_end` of the plane, two coordinates each
- * [m], lies on a plane of symmetry. */
+/* Returns true if the segment between the points `segment_start` and `segment_end` of `plane` (the plane in which crack
+ * tips move), two coordinates each [m], lies on a plane of symmetry. */
 bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end);
 
-/* Computes the point ahead = start + distance * direction. start: point of the plane of the tips [m]; direction: unit
- * vector in the plane; distance and result in [m]. */
+/* Computes the point ahead = start + distance * direction. start: point of the plane in which crack tips move [m];
+ * direction: unit vector in the plane; distance and result in [m]. */
 static inline void sif_plane_compute_point_ahead(const real *start, real distance, const real *direction, real ahead[2])
 {
     for (int d = 0; d < 2; d++) ahead[d] = start[d] + distance * direction[d];
 }
 
-/* Returns the distance [m] between the points `point` and `other_point` of the plane, two coordinates each. */
+/* Returns the distance [m] between the points `point` and `other_point` of the plane in which crack tips move, two
+ * coordinates each [m]. */
 static inline real sif_plane_point_distance(const real *point, const real *other_point)
 {
     return hypot(point[0] - other_point[0], point[1] - other_point[1]);
@@ -70,30 +71,31 @@ bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct si
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
  * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
- * tip->along. faces_in_contact: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0.
- * Returns false if too few particles are near the tip. */
+ * tip->along. faces_in_contact: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0;
+ * cracks: data common to all tips; p: particles. Returns false if too few particles are near the tip. */
 bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                        const struct sif_crack_tip *tip, bool faces_in_contact, real K[2]);
 
 /* Computes the end of the next increment of a tip and stores its two coordinates in the plane of the tips in
  * position[2] [m]. The increment has the direction tip->heading. It is 2 particle spacings long or, if the key
  * steps.energy is set, as long as that energy suffices for; it ends at the first other crack that it meets. l: all
- * tips. */
+ * tips; p: particles. */
 void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
                                            const struct sif_crack_tip *tip, real position[2]);
 
-/* Returns the crack energy per area [J/m^2] of the material at a tip, between particles of p
- * (toughness_of_material). */
+/* Returns the crack energy per area [J/m^2] of the material at the tip `tip` (toughness_of_material). cracks: data
+ * common to all tips; p: particles. */
 real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *p, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors of a tip and sets tip->heading, the direction of its next increment, by the
- * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains unchanged while tip->straight is
- * positive or if too few particles are near the tip. faces_in_contact: crack faces are in contact. */
+ * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains unchanged while tip->straight (length
+ * [m] that the tip still grows straight after a kink) is positive, or if too few particles are near the tip.
+ * faces_in_contact: crack faces are in contact; cracks: data common to all tips. */
 void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
                               struct sif_crack_tip *tip);
 
-/* Moves the tip with index `tip` to the end of its next increment, appends the segment to the path of the cracks, and
- * sets `ended` of the tip if it has reached a surface of the body p or another crack. */
+/* Moves tip number `tip` of `cracks` to the end of its next increment, appends the segment to the path of the cracks,
+ * and sets `ended` of the tip if it has reached a surface of the body p or another crack. */
 void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct particles *p, int tip);
 
 /* Computes the stress-intensity factors of the tip of `cracks` that has grown most among those that can still grow,
@@ -106,8 +108,8 @@ void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, 
  * dimensions that of the middle of the crack front. Stores NAN if there is no tip. */
 void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real position[DIM_MAX]);
 
-/* Sets `ended` of all tips, so that none grows any more. Call this function if bonds have broken away from the tips,
- * since the tips then no longer describe the cracks. */
+/* Sets `ended` of all tips of `cracks`, so that none grows any more. Call this function if bonds have broken away from
+ * the tips, since the tips then no longer describe the cracks. */
 void sif_tips_stop_all(struct sif_cracks *cracks);
 
 /* Frees the stored path of the cracks and sets *cracks to zero. */
@@ -115,15 +117,16 @@ void sif_cracks_free(struct sif_cracks *cracks);
 
 /* ---- increments (sif_cut.c) -------------------------------------------------------------------------------------- */
 
-/* Breaks the intact bonds of run e that cross the last part of the pre-crack behind a tip; they add no fracture energy.
- * Needed after a tip has been moved off a row of particles (sif_start.c). */
+/* Breaks the intact bonds of run e that cross the last part of the pre-crack behind the tip `tip`; they add no fracture
+ * energy. Needed after the tip has been moved off a row of particles, where round-off would decide which bonds it cuts
+ * (sif_start.c). */
 void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
 
-/* Determines the next crack increment of the SIF-driven cracks of run e under the present loads. For each tip that can
- * grow, a trial equilibrium with the bonds of its increment broken gives the energy that is released. Stores the bonds
- * to break in statics.next, the energies in statics.ahead, and in statics.due the load size (a measure proportional to
- * the loads) at which the increment releases as much energy as it costs. Returns FAILED if an equilibrium is not found.
- * */
+/* Determines the next crack increment of the SIF-driven cracks (growth direction from stress-intensity factors) of run
+ * e under the present loads. For each tip that can grow, a trial equilibrium with the bonds of its increment broken
+ * gives the energy that is released. Stores in e->statics the bonds to break (`next`), the energies (`ahead`), and the
+ * load size (`due`, a measure proportional to the loads) at which the increment releases as much energy as it costs.
+ * Returns FAILED if an equilibrium is not found. */
 status sif_increment_find(struct run *e);
 
 /* Moves all tips of `cracks` that take part in the present crack increment (member `selected` of struct sif_crack_tip)
