@@ -54,10 +54,11 @@ int bonds_neighbour_count_bound(const struct bond_source *source);
  * the results [m^3]; source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *source);
 
-/* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`.
- * previous: NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts
- * of its storage move to b, so that afterwards only bonds_free may be called with `previous`. Bonds cut by a pre-crack
- * get weight w = 0 and count as damage. Sets the damage of all peridynamic particles. Release with bonds_free. */
+/* Creates b, the bonds of all peridynamic particles and bonded material points of p, from `source` (horizon, materials,
+ * cracks, mirrors). previous: NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies
+ * are copied; parts of its storage move to b, so that afterwards only bonds_free may be called with `previous`. Bonds
+ * cut by a pre-crack get weight w = 0 and count as damage. Sets the damage of all peridynamic particles. Release with
+ * bonds_free. */
 void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *source);
 
 /* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. source:
@@ -65,7 +66,8 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
 void mirror_images_copy_particle_kinds(struct particles *p, const struct bond_source *source);
 
 /* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
- * peridynamic). source: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
+ * peridynamic). source: inputs of the bonds (horizon, materials, cracks, mirrors). Sets the force p->f of particles
+ * that have no bonds to 0. */
 void bonds_rebuild_after_particle_kind_change(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Returns an upper bound [N/m] of the largest eigenvalue of the stiffness matrix of the bonds of row number `row` of b,
@@ -105,7 +107,8 @@ status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *
 real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row);
 
 /* Recomputes the weighted volume Q = sum w r^2 [m^2] that b stores for every particle of p with bonds, with the weights
- * w and reference lengths r of its intact bonds. Only for state-based models. source: inputs as in bonds_make. */
+ * w and reference lengths r of its intact bonds. Only for state-based models. source: inputs of the bonds (horizon,
+ * materials, cracks, mirrors). */
 void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Checks the stored bonds b against the invariants listed in bond_storage.h. Returns a text that describes the first
@@ -124,18 +127,18 @@ real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
  * because the strength surface of the material was reached; false if row is -1. */
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
 
-/* Starts the softening of bonds of b where the stress of particles p has reached the strength surface of the material
- * (bonds_strength.c). Computes, at the present positions and for particles with large bond stretches, the ratio U of
- * the stress of the particle to the stress on the strength surface. Where U reaches 1 (or the strength factor of the
- * particle, if strength scatters), those bonds of the particle that have not begun to soften do so from their present
- * stretch on. Material points at such bonds are marked for conversion. Does nothing if no material has a surface.
- * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
+/* Starts the softening of bonds of b where the stress of particles p has reached the strength surface of the material,
+ * a failure criterion in stress (bonds_strength.c). Computes, at the present positions and for particles with large
+ * bond stretches, the ratio U of the stress of the particle to the stress on the strength surface. Where U reaches 1
+ * (or the strength factor of the particle, if strength scatters), those bonds of the particle that have not begun to
+ * soften do so from their present stretch on. Material points at such bonds are marked for conversion. Does nothing if
+ * no material has a surface. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Computes into stress_ratio[p->n] [1] the ratio of the stress of each particle of p to the stress on the strength
- * surface of its material: 1 on the surface, 0 if the material has no surface. The stress of a material point is its
- * own, that of a peridynamic particle follows from the strain averaged over its bonds in b. source: inputs of the bonds
- * (horizon, materials, cracks, mirrors). */
+ * surface of its material (a failure criterion in stress): 1 on the surface, 0 if the material has no surface. The
+ * stress of a material point is its own, that of a peridynamic particle follows from the strain averaged over its bonds
+ * in b. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
                                              const struct bond_source *source, real *stress_ratio);
 

@@ -60,16 +60,16 @@ enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FOR
  * does not yet allow it to soften; empirical. */
 enum { SOFTENING_RETRY_STEPS = 8 };
 
-/* Stretches at which bonds break or begin to soften. materials: number of materials; last_force: force of a bond in the
- * step in which it breaks; critical_stretch: stretch at which a brittle bond breaks, for each pair of materials: entry
- * m materials + q for the materials m and q; INFINITY for bonds that never break. */
+/* Stretches at which bonds break or begin to soften. materials: number of materials; last_force: rule for the force of
+ * a bond in the step in which it breaks; critical_stretch: stretch at which a brittle bond breaks, for each pair of
+ * materials: entry m materials + q for the materials m and q; INFINITY for bonds that never break. */
 struct bond_limit {
     const real *critical_stretch; /* [1] */
     int materials;
     enum last_force last_force;
     real dt;                                /* time between the positions of two steps [s] */
     const struct softening_pair *softening; /* [materials^2] softening by pair of materials; NULL: bonds are brittle */
-    const struct softening_curve *curve;    /* of all bonds that soften */
+    const struct softening_curve *curve;    /* softening law of all bonds that soften */
     bool retries; /* bonds that were not allowed to soften are examined again in this step (kernels/pd/bond_begin.c) */
 };
 
@@ -103,8 +103,8 @@ static inline struct softening_range bond_softening_range(const struct particles
 
 /* Returns the stretches [1] at which the bond between particles i and j of p begins to soften and breaks, at the strain
  * rate `rate` [1/s]. limit: critical stretches and softening by pair of materials, with softening (limit->softening not
- * NULL). The rate changes the onset, and the stretch at which the bond breaks such that the dissipated energy stays the
- * same. */
+ * NULL). The rate changes the onset, by the law of the two materials; the stretch at which the bond breaks changes such
+ * that the dissipated energy stays the same. */
 static inline struct softening_range
 bond_softening_range_at_rate(const struct particles *p, const struct bond_limit *limit, int64_t i, int64_t j, real rate)
 {
@@ -129,8 +129,10 @@ struct state_modulus {
     real A, B;
 };
 
-/* Returns the moduli A and B [Pa] (kernels/pd/state_laws.h) of material m in a state-based model. space: line, plane
- * stress, plane strain or solid; with_rotations: true for the model with particle rotations (PD_MOSPD). */
+/* Returns the moduli A and B [Pa] of material m in a state-based model, with which the pressure of a neighbourhood is A
+ * times its mean stretch, and the springs of its bonds have the stiffness B, each times volume over weighted volume
+ * (kernels/pd/state_laws.h). space: line, plane stress, plane strain or solid; with_rotations: true for the model with
+ * particle rotations (PD_MOSPD). */
 static inline struct state_modulus state_based_moduli_of_material(const struct material *m, enum space space,
                                                                   bool with_rotations)
 {

@@ -181,9 +181,9 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
 /* Updates the list of pairs of particles of p that may come into contact, before time step number `step_number`. A new
  * search is done in three cases: particles have moved farther than contact_pair_list_safe_displacement since the last
  * search; bonds have been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested
- * (c->due). Particles on which contact forces may act are marked in `loads` as particles on which forces act, and their
- * bonds in b as active, i.e. to be computed. family: horizon and lattice; broken_bond_count: number of bonds broken so
- * far, each counted once for each of its particles; conversion_count: number of conversions and reversions so far. */
+ * (c->due). Marks in `loads` the particles on which contact forces may act, and in b their bonds as active, i.e. to be
+ * computed. family: horizon and lattice; broken_bond_count: number of bonds broken so far, each counted once for each
+ * of its particles; conversion_count: number of conversions and reversions so far. */
 void contact_update_pair_list_if_outdated(struct contact *c, const struct particles *p, struct bonds *b,
                                           struct loads *loads, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count);
@@ -195,9 +195,9 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *particle_list, int64_t particle_count);
 
-/* Marks the particles of p on which forces of the contact c may act in `loads` as particles on which forces act, and
- * the bonds of these particles in b as active, i.e. to be computed. Needed after a restart only;
- * contact_update_pair_list_if_outdated includes these marks. */
+/* Marks in `loads` the particles of p on which forces of the contact c may act, and in b the bonds of these particles
+ * as active, i.e. to be computed. Needed after a restart only; contact_update_pair_list_if_outdated includes these
+ * marks. */
 void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
                                               struct loads *loads);
 
@@ -227,8 +227,8 @@ real contact_friction_dissipated_energy(const struct contact *c);
 
 /* Searches for the pairs of particles of p that may come into contact, and selects those contacts of c that act in an
  * equilibrium solution: contacts that overlap, and contacts between different bodies whose gap is less than `max_gap`
- * [spacings]. Marks these particles in `loads` as particles on which forces act, and their bonds in b as active, i.e.
- * to be computed. Selected contacts act as linear springs, also with a positive gap, until the next selection, so that
+ * [spacings]. Marks in `loads` the particles on which contact forces may act, and in b their bonds as active, i.e. to
+ * be computed. Selected contacts act as linear springs, also with a positive gap, until the next selection, so that
  * forces are smooth. An equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces
  * that correct the energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and
  * lattice. Returns the number of contacts whose selection changed. */

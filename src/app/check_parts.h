@@ -144,8 +144,8 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
  * the particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
 void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out);
 
-/* Writes a line to `out` for each body of material points of run e in the current frame that starts apart from a plane
- * of symmetry, with the distance at which the grid stops it there [m] (check_walls.c). */
+/* Writes a line to `out` for each body of run e of material points on the background grid that starts apart from a
+ * plane of symmetry, with the distance [m] from the plane at which the grid stops the body (check_walls.c). */
 void print_wall_advice(const struct run *e, FILE *out);
 
 /* Text of a length with its unit, for messages; a struct, so that functions can return it by value. */
@@ -208,9 +208,9 @@ void print_stiffness_error(const struct scene *s, enum surface_rule surface, dou
  * no lattice. */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
-/* Returns true if the input file of run e equals its mirror image in the plane normal to axis `normal_axis` through the
- * middle of its particles. *plane_position receives the position of this plane along the axis [m] (check_symmetry.c).
- * */
+/* Returns true if the set-up of run e (bodies, loads, cracks) equals its mirror image in the plane normal to axis
+ * `normal_axis` through the middle of its particles. *plane_position receives the position of this plane along the axis
+ * [m] (check_symmetry.c). */
 bool scene_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
 
 #endif

@@ -30,10 +30,10 @@ struct uneven_list {
  * smallest |error| in it (errors of equal parts differ a little by sampling). */
 bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real error);
 
-/* Adds the narrow part `part` of a body to the list, which is sorted by error and has at most UNEVEN_MOST entries. If
- * the list has a part of equal width, only the one with the larger error is kept, and its count `more` of equal parts
- * is increased. already_listed: true if another cross-section of the same part was added before; `more` is then
- * unchanged. */
+/* Adds the narrow part `part` of a body to `list`, which is sorted by the error of the width and has at most
+ * UNEVEN_MOST entries. If the list has a part of equal width, only the one with the larger error is kept, and its count
+ * `more` of equal parts is increased. already_listed: true if another cross-section of the same part was added before;
+ * `more` is then unchanged. */
 void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *part, bool already_listed);
 
 /* Computes the distance from the point X[dim] [m], which is inside the piece p (a body, or its part of one material),
@@ -41,20 +41,20 @@ void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *
  * direction. Returns the distance, or max_distance if the distance is larger [m]. */
 real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, int axis, real step, real max_distance);
 
-/* Measures the width of each narrow part in the list along a line through the part, and prints to `out` a line for each
+/* Measures the width of each narrow part in `list` along a line through the part, and prints to `out` a line for each
  * part whose error the measurement confirms. If it confirms none, prints a line for the part with the largest error.
  * Prints nothing if the list is empty. */
 void print_parts_of_uneven_width(struct uneven_list *list, FILE *out);
 
-/* Adds the necks of the piece list->piece of `run` (a body, or its part of one material) to the list. A neck is a
- * narrow part that widens on both sides, such as the ligament between a hole and an edge. cover: lattice cells of the
- * piece. listed_axes[cells] excludes parts that are in the list already: bit d is set for cells of a listed part whose
- * width is measured along axis d. */
+/* Adds the necks of the piece list->piece of `run` (a body, or its part of one material) to `list`, the narrow parts
+ * whose width is no whole number of spacings. A neck is a narrow part that widens on both sides, such as the ligament
+ * between a hole and an edge. cover: lattice cells of the piece. listed_axes[cells] excludes parts that are in the list
+ * already: bit d is set for cells of a listed part whose width is measured along axis d. */
 void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *run, const struct cover *cover,
                                     uint8_t *listed_axes);
 
-/* Adds to the list the parts of the 1D body list->piece (a body, or its part of one material) whose length is no whole
- * number of spacings. */
+/* Adds to the list `list`, the parts with the largest errors, the parts of the 1D body list->piece (a body, or its part
+ * of one material) whose length is no whole number of spacings. */
 void uneven_list_add_parts_of_1d_body(struct uneven_list *list);
 
 #endif

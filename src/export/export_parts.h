@@ -29,7 +29,7 @@ struct lammps_settings {
 
 /* Lists in *changes the keys of scene s (the input file) that must be changed so that LAMMPS gives the same results,
  * with the required values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED, with a
- * message, if LAMMPS lacks a feature of the scene. */
+ * message, if LAMMPS lacks a feature that the input file requests. */
 status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style);
 
 /* Returns true if the results of LAMMPS differ in a way that no key of scene s (the input file) removes: in the
@@ -61,8 +61,8 @@ void touched_particles_free(struct touched *touched);
 /* Assigns a colour, a number from 0 on, to each particle of the list `touched`, the particles at bonds that LAMMPS must
  * cut. Colours become particle types of LAMMPS, of which pairs can be excluded from bonding. For any two colours, the
  * neighbouring particles with these colours all have a bond, or the bonds of all of them must be cut. Particles with
- * equal keys share a colour where possible. Stores the colours in colour[touched->n]. Returns the number of colours, or
- * 0 if more than COLOURS_MOST are needed. */
+ * equal entries of touched->key share a colour where possible. Stores the colours in colour[touched->n]. Returns the
+ * number of colours, or 0 if more than COLOURS_MOST are needed. */
 int particle_colours_assign_and_count(int32_t *colour, const struct touched *touched);
 
 /* Finds for each pair of colours (a, b) whether neighbouring particles with these colours are bonded or cut.
@@ -124,8 +124,9 @@ void lammps_types_free(struct lammps_types *types);
 /* ---- loads (export_loads.c) -------------------------------------------------------------------------------------- */
 
 /* Finds which loads act on each particle, and allocates exported->loads and stores them there as bits. Lists in
- * exported->column the per-particle columns of plate.data that the loads need. Returns REFUSED, with a message, if
- * LAMMPS has no command for a load, or not enough groups of particles for all loads. */
+ * exported->column the columns with a value for each particle that the loads need in plate.data, the data file of
+ * LAMMPS. Returns REFUSED, with a message, if LAMMPS has no command for a load, or not enough groups of particles for
+ * all loads. */
 status lammps_find_loads_of_particles(struct exported *exported);
 
 /* Computes into `velocity` the velocity [m/s] with which the particle with the index `particle` of the export
@@ -141,9 +142,10 @@ void lammps_write_column_names(FILE *file, const struct exported *exported);
  * `file`. Variables of the script read the columns through these commands. */
 void lammps_write_compute_commands(FILE *file, const struct exported *exported);
 
-/* Returns the value of the per-particle column number `column` of plate.data for the particle with the index `particle`
- * of the export `exported`: a component of the initial displacement [m], or of the force of a load on the particle, 0
- * if the load does not act on it. The force is per volume [N/m^3] for pair styles, else in [N]. */
+/* Returns the value of column number `column` of plate.data (the data file of LAMMPS, with a line for each particle)
+ * for the particle with the index `particle` of the export `exported`: a component of the initial displacement [m], or
+ * of the force of a load on the particle, 0 if the load does not act on it. The force is per volume [N/m^3] for pair
+ * styles, else in [N]. */
 real lammps_column_value(const struct exported *exported, int column, int64_t particle);
 
 /* Writes the LAMMPS commands of all loads and supports of the export `exported` to the file `file`. types: types of the
@@ -152,8 +154,8 @@ void lammps_loads_write(FILE *file, const struct exported *exported, const struc
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the contents of plate.data, the particles of the export `exported` with their types, to the file `file`
- * (export_data.c). types: types of the particles. */
+/* Writes the contents of plate.data, the data file of LAMMPS with the particles of the export `exported` with their
+ * types, to the file `file` (export_data.c). types: types of the particles. */
 void lammps_data_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
 
 /* Writes the contents of the input script in.lammps for the export `exported` to the file `file` (export_script.c).

@@ -67,10 +67,12 @@ void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suf
  * definitions and before the arrays are written. */
 void netcdf_write_header(struct netcdf_writer *w);
 
-/* Writes value[n] as the next n numbers of the array of type NETCDF_DOUBLE that is being written to the file of w. */
+/* Writes value[n] as the next n numbers to the file of w, in the array of type NETCDF_DOUBLE that is being written.
+ * Arrays are written one after the other, in the order of their definition; a failure is found by ferror(w->to). */
 void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value);
 
-/* Writes value[n] as the next n numbers of the array of type NETCDF_INT that is being written to the file of w. */
+/* Writes value[n] as the next n numbers to the file of w, in the array of type NETCDF_INT that is being written. Arrays
+ * are written one after the other, in the order of their definition; a failure is found by ferror(w->to). */
 void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
 
 /* Writes `text` as the next row of the array of type NETCDF_CHAR that is being written to the file of w. The text is

@@ -51,10 +51,10 @@ struct curves_layout {
     bool key_below;
 };
 
-/* Returns the layout of the picture that `gnuplot` draws. key_entry_count: number of texts of the key (legend), 0 for a
- * picture without key; longest_key_entry: number of letters of the longest text; has_second_axis: true if there is a
- * second vertical axis on the right. The key is beside the panels. In narrow pictures (picture_is_too_narrow_for_key),
- * or with a second axis, it is below them. */
+/* Returns the layout (sizes and margins of panels, position of the key) of the picture of curves that `gnuplot` draws.
+ * key_entry_count: number of texts of the key (legend), 0 for a picture without key; longest_key_entry: number of
+ * letters of the longest text; has_second_axis: true if there is a second vertical axis on the right. The key is beside
+ * the panels. In narrow pictures (picture_is_too_narrow_for_key), or with a second axis, it is below them. */
 struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_entry_count, size_t longest_key_entry,
                                         bool has_second_axis);
 
@@ -96,8 +96,8 @@ void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, dou
  * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
-/* Writes the gnuplot commands for the heading of a picture: `title`, followed by `quantity`, the name of what is shown,
- * if `title` ends in a space. */
+/* Writes the gnuplot commands for the heading of a picture: `title`, and after it `quantity`, the name of what is
+ * shown, if `title` ends in a space. */
 void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity);
 
 /* Writes `title` into text[TITLE_LENGTH] and appends `outside`, the number of particles that are outside the picture,

@@ -47,18 +47,19 @@ enum { GAP_Y = 42, BAR_FROM = 26, BAR_FROM_NARROW = 16, BAR_WIDE = 16, BAR_STRIP
 enum { KEY_SQUARE = 40, KEY_ROW = 22, KEY_LEFT = 14, KEY_UNDER = 6 };
 static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
 
-/* Returns the layout of a picture of maps with the best compromise between large panels, a picture of pleasant shape
- * and few empty positions. In narrow pictures (picture_is_too_narrow_for_key) the colour bar, or the key (legend) of
- * named values, is below the panels if the panels are larger then. shown: content of the picture; panel_count: number
- * of panels; height_over_width: height of a panel divided by its width. */
+/* Returns the layout of a picture of maps (coloured pictures of a quantity over the body, one panel each) with the best
+ * compromise between large panels, a picture of pleasant shape and few empty positions. In narrow pictures
+ * (picture_is_too_narrow_for_key) the colour bar, or the key (legend) of named values, is below the panels if the
+ * panels are larger then. shown: content of the picture; panel_count: number of panels; height_over_width: height of a
+ * panel divided by its width. */
 struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width);
 
-/* Returns REFUSED, with the number of panels that fit, if the panels have no room in a picture of the size that the
- * user has chosen. A single panel is not refused. shown: what the map shows; panel_count: number of panels;
+/* Returns REFUSED, with a message that has the number of panels that fit, if `panel_count` panels have no room in a
+ * picture of the size that the user has chosen; else OK. A single panel is not refused. shown: what the map shows;
  * height_over_width: shape of the part of the body that is drawn [1]. */
 status maps_layout_check_panels_fit(const struct maps_shown *shown, int panel_count, double height_over_width);
 
-/* Returns true if a map of the quantity `map` has a colour bar; maps of fragments and of named
+/* Returns true if a map (coloured picture) of the quantity `map` has a colour bar; maps of fragments and of named
  * values have none. */
 bool map_has_colour_bar(enum map map);
 
@@ -81,8 +82,7 @@ int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_he
 int colour_bar_least_height(const struct maps_shown *shown);
 
 /* Collects the entries of the key (legend) of a picture in *key: kinds of particles, fragments or named values, as the
- * kind of map requires, and rigid bodies if `has_rigid_bodies` is true. map: quantity that the colours show; view: view
- * with the named values. */
+ * quantity `map` requires, and rigid bodies if `has_rigid_bodies` is true. view: view with the named values. */
 void map_key_make(struct map_key *key, enum map map, const struct view *view, bool has_rigid_bodies);
 
 /* Writes the gnuplot commands that draw the key (legend) of a picture at its position in the layout. */

@@ -85,14 +85,14 @@ static inline real probe_damage_of_particle(const struct observed_run *o, int64_
     return o->part->damage[particle] + (b ? bonds_row_softening_damage(b, o->part, b->row_of[particle]) : 0);
 }
 
-/* Computes the readings of `particle` of the run and stores them in value[particle_probe_value_count(o->part)], in the
- * order of particle_probe_value_column. */
+/* Computes the values that a POINT or LINE probe (values at a point or along a line) reports of `particle` of the run o
+ * and stores them in value[particle_probe_value_count(o->part)], in the order of particle_probe_value_column. */
 void particle_compute_probe_values(const struct observed_run *o, int64_t particle, real *value);
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
-/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles of a probe to q->motion.
- * Must be called before the time step. */
+/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles that probe q observes in
+ * run o to q->motion. Must be called before the time step. */
 void probe_motion_store_before_step(struct probe *q, const struct observed_run *o);
 
 /* Computes the velocities of the particles of probe q in run o at the time of the sample. Call it after the time step.

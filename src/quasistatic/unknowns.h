@@ -19,13 +19,13 @@ void unknowns_list_particles_and_nodes(struct statics *s, const struct particles
 /* Frees the lists and fields in *s that unknowns_list_particles_and_nodes has allocated. */
 void unknowns_free(struct statics *s);
 
-/* Stores the reference position of unknown number `unknown_number` of s, a particle or a mesh node, in position[]
- * [m]. */
+/* Stores the reference position of a particle or a mesh node, entry `unknown_number` in the list s of unknown
+ * displacements, in position[dim] [m]. */
 void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                         int64_t unknown_number, real *position);
 
-/* Sets in s the positions of particles, mesh nodes and the mirror images of nodes to their reference positions plus the
- * displacements `displacement` [m]. */
+/* Sets the positions of the particles p, the nodes of `mesh` and the mirror images of nodes to their reference
+ * positions plus the displacements `displacement` [m]. s: list of these particles and nodes. */
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
                                   const struct field *displacement);
 
@@ -39,13 +39,13 @@ void image_compute_displacement_signs(const struct particles *p, const struct lo
  * components for each particle of the body [N]. Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time);
 
-/* Returns the Euclidean norm [N] of all applied forces of s on components of displacement that no boundary prescribes,
- * and of the contact forces of rigid bodies. loads: the supports of the body. */
+/* Returns the Euclidean norm [N] of all applied forces in s (state of the load steps) on components of displacement
+ * that no boundary prescribes, and of the contact forces of rigid bodies. loads: the supports of the body. */
 real applied_forces_norm(const struct statics *s, const struct particles *p, const struct loads *loads,
                          const struct contact *contact);
 
 /* Computes the reactions and mean displacements of the supports and the sums of applied forces in the present
- * equilibrium of s, and stores them in *loads. */
+ * equilibrium of the load steps s, and stores them in *loads. */
 void reactions_compute_and_store(const struct statics *s, const struct particles *p, struct loads *loads);
 
 #endif

@@ -30,8 +30,8 @@ struct list_quantity {
 };
 extern const struct list_quantity list_quantity[COLUMNS];
 
-/* Returns a pointer to the member of l, such as &l->volume, that stores the values of column `column` (enum
- * list_column). */
+/* Returns a pointer to the member of the particle list l, such as &l->volume, that stores the values of column `column`
+ * (enum list_column) of its file. */
 real **particle_list_column_array(struct particle_list *l, int column);
 
 /* Returns true if `column` (COLUMN_*) is a component of position or velocity along an axis that a space of `dim`
@@ -51,12 +51,12 @@ bool unit_find_factor_to_si(real *factor, const char *unit, enum unit expected_k
  * coordinates and volumes the factor follows from the unit that the input file gives for the list l, else it is 1. */
 real particle_list_default_factor_to_si(const struct particle_list *l, int column);
 
-/* Appends the text `addition` to the note in *head, which is printed about the list, preceded by `separator` if the
- * note is not empty. */
+/* Appends the text `addition` to the note in *head, which is printed about a particle list, preceded by `separator` if
+ * the note is not empty. */
 void particle_list_note_append(struct particle_list_head *head, const char *separator, const char *addition);
 
-/* Stores in *head whether the file has columns of materials, masses and volumes, and adds to its note which defaults
- * replace missing columns. file_has_column[COLUMNS]: true for each column that the file has. */
+/* Stores in *head whether the file of a particle list has columns of materials, masses and volumes, and adds to its
+ * note which defaults replace missing columns. file_has_column[COLUMNS]: true for each column that the file has. */
 void particle_list_note_missing_columns(struct particle_list_head *head, const bool *file_has_column);
 
 /* Returns REFUSED, with a message that names the file `path`, if a run with `particle_count` particles needs more
