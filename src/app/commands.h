@@ -99,7 +99,7 @@ bool schema_find_file_path(char *path, size_t capacity);
 bool documents_find_folder_path(char *path, size_t capacity);
 
 /* Prints to `out` the names of the kinds of input files that the command `cleave new` can create, separated by blanks.
- * */
+ */
 void new_scene_kinds_print(FILE *out);
 
 /* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the

@@ -92,10 +92,10 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
  * reflected at the mirror. b: holds the list. */
 int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
 
-/* Lists the particles of p near faces and their neighbours in b. source: inputs of the bonds (horizon, materials,
- * cracks, mirrors). Returns REFUSED, with a message, if the particles are not on a lattice; unfitting_pair[0] is then
- * the first particle with a neighbour that is not a whole number of spacings away, unfitting_pair[1] this neighbour.
- * Release with near_faces_free. */
+/* Lists in b the particles of p near faces (with a missing neighbour, or beside such a particle) and all their
+ * neighbours. source: inputs of the bonds (horizon, materials, cracks, mirrors). Returns REFUSED, with a message, if
+ * the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is not a whole
+ * number of spacings away, unfitting_pair[1] this neighbour. Release with near_faces_free. */
 status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,
                                                 const struct bond_source *source, int64_t unfitting_pair[2]);
 

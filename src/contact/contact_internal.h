@@ -208,7 +208,7 @@ real contact_face_energy_of_particle(const struct contact *c, const struct parti
  * that may come into contact) begins, for a new list of contacts, by the contact law of form `surface` (forces of
  * smooth faces). previous_entry: entry of the particle on the previous list `previous`, -1 if the particle was not
  * listed. If the particle was in contact on that list, the height is chosen so that its contact energy does not change.
- * */
+ */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 

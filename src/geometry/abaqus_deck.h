@@ -46,7 +46,8 @@ void abaqus_resolve_sets(struct deck *d, const struct scope *scope);
  * REFUSED, with a message, for malformed lines, a set without name, an unknown set or an unknown instance. */
 status abaqus_read_set(struct deck *d, bool of_nodes);
 
-/* Names the sets of `part`, a part of deck d, by its instance: Instance.Set. */
+/* Renames each set of `part`, a part of the Abaqus input deck d, from Set to Instance.Set, with the name of the
+ * instance of the part. */
 void abaqus_name_sets_by_instance(struct deck *d, const struct scope *part);
 
 #endif

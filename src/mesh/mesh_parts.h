@@ -57,8 +57,8 @@ status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, con
                                const real *lower_corner, const real *upper_corner);
 
 /* Connects each block of nodes (eight along x) beside slits (pre-cracks as free surfaces of the mesh) with the blocks
- * of the second nodes at the same positions, so that a block becomes active when the other one moves. To be called
- * after the blocks are made. */
+ * of the second nodes at the same positions, so that a block becomes active, i.e. is computed, when the other one
+ * moves. To be called after the blocks are made. */
 void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
 
 /* Stores in mesh->slits the node indices of the corners of partial cells (cells with missing points, several materials

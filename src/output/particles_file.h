@@ -23,9 +23,9 @@ struct particles_file {
     const char *scene_text; /* borrowed */
 };
 
-/* Writes the name of particles file number `file_number` of a series of output frames (states at output times),
- * relative to the folder of the run, to name[capacity]: frames/particles_NNNNNN.h5 for the whole body,
- * frames_REGION/... for a region. A longer name is cut. */
+/* Writes the name of particles file number `file_number` (the data that do not change between output frames) of a
+ * series of output frames (states at output times), relative to the folder of the run, to name[capacity]:
+ * frames/particles_NNNNNN.h5 for the whole body, frames_REGION/... for a region. A longer name is cut. */
 void particles_file_name(const struct frame_series *series, char *name, size_t capacity, int file_number);
 
 /* Initialises *f with the contents of a particles file, the data that do not change from one output frame to the next:
@@ -35,30 +35,32 @@ void particles_file_name(const struct frame_series *series, char *name, size_t c
 void particles_file_collect_contents(struct particles_file *f, const struct frame_series *series,
                                      const struct frame_source *source, unsigned field_bits, const char *scene_text);
 
-/* Writes the particles file f->path, unless a complete file with the same contents exists. Sets *hdf5_failed to true if
- * HDF5 failed and must not be called again. Returns FAILED if the file cannot be written. */
+/* Writes the particles file f->path (the data that do not change between output frames), unless a complete file with
+ * the same contents exists. Sets *hdf5_failed to true if HDF5 failed and must not be called again. Returns FAILED if
+ * the file cannot be written. */
 status particles_file_write(const struct particles_file *f, bool *hdf5_failed);
 
 /* Frees the contents of *f, which particles_file_collect_contents has copied. */
 void particles_file_free(struct particles_file *f);
 
 /* Creates in the file `frame`, an output frame (state at one time), a link to each of its fields that is stored in the
- * particles file f. field_bits: fields of the frame, one bit per entry of the table frame_fields. A failure is stored
- * in frame->failed. */
+ * particles file f (the data that do not change between output frames). field_bits: fields of the frame, one bit per
+ * entry of the table frame_fields. A failure is stored in frame->failed. */
 void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned field_bits);
 
-/* Reads the hash of the contents of the particles file `path` into *content_hash. If the file is an output frame or
- * another file of a run, *content_hash is 0, which is the hash of no particles file. Returns false if the file cannot
- * be read. */
+/* Reads the hash of the contents of the particles file `path` (the data that do not change between output frames) into
+ * *content_hash. If the file is an output frame or another file of a run, *content_hash is 0, which is the hash of no
+ * particles file. Returns false if the file cannot be read. */
 bool particles_file_read_content_hash(const char *path, int64_t *content_hash);
 
-/* Checks the particles file `path` and stores the hash of its contents in *content_hash. Returns NULL if the file is
- * complete and unchanged, else a static text that completes "PATH ..." in a message. */
+/* Checks the particles file `path` (the data that do not change between output frames) and stores the hash of its
+ * contents in *content_hash. Returns NULL if the file is complete and unchanged, else a static text that completes
+ * "PATH ..." in a message. */
 const char *particles_file_describe_damage(const char *path, int64_t *content_hash);
 
-/* Checks the particles file to which `frame`, the open file `path` of an output frame (state at one time), links.
- * Returns OK if it is complete and belongs to the frame, or if the frame needs none, as frames of earlier versions;
- * else FAILED. */
+/* Checks the particles file (the data that do not change between output frames) to which `frame`, the open file `path`
+ * of an output frame (state at one time), links. Returns OK if it is complete and belongs to the frame, or if the frame
+ * needs none, as frames of earlier versions; else FAILED. */
 status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *path);
 
 #endif

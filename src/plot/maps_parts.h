@@ -11,7 +11,8 @@ struct map_key {
     struct category of[CATEGORIES_MOST + 2];
 };
 
-/* Content of a picture of maps: quantity, view, key (legend) and heading. title: "" for no heading. */
+/* Content of a picture of maps (coloured pictures of a quantity over the body, one panel each): quantity, view, key
+ * (legend) and heading. title: "" for no heading. */
 struct maps_shown {
     enum map map;            /* quantity */
     const struct view *view; /* rectangle and colours */

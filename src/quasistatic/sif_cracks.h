@@ -105,7 +105,7 @@ void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, 
                                                bool faces_in_contact, real K[2]);
 
 /* Stores the reference position of the tip of `cracks` that has grown most in position[], dim components [m]; in three
- * dimensions that of the middle of the crack front. Stores NAN if there is no tip. */
+ * dimensions the position of the middle of the crack front. Stores NAN if there is no tip. */
 void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real position[DIM_MAX]);
 
 /* Sets `ended` of all tips of `cracks`, so that none grows any more. Call this function if bonds have broken away from

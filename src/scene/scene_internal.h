@@ -79,7 +79,7 @@ char *arena_copy_text(struct reader *r, const char *text, size_t length);
 /* Releases the nodes and texts that arena_new and arena_copy_text have allocated for the reader r, all at once. */
 void arena_free(struct reader *r);
 
-/* Parses the YAML text text[length] to a tree of nodes in memory of the reader and stores its root in *root; NULL if
+/* Parses the YAML text text[length] to a tree of nodes in memory of the reader r and stores its root in *root; NULL if
  * the text contains no value. origin_index: index of the file or override from which the text is (see struct
  * yaml_node). Returns REFUSED, with a message, for invalid YAML. */
 status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin_index, struct yaml_node **root);
@@ -94,7 +94,8 @@ struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child);
 
 /* Reads the input files that the tree `root` includes and adds their keys to the tree; keys that the tree has itself
- * keep their values. Returns REFUSED, with a message, for an invalid list of files or an invalid file. */
+ * keep their values. r: reader of the input file. Returns REFUSED, with a message, for an invalid list of files or an
+ * invalid file. */
 status tree_merge_included_files(struct reader *r, struct yaml_node *root);
 
 /* Returns true if the value of the key at `path` ("" for the whole input file) is a mapping that is merged key by key
@@ -118,7 +119,7 @@ const char *key_path_current_name_of_override(struct reader *r, const char *path
 const char *key_current_name_of_former_key(const char *former_path);
 
 /* Returns the name of the file from which a node was read; for an override it is the input file. origin_index: member
- * of struct yaml_node. */
+ * of struct yaml_node. r: reader of the input file. */
 const char *origin_file_name(const struct reader *r, int origin_index);
 
 /* Returns the number of characters of the folder at the beginning of `path`, with its final slash; 0 if there is no
@@ -130,7 +131,8 @@ int path_folder_length(const char *path);
 status file_read_bytes(const char *path, char **bytes, size_t *length);
 
 /* Sets the key `key` in the tree `root` to `value`, in the manner of an override of the command line. An empty value
- * removes the key. Returns REFUSED, with a message, for a malformed key, and if a key to be removed is absent. */
+ * removes the key. r: reader of the input file. Returns REFUSED, with a message, for a malformed key, and if a key to
+ * be removed is absent. */
 status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value);
 
 /* Returns the node at `path` (names of keys from the root on, joined by dots, without indices of lists); NULL if the
@@ -138,7 +140,8 @@ status tree_apply_override(struct reader *r, struct yaml_node *root, const char 
 const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
 
 /* Parses the input file text[length], merges the files that it includes, applies overrides, and stores the tree in
- * *root. Returns REFUSED, with a message, if the text is malformed or a file is missing. */
+ * *root. r: reader of the input file. Returns REFUSED, with a message, if the text is malformed or a file is missing.
+ */
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
 
 /* Reads all keys of the tree `root` of an input file into r->scene and checks them. Returns REFUSED, with a message, if
@@ -147,8 +150,8 @@ status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root);
 
 struct pilot_wish;
 /* Reads what an input file with `method: auto` requires of its pilot runs (short runs by which the method is chosen)
- * into *requirements, which the caller has set to zero. root: tree of the input file; text[length]: its text. Returns
- * REFUSED, with a message, for an invalid file. */
+ * into *requirements, which the caller has set to zero. r, root: reader and tree of the input file; text[length]: its
+ * text. Returns REFUSED, with a message, for an invalid file. */
 status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                                struct pilot_wish *requirements);
 
@@ -205,19 +208,19 @@ enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 
 /* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *expression. A plain
  * number is allowed, too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release `expression`
- * with expression_free. Returns REFUSED, with a message of one line that states the position of the fault in the text.
- * */
+ * with expression_free. r: reader of the input file. Returns REFUSED, with a message of one line that states the
+ * position of the fault in the text. */
 status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned allowed_variables,
                        struct expression *expression);
 
-/* Evaluates the expression `text`, which must not contain x, y, z or t, and stores its value and unit in *quantity. On
- * failure returns false and writes the fault to message[capacity], as the rest of a sentence that begins with
- * `text`. */
+/* Evaluates the expression `text`, which must not contain x, y, z or t, and stores its value and unit in *quantity. r:
+ * reader of the input file. On failure returns false and writes the fault to message[capacity], as the rest of a
+ * sentence that begins with `text`. */
 bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *quantity, char *message,
                             size_t capacity);
 
 /* Returns true if messages about `text` should call it an expression, not a number: it contains operators or brackets,
- * or begins with a name. */
+ * or begins with a name. r: reader of the input file. */
 bool looks_like_expression(const struct reader *r, const char *text);
 
 /* Returns true if `text` is x, y, z or t alone, the variables of formulas: a coordinate or the time. */
@@ -229,19 +232,20 @@ bool is_variable_of_formulas(const char *text);
  * for an invalid variable, and for one that an override sets but no value uses. */
 status read_variables(struct reader *r, const struct yaml_node *root);
 
-/* Returns the value of the variable `name`. Returns NULL, and writes the fault to message[capacity], if there is none
- * of this name or it cannot be evaluated. */
+/* Returns the value of the variable `name`. r: reader of the input file. Returns NULL, and writes the fault to
+ * message[capacity], if there is none of this name or it cannot be evaluated. */
 const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity);
 
 /* Reads a number of an input file from `text` into *value [SI]. It may be a number with a unit, or an expression of
- * variables. kind_of_unit: expected kind of unit; allow_infinity: true if inf is allowed. On failure returns false and
- * writes the fault to message[capacity], as the rest of a sentence that begins with `text`. */
+ * variables. kind_of_unit: expected kind of unit; allow_infinity: true if inf is allowed. r: reader of the input file.
+ * On failure returns false and writes the fault to message[capacity], as the rest of a sentence that begins with
+ * `text`. */
 bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit kind_of_unit, bool allow_infinity,
                           char *message, size_t capacity);
 
 /* Improves the message message[capacity] about the invalid value `text` of key k. If `text` is a length although the
  * key counts spacings, replaces the message by one that states the length in spacings. The spacing of the input file
- * must have been read. */
+ * must have been read. r: reader of the input file. */
 void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity);
 
 /* Returns the unit that is meant by the name `unknown_name` of an unknown unit, as text for a message, such as `us?`
@@ -367,18 +371,19 @@ const char *foreign_word_equivalent_keys(const char *foreign_word);
 /* ---- messages (scene_faults.c), forms (scene_expect.c, scene_unknown.c) and values (scene_value.c) --------------- */
 
 /* Sets a message about node `at`, composed as by printf from `format`, and returns REFUSED. The message begins with
- * `file:line:column: key: `, or with `-s key=value: key: ` if an override gave the node. */
+ * `file:line:column: key: `, or with `-s key=value: key: ` if an override gave the node. r: reader of the input file.
+ */
 status fault(const struct reader *r, const struct yaml_node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Sets a message, composed as by printf from `format`, and returns REFUSED. The message begins with `file:line:column:
  * `, or with the text of the override. origin: file or override (see struct yaml_node); line, column: location in the
- * file. */
+ * file. r: reader of the input file. */
 status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
 /* Writes a location to text[capacity]: file, line and column, or the text of the override that gives it. origin_index:
- * file or override (see struct yaml_node). */
+ * file or override (see struct yaml_node). r: reader of the input file. */
 void location_write_text(const struct reader *r, int origin_index, int line, int column, char *text, size_t capacity);
 
 /* Stores in r->scene where each key of the input file was given, for keys up to two levels below `root`, so that later
@@ -386,21 +391,22 @@ void location_write_text(const struct reader *r, int origin_index, int line, int
 void scene_store_key_locations(const struct reader *r, const struct yaml_node *root);
 
 /* Writes the text with which messages about node `node` begin, its location and key, to text[capacity]. It is for
- * messages that are composed after the input file has been read. */
+ * messages that are composed after the input file has been read. r: reader of the input file. */
 void fault_write_location_of_node(const struct reader *r, const struct yaml_node *node, char *text, size_t capacity);
 
-/* Returns REFUSED with the message that the required key k is missing in `map`. */
+/* Returns REFUSED with the message that the required key k is missing in `map`. r: reader of the input file. */
 status fault_report_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k);
 
 /* Returns REFUSED with the message that the keys of the nodes `one` and `other` exclude each other. The message gives
- * the location of the key that was set last: by an override, else in the input file. */
+ * the location of the key that was set last: by an override, else in the input file. r: reader of the input file. */
 status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other);
 
-/* Returns REFUSED, with a message, if an entry of the mapping `map` before its entry n has the key of n. */
+/* Returns REFUSED, with a message, if an entry of the mapping `map` before its entry n has the key of n. r: reader of
+ * the input file. */
 status check_key_given_once(const struct reader *r, const struct yaml_node *map, const struct yaml_node *n);
 
-/* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader,
- * which arena_free releases. */
+/* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader
+ * r, which arena_free releases. */
 const char *node_text(struct reader *r, const struct yaml_node *n);
 
 /* Returns `text` as one short, printable line for messages, in memory of the reader r that arena_free releases. */
@@ -411,33 +417,35 @@ const char *text_for_message(struct reader *r, const char *text);
 const char *words_for_message(struct reader *r, const char *words);
 
 /* Returns REFUSED, with a message, if a key of the mapping `mapping` is unknown in the group `group_path` or occurs
- * twice; else OK. */
+ * twice; else OK. r: reader of the input file. */
 status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path);
 
-/* Returns REFUSED if keys of the input file with the tree `root` are not in the table of keys, with a message of one
- * line for each of the first ten of them; else OK. Does not check names that the user chooses, such as those of
- * variables. */
+/* Returns REFUSED if keys of the input file with the reader r and the tree `root` are not in the table of keys, with a
+ * message of one line for each of the first ten of them; else OK. Does not check names that the user chooses, such as
+ * those of variables. */
 status check_all_keys_known(const struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with an example, if node n is no mapping; else OK. group_path: path of its keys in the table. */
+/* Returns REFUSED, with an example, if node n is no mapping; else OK. group_path: path of its keys in the table. r:
+ * reader of the input file. */
 status expect_mapping(struct reader *r, const struct yaml_node *n, const char *group_path);
 
 /* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT =
- * `expected`; else OK. */
+ * `expected`; else OK. r: reader of the input file. */
 status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected);
 
 /* Reads all keys of the group `group_path` that need no function of their own into the structure `group_values`.
  * mapping: mapping with the keys, or NULL to store the defaults only; location_node: node at whose location missing
- * keys are reported. Returns REFUSED, with a message, for a missing key or an invalid value. */
+ * keys are reported. r: reader of the input file. Returns REFUSED, with a message, for a missing key or an invalid
+ * value. */
 status read_keys_of_group(struct reader *r, const struct yaml_node *location_node, const struct yaml_node *mapping,
                           const char *group_path, void *group_values);
 
 /* Reads the value of key k from node n into `group_values`, the structure of its group, as the table of keys describes
- * it. Returns REFUSED, with a message, for an invalid value. */
+ * it. r: reader of the input file. Returns REFUSED, with a message, for an invalid value. */
 status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *group_values);
 
-/* Reads a number in the unit and range of key k from node n into *value [SI]. Returns REFUSED, with a message, for an
- * invalid value. */
+/* Reads a number in the unit and range of key k from node n into *value [SI]. r: reader of the input file. Returns
+ * REFUSED, with a message, for an invalid value. */
 status read_number(struct reader *r, const struct key *k, const struct yaml_node *n, real *value);
 
 /* Reads a point or vector in the unit and range of key k from node n into point[r->dim] [SI]. Returns REFUSED, with a
@@ -445,14 +453,14 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
 status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
 
 /* Returns the space in which points are read at present, in words for messages: that of the input file, or the plane of
- * an extrusion. */
+ * an extrusion. r: reader of the input file. */
 const char *space_name_for_message(const struct reader *r);
 
-/* Returns REFUSED, with an example of a value of key k, if node n is no list; else OK. */
+/* Returns REFUSED, with an example of a value of key k, if node n is no list; else OK. r: reader of the input file. */
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
-/* Returns REFUSED, with a message, if node n is no list, or if the number of its items is outside the range of key
- * k. */
+/* Returns REFUSED, with a message, if node n is no list, or if the number of its items is outside the range of key k.
+ * r: reader of the input file. */
 status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Reads a file name from node name_node: searches the folder of the input file, then the current folder. Stores the

@@ -13,29 +13,29 @@ status read_region(struct reader *r, const struct yaml_node *region_node, struct
  * is invalid. */
 status read_regions(struct reader *r, const struct yaml_node *root);
 
-/* Reads a solid whose surface is in an STL file from the node `solid_node` into *solid. Returns REFUSED, with a
- * message, for an invalid key or file. */
+/* Reads a solid whose surface is in an STL file from the node `solid_node` into *solid. r: reader of the input file.
+ * Returns REFUSED, with a message, for an invalid key or file. */
 status read_stl_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads a solid from the node `solid_node` into *solid: a mesh from a file, or a set of its elements or nodes. Returns
- * REFUSED, with a message, for an invalid key or file. */
+/* Reads a solid from the node `solid_node` into *solid: a mesh from a file, or a set of its elements or nodes. r:
+ * reader of the input file. Returns REFUSED, with a message, for an invalid key or file. */
 status read_mesh_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads a solid from the node `solid_node` into *solid: the voxels of an image that have certain grey values. Returns
- * REFUSED, with a message, for an invalid key or file. */
+/* Reads a solid from the node `solid_node` into *solid: the voxels of an image that have certain grey values. r: reader
+ * of the input file. Returns REFUSED, with a message, for an invalid key or file. */
 status read_image_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
 /* Adds a part (a region with its own material) to `body` for each material that the images in its shape assign to grey
- * values. shape_node: node of the shape. Returns REFUSED, with a message, for an unknown material or invalid grey
- * values. */
+ * values. shape_node: node of the shape. r: reader of the input file. Returns REFUSED, with a message, for an unknown
+ * material or invalid grey values. */
 status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body);
 
 /* Returns true if the node n of the input file is a key that moves, rotates or repeats a solid, such as `rotate`; false
  * if the node is a solid. */
 bool node_is_motion_key_of_solid(const struct yaml_node *n);
 
-/* Reads the keys of the node `solid_node` that move, turn and repeat a solid, and stores these motions in *solid.
- * Returns REFUSED, with a message, for invalid keys. */
+/* Reads the keys of the node `solid_node` that move, turn and repeat a solid, and stores these motions in *solid. r:
+ * reader of the input file. Returns REFUSED, with a message, for invalid keys. */
 status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
 /* Reads the materials of the input file with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
@@ -48,8 +48,8 @@ const struct yaml_node *scene_material_yield_key(const struct yaml_node *materia
 
 /* Reads the flow law (yield stress as a function of plastic strain, rate and temperature), kinematic hardening and
  * heating of `material`. material_node: node of the material. The keys of linear hardening must have been read before.
- * Returns REFUSED, with a message, for invalid constants, contradictions, and if the method or solver does not support
- * flow laws. */
+ * r: reader of the input file. Returns REFUSED, with a message, for invalid constants, contradictions, and if the
+ * method or solver does not support flow laws. */
 status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 /* Reads the bodies of the input file with the tree `root`, deformable and rigid ones, into r->scene. Returns REFUSED,
@@ -61,7 +61,8 @@ status read_bodies(struct reader *r, const struct yaml_node *root);
 void scene_set_unused_materials_aside(struct scene *s);
 
 /* Reads the parts of `body`, the regions of it that have materials of their own, from `parts_node`, the value of key k.
- * parts_node: NULL if the key is not given. Returns REFUSED, with a message, for an invalid part. */
+ * parts_node: NULL if the key is not given. r: reader of the input file. Returns REFUSED, with a message, for an
+ * invalid part. */
 status read_body_parts(struct reader *r, const struct yaml_node *parts_node, const struct key *k,
                        struct scene_body *body);
 
@@ -78,18 +79,20 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root);
 status read_initial_states(struct reader *r, const struct yaml_node *root);
 
 /* Reads the function of time of the boundary `boundary` from the node `function_node`. If the node is NULL or
- * `constant`, the function is 1. Returns REFUSED, with a message, for an invalid function. */
+ * `constant`, the function is 1. r: reader of the input file. Returns REFUSED, with a message, for an invalid function.
+ */
 status read_time_function(struct reader *r, const struct yaml_node *function_node, struct boundary *boundary);
 
 /* Reads the axis of a rotation from the mapping `rotation_node` into unit_vector[DIM_MAX], a unit vector; in 2D it is
- * z. group_path: path of the keys of the rotation. Returns REFUSED, with a message, for an invalid axis. */
+ * z. group_path: path of the keys of the rotation. r: reader of the input file. Returns REFUSED, with a message, for an
+ * invalid axis. */
 status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_node, const char *group_path,
                           real *unit_vector);
 
 /* Reads the components of a vector from the node `vector_node`. Component d is stored in value[d] if it is a number; if
  * it is a formula, it is stored in formula[d], and value[d] is 1. k: key of the vector, for unit and range;
- * further_variables: variables other than x, y and z that formulas may contain (EXPRESS_*). Returns REFUSED, with a
- * message, for an invalid component. */
+ * further_variables: variables other than x, y and z that formulas may contain (EXPRESS_*). r: reader of the input
+ * file. Returns REFUSED, with a message, for an invalid component. */
 status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *vector_node,
                                unsigned further_variables, real *value, struct expression *formula);
 
@@ -105,20 +108,20 @@ status read_probes(struct reader *r, const struct yaml_node *root);
  * REFUSED, with a message, if one is invalid. */
 status read_regions_of_output_frames(struct reader *r, const struct yaml_node *root);
 
-/* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. root:
- * tree of the input file. Returns REFUSED, with a message, for keys that contradict each other. */
+/* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. r,
+ * root: reader and tree of the input file. Returns REFUSED, with a message, for keys that contradict each other. */
 status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Materials
- * must have been read before. root: tree of the input file, to see whether the key is given. */
+ * must have been read before. r, root: reader and tree of the input file, to see whether the key is given. */
 void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root);
 
-/* Sets the default of contact.between, the bodies between which contact acts. root: tree of the input file. Returns
- * REFUSED for contact with a static solver, and for friction without contact. */
+/* Sets the default of contact.between, the bodies between which contact acts. r, root: reader and tree of the input
+ * file. Returns REFUSED for contact with a static solver, and for friction without contact. */
 status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED if the bodies of the input file would have more particles than 32-bit indices can count. Bodies must
- * have been read before. root: tree of the input file, for the location in the message. */
+ * have been read before. r, root: reader and tree of the input file, for the location in the message. */
 status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root);
 
 /* Reads the interfaces between bodies into r->scene and joins these bodies. root: tree of the input file. Returns
@@ -144,45 +147,47 @@ static inline bool limit_spacing_of_spacing_search(struct reader *r, real larges
 }
 
 /* Sets material->onset_stretch, the stretch at which bonds of `material` begin to soften, from its tensile strength;
- * material->critical_stretch must be set. material_node: node of the material. Returns REFUSED if bonds cannot soften
- * with the method or model of the input file, or if they would break before the tensile strength is reached. */
+ * material->critical_stretch must be set. material_node: node of the material. r: reader of the input file. Returns
+ * REFUSED if bonds cannot soften with the method or model of the input file, or if they would break before the tensile
+ * strength is reached. */
 status read_softening_onset(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 /* Sets the strength surface of `material`, if the input file gives strengths other than the tensile one, and
- * material->onset_stretch; material->critical_stretch must be set. material_node: node of the material. Returns REFUSED
- * if the strengths contradict each other, or if bonds would begin to soften before the stress reaches the surface in
- * tension. */
+ * material->onset_stretch; material->critical_stretch must be set. material_node: node of the material. r: reader of
+ * the input file. Returns REFUSED if the strengths contradict each other, or if bonds would begin to soften before the
+ * stress reaches the surface in tension. */
 status read_strength_surface(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 /* Checks that `strength` [Pa] is at most a tenth of Young's modulus of `material`. strength_node: node of the strength,
- * for the location in the message. Returns REFUSED, with a message, if the strength is larger. */
+ * for the location in the message. r: reader of the input file. Returns REFUSED, with a message, if the strength is
+ * larger. */
 status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,
                                              const struct material *material, real strength);
 
 /* Returns REFUSED if the material with the index `material_index`, read from the node `material_node`, has another
  * softening law than an earlier material. All bonds of a run must have one law, since bonds between two materials have
- * one curve. */
+ * one curve. r: reader of the input file. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
 /* Returns the first material of scene s (the input file) for which has(material) returns true; NULL if there is none.
- * */
+ */
 const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *));
 
 /* Returns REFUSED if bonds of one material soften while another material yields, and for keys that state-based models
- * do not support with bonds that soften. root: tree of the input file. */
+ * do not support with bonds that soften. r, root: reader and tree of the input file. */
 status check_softening_is_supported(struct reader *r, const struct yaml_node *root);
 
 /* Checks the friction of contact in the input file. Returns REFUSED, with a message, where friction is not supported:
- * with the contact law between pairs of particles, or together with planes of symmetry. root: tree of the input file.
- * */
+ * with the contact law between pairs of particles, or together with planes of symmetry. r, root: reader and tree of the
+ * input file. */
 status check_friction_is_supported(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with a message, if a static problem has absorbing boundaries. root: tree of the input file, for the
- * location in the message. */
+/* Returns REFUSED, with a message, if a static problem has absorbing boundaries. r, root: reader and tree of the input
+ * file, for the location in the message. */
 status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml_node *root);
 
-/* Checks the loads of the input file with the tree `root`. Returns REFUSED, with a message, for loads that static
- * solvers, or particles at randomly shifted positions, do not support. */
+/* Checks the loads of the input file with the reader r and the tree `root`. Returns REFUSED, with a message, for loads
+ * that static solvers, or particles at randomly shifted positions, do not support. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root);
 
 /* Decides where shape functions are evaluated for bodies of scene s (the input file) whose frame is `auto`. The frame
@@ -192,23 +197,24 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
 void resolve_automatic_frames_of_bodies(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and then sets the default of the correction of bonds near faces (key
- * pd.surface), which depends on it. Bodies must have been read before. root: tree of the input file, to see which keys
- * are given. */
+ * pd.surface), which depends on it. Bodies must have been read before. r, root: reader and tree of the input file, to
+ * see which keys are given. */
 void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root);
 
 /* Checks the keys of an input file that requests a static solver. Returns REFUSED, with a message, for keys that static
- * solvers do not support. Materials and probes must have been read before. root: tree of the input file. */
+ * solvers do not support. Materials and probes must have been read before. r, root: reader and tree of the input file.
+ */
 status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root);
 
 /* Checks the keys of an input file that requests load steps. Returns REFUSED, with a message, for keys that this solver
- * does not support. root: tree of the input file. */
+ * does not support. r, root: reader and tree of the input file. */
 status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
 
 /* Returns true if scene s (the input file) is solved in load steps and has a material whose bonds soften. */
 bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
 
 /* Returns REFUSED if the input file gives settings of load steps but has another solver, unless all of them have their
- * default values. root: tree of the input file. */
+ * default values. r, root: reader and tree of the input file. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
 
 /* Returns the contents s of an input file as they are run, every key with its value or default, as YAML text. Returns

@@ -15,18 +15,19 @@ struct shape_words {
 };
 
 /* Reads the unit of length of a file from the key `unit` of the mapping `file_node`, and stores in *scale how long the
- * number 1 in the file is [m]. Leaves *scale unchanged if the mapping has no such key. Returns REFUSED, with a message,
- * if the value is no unit of length, if the mapping also has the key `scale`, or if `is_required` is true and the
- * mapping has neither key. */
+ * number 1 in the file is [m]. Leaves *scale unchanged if the mapping has no such key. r: reader of the input file.
+ * Returns REFUSED, with a message, if the value is no unit of length, if the mapping also has the key `scale`, or if
+ * `is_required` is true and the mapping has neither key. */
 status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_node, bool is_required, real *scale);
 
 /* Reads the value of the key `values`, the node `values_node`, into the ranges of grey values of `part`: a grey value,
- * a range, or a list of these. Returns REFUSED, with a message, for an invalid value. */
+ * a range, or a list of these. r: reader of the input file. Returns REFUSED, with a message, for an invalid value. */
 status read_grey_values(struct reader *r, const struct yaml_node *values_node, struct voxel_part *part);
 
 /* Reads the mapping `materials` of an image, the node `materials_node`, which assigns ranges of grey values to
- * materials or to void. Stores all ranges that are not void in `part`. voxels: voxels of the image. Returns REFUSED,
- * with a message, if the solid is not the shape of a body, or if a grey value of the image is in no range. */
+ * materials or to void. Stores all ranges that are not void in `part`. voxels: voxels of the image. r: reader of the
+ * input file. Returns REFUSED, with a message, if the solid is not the shape of a body, or if a grey value of the image
+ * is in no range. */
 status read_grey_materials(struct reader *r, const struct yaml_node *materials_node, const struct voxels *voxels,
                            struct voxel_part *part);
 
