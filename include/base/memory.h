@@ -47,7 +47,7 @@ void memory_free(void *pointer);
 
 /* Sets whether memory_free keeps released arrays for later allocations of similar size (reuse true) or returns them to
  * the system (false), including those kept so far. Keeping them saves time in the time loop, which rebuilds equal
- * arrays whenever particles convert. */
+ * arrays whenever material points become peridynamic particles. */
 void memory_set_reuse_of_freed_arrays(bool reuse);
 
 /* Returns the largest resident size [byte] of the process so far, as the operating system reports it. */

@@ -131,8 +131,9 @@ bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
  * a failure criterion in stress (bonds_strength.c). Computes, at the present positions and for particles with large
  * bond stretches, the ratio U of the stress of the particle to the stress on the strength surface. Where U reaches 1
  * (or the strength factor of the particle, if strength scatters), those bonds of the particle that have not begun to
- * soften do so from their present stretch on. Material points at such bonds are marked for conversion. Does nothing if
- * no material has a surface. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
+ * soften do so from their present stretch on. Material points at such bonds are marked for conversion to peridynamic
+ * particles. Does nothing if no material has a surface. source: inputs of the bonds (horizon, materials, cracks,
+ * mirrors). */
 void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Computes into stress_ratio[p->n] [1] the ratio of the stress of each particle of p to the stress on the strength

@@ -131,8 +131,8 @@ struct state_modulus {
 
 /* Returns the moduli A and B [Pa] of material m in a state-based model, with which the pressure of a neighbourhood is A
  * times its mean stretch, and the springs of its bonds have the stiffness B, each times volume over weighted volume
- * (kernels/pd/state_laws.h). space: line, plane stress, plane strain or solid; with_rotations: true for the model with
- * particle rotations (PD_MOSPD). */
+ * (kernels/pd/state_laws.h). space: line, plane stress, plane strain or solid; with_rotations: true for the modified
+ * state-based model, in which particles rotate (PD_MOSPD). */
 static inline struct state_modulus state_based_moduli_of_material(const struct material *m, enum space space,
                                                                   bool with_rotations)
 {
@@ -189,9 +189,9 @@ void family_elastic_constants(const struct family *f, const struct material *m, 
 
 /* Returns the ratio G/s_c^2 [N/m] of state-based peridynamics, by which the critical stretch s_c of bonds follows from
  * the energy release rate G: the work per area that separates the two halves of a lattice along a plane (separation.c).
- * f: neighbourhood of the lattice; modulus: moduli of the material; particles_rotate: true for the model with particle
- * rotations, false for the ordinary one; intact_bonds_only: true if the weighted volume Q is summed over the unbroken
- * bonds of a neighbourhood, false over all. */
+ * f: neighbourhood of the lattice; modulus: moduli of the material; particles_rotate: true for the modified state-based
+ * model, in which particles rotate, false for the ordinary one; intact_bonds_only: true if the weighted volume Q is
+ * summed over the unbroken bonds of a neighbourhood, false over all. */
 real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
                                                  bool particles_rotate, bool intact_bonds_only);
 

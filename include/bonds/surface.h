@@ -37,10 +37,10 @@ struct surface_weights {
 };
 
 /* Computes the factors on the weights of bonds near faces, for particles p on a lattice, by least squares with bounds.
- * source: inputs of the bonds (horizon, materials, cracks, mirrors); with_rotations: true for the model with particle
- * rotations, whose factors differ because relative rotations of neighbours store energy there. Returns REFUSED, with a
- * message, if the particles are not on a lattice; weights->apart then holds two particles whose distance is not a whole
- * number of spacings (-1 if none was found). Release with surface_weights_free. */
+ * source: inputs of the bonds (horizon, materials, cracks, mirrors); with_rotations: true for the modified state-based
+ * model, in which particles rotate; its factors differ because relative rotations of neighbours store energy there.
+ * Returns REFUSED, with a message, if the particles are not on a lattice; weights->apart then holds two particles whose
+ * distance is not a whole number of spacings (-1 if none was found). Release with surface_weights_free. */
 status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, const struct particles *p,
                                                const struct bond_source *source, bool with_rotations);
 

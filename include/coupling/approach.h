@@ -13,9 +13,9 @@ enum { APPROACH_STEPS = 5 };
 #define APPROACH_REACH 3.0
 
 /* Finds the particles of p within `max_distance` [m] of a particle of another body or of a rigid body. Material points
- * among them get FLAG_NEAR, by which they convert. For peridynamic particles among them the time with low stress is
- * counted from 0 again, so that they do not become material points soon. body_count: number of bodies that consist of
- * particles; rigid: array of `rigid_body_count` rigid bodies. */
+ * among them get FLAG_NEAR, by which they are later converted to peridynamic particles. For peridynamic particles among
+ * them the time with low stress is counted from 0 again, so that they do not become material points soon. body_count:
+ * number of bodies that consist of particles; rigid: array of `rigid_body_count` rigid bodies. */
 void flag_points_near_other_bodies_to_convert(struct particles *p, int body_count, const struct rigid_body *rigid,
                                               int rigid_body_count, real max_distance);
 

@@ -39,9 +39,9 @@ struct conversion_sync {
  * or are near another body (FLAG_NEAR). If rule->criteria has the stress criterion, those with FLAG_STRESSED convert,
  * too. If rule->block is true, the particles of the same body within the cutoff of any of these points convert with
  * them. Clears these flags, rebuilds the bonds b from `source` if a particle converts, and updates the partial stresses
- * (`partial`, NULL: none) near converted particles and broken bonds. sync: functions to call before and after bonds are
- * made, NULL if no particle is in a mesh; t: time [s]. Counts are added to c. Returns the number of particles
- * converted. */
+ * (parts of stresses that bonds carry; `partial`, NULL: none) near converted particles and broken bonds. sync:
+ * functions to call before and after bonds are made, NULL if no particle is in a mesh; t: time [s]. Counts are added to
+ * c. Returns the number of particles converted. */
 int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t);

@@ -26,7 +26,8 @@ struct coupling_state {
 
 /* Sets how peridynamic particles and material points of run e are coupled: by the method that the input file names
  * (partial stress, hand-shake, ...) if particles can convert, else by hand-shake. Then computes, for the present bonds,
- * the partial stresses of material points and the interface zone, in which motion is damped. */
+ * the partial stresses of material points (the parts of their stress that bonds carry) and the interface zone (material
+ * points beside peridynamic particles, whose motion is damped). */
 void coupling_choose_and_compute_partial_stress(struct run *e);
 
 /* Makes the mesh of run e for the bodies in the reference frame, with the present partial stresses (parts of the stress
@@ -37,8 +38,9 @@ status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion
 
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
  * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
- * material points beside peridynamic particles whose motion is damped, for FLIP with partial stress only. p: particles;
- * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
+ * material points beside peridynamic particles whose motion is damped, only for FLIP with partial stress (material
+ * points leave a part of their stress to bonds). p: particles; source: inputs of the bonds (horizon, materials, cracks,
+ * mirrors). */
 void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p,
                                               const struct bonds *b, const struct bond_source *source);
 
@@ -63,10 +65,10 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
                                          size_t capacity);
 
 /* Marks (FLAG_NEAR) material points beside slits (pre-cracks as free surfaces of the mesh) and narrow voids whose faces
- * approach each other, so that they convert before the faces touch. n: the slits, with points beside slits and voids;
- * frame: the mesh, whose motion particles receive first; spacing: of the particles [m]; time_ahead: time until the next
- * call [s]; p, loads: particles and loads. Returns true if n has such slits or voids, whether or not points were
- * marked. */
+ * approach each other, so that they become peridynamic particles before the faces touch. n: the slits, with points
+ * beside slits and voids; frame: the mesh, whose motion particles receive first; spacing: of the particles [m];
+ * time_ahead: time until the next call [s]; p, loads: particles and loads. Returns true if n has such slits or voids,
+ * whether or not points were marked. */
 bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
                                   const struct loads *loads, real spacing, real time_ahead);
 
@@ -99,22 +101,23 @@ void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *war
 bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
 /* Converts the marked material points of run e to peridynamic particles, and updates all that depends on it: bonds,
- * contact, partial stresses, interface zone and mesh. broken_bond_count: number of bonds broken in this step, each
- * counted once for each of its particles; faces_examined: value that conversion_flag_points_near_bodies_or_faces
- * returned in this step; bonds_fade: true if bonds of growing cracks lose strength gradually. Returns the number of
- * particles converted. */
+ * contact, partial stresses (the parts of stresses that bonds carry), interface zone (damped material points beside
+ * peridynamic particles) and mesh. broken_bond_count: number of bonds broken in this step, each counted once for each
+ * of its particles; faces_examined: value that conversion_flag_points_near_bodies_or_faces returned in this step;
+ * bonds_fade: true if bonds of growing cracks lose strength gradually. Returns the number of particles converted. */
 int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
                                                  bool bonds_fade);
 
 /* Updates the mesh of run e, and the strains of material points with state-based bonds to peridynamic particles, after
- * conversion. converted_count: number of particles that have become peridynamic; 0 if at most partial stresses have
- * changed. Energy lost by removing points from the mesh is added to e->damped. */
+ * conversion. converted_count: number of particles that have become peridynamic; 0 if at most partial stresses (the
+ * parts of stresses that bonds carry) have changed. Energy lost by removing points from the mesh is added to e->damped.
+ */
 void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count);
 
 /* Checks that the other settings of scene s (the input file) allow reversion (`conversion.reversion: true`), in which
  * peridynamic particles become material points again. Returns REFUSED, with a message, if the scene has no conversion
- * by stress, another coupling than partial stress or hand-shake, growing cracks, a solver of a single equilibrium, or a
- * material that yields. Returns OK if the scene has no reversion. */
+ * of material points by stress, another coupling than partial stress or hand-shake, growing cracks, a solver of a
+ * single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
 status reversion_check_scene_allows_reversion(const struct scene *s);
 
 /* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no

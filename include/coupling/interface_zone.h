@@ -31,11 +31,11 @@ struct interface_zone {
     real scale;         /* s, such that the largest eigenvalue of B is at most 4 [1] */
 };
 
-/* Finds those particles of p that are points of the interface zone, and their neighbours, in the reference
- * configuration. The zone contains the material points whose distance from a peridynamic particle of their body is at
- * most the cutoff of bonds plus one spacing. Neighbours of a point are particles within 1.5 spacings. Pairs cut by a
- * pre-crack and particles with prescribed motion are left out. Replaces the previous zone in *r. source: inputs of the
- * bonds (horizon, materials, cracks, mirrors). Release with interface_zone_free. */
+/* Finds those particles of p that are points of the interface zone, in which motion is damped, and their neighbours, in
+ * the reference configuration. The zone contains the material points whose distance from a peridynamic particle of
+ * their body is at most the cutoff of bonds plus one spacing. Neighbours of a point are particles within 1.5 spacings.
+ * Pairs cut by a pre-crack and particles with prescribed motion are left out. Replaces the previous zone in *r. source:
+ * inputs of the bonds (horizon, materials, cracks, mirrors). Release with interface_zone_free. */
 void interface_zone_find_points_and_neighbours(struct interface_zone *r, const struct particles *p,
                                                const struct bond_source *source);
 
@@ -43,11 +43,11 @@ void interface_zone_find_points_and_neighbours(struct interface_zone *r, const s
  * damped). */
 void interface_zone_free(struct interface_zone *r);
 
-/* Damps the motion in the interface zone r before the forces of a step are computed: changes the momentum of the points
- * of the zone and their neighbours in p by impulses J of fourth-order viscosity. viscosity: strength k of the viscosity
- * [1], at most 1/16; with 1/16, motion that alternates from point to point stops in one step. Returns the first half
- * [J] of the energy removed: the sum of -J . v/2, with the velocities v before the change.
- * interface_zone_second_half_of_damped_energy returns the second half. */
+/* Damps the motion in the interface zone r (material points beside peridynamic particles) before the forces of a step
+ * are computed: changes the momentum of the points of the zone and their neighbours in p by impulses J of fourth-order
+ * viscosity. viscosity: strength k of the viscosity [1], at most 1/16; with 1/16, motion that alternates from point to
+ * point stops in one step. Returns the first half [J] of the energy removed: the sum of -J . v/2, with the velocities v
+ * before the change. interface_zone_second_half_of_damped_energy returns the second half. */
 real interface_zone_damp_and_return_half_energy(struct interface_zone *r, struct particles *p, real viscosity);
 
 /* Returns the second half [J] of the energy that interface_zone_damp_and_return_half_energy has removed in this step:

@@ -51,12 +51,12 @@ void notches_make_slit_ends_peridynamic(const struct notches *n, struct particle
 /* Releases all arrays of n, the pre-cracks of a run. The corners of the cracks and the voids stay with their owners. */
 void notches_free(struct notches *n);
 
-/* Sets FLAG_NEAR, by which material points convert, of points of p beside slits (pre-cracks as free surfaces of the
- * mesh) and narrow voids whose opposite faces are about to touch. n: lists these points. Tests the distance of
- * particles on opposite faces after the time `time_ahead` [s], extrapolated from present positions and velocities,
- * which must be up to date. At a slit, points are marked if this distance is less than spacing (1 - NOTCH_GAP); at a
- * notch of width `width`, if it is less than spacing (1 + NOTCH_GAP) - width; at a void, if the faces are close to
- * contact. spacing: of the particles [m]. */
+/* Sets FLAG_NEAR, by which material points are later converted to peridynamic particles, of points of p beside slits
+ * (pre-cracks as free surfaces of the mesh) and narrow voids whose opposite faces are about to touch. n: lists these
+ * points. Tests the distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from present
+ * positions and velocities, which must be up to date. At a slit, points are marked if this distance is less than
+ * spacing (1 - NOTCH_GAP); at a notch of width `width`, if it is less than spacing (1 + NOTCH_GAP) - width; at a void,
+ * if the faces are close to contact. spacing: of the particles [m]. */
 void notches_flag_points_at_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
 
 #endif

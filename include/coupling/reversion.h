@@ -20,8 +20,8 @@ struct reversion_rule {
  * is outside the region rule->kept, and its stress and that of all peridynamic particles of its neighbourhood have been
  * low for rule->hold_time. No bond of the particle or of a particle within two horizons was ever cut, by load or by a
  * pre-crack. The particle is inside a ball with the radius of one horizon that will contain material points only. By
- * the third condition the remaining peridynamic regions consist of full neighbourhoods, as after conversion, and
- * regions that revert are at least two horizons wide. */
+ * the third condition the remaining peridynamic regions consist of full neighbourhoods, as when material points are
+ * converted, and regions that become material points are at least two horizons wide. */
 int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *rule, struct particles *p,
                                                  const struct bonds *b, real t, int32_t **selected);
 
@@ -29,8 +29,8 @@ int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *ru
  * follows from the bonds that cross their cells (state-based models: from the virial of the neighbourhood), their
  * volume from the determinant of the deformation gradient of the family. The velocity gradient becomes 0; positions and
  * velocities are unchanged. Beside a surface the stress is that of a full neighbourhood under the same strain. Rebuilds
- * the bonds b and, if `partial` is not NULL, the partial stresses around the particles. Counts the reversion in c.
- * source: inputs of the bonds (horizon, materials, cracks, mirrors). */
+ * the bonds b and, if `partial` is not NULL, the partial stresses (parts of stresses that bonds carry) around the
+ * particles. Counts the reversion in c. source: inputs of the bonds (horizon, materials, cracks, mirrors). */
 void reversion_convert_listed_particles_to_mpm(struct conversion *c, struct particles *p, struct bonds *b,
                                                const struct bond_source *source, struct partial_stress *partial,
                                                const int32_t *particle_list, int64_t particle_count);

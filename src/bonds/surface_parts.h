@@ -119,8 +119,8 @@ enum { THIN = 4, THIN_ROTATING = 5 };
 
 /* Computes into f, for each of the particles `near` near faces, the quantities to which the weights of its bonds are
  * fitted: face area with outward normal, increase of the fourth moment of the bonds, and mean product of normals
- * (members area, dipole, normal2). with_rotations: true for the model with particle rotations. Release with
- * surface_fit_targets_free. */
+ * (members area, dipole, normal2). with_rotations: true for the modified state-based model, in which particles rotate.
+ * Release with surface_fit_targets_free. */
 void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *near,
                                          bool with_rotations);
 
@@ -194,9 +194,9 @@ real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
  * factor[classes->groups]: receives the factors [1]; near: particles near faces; targets: areas and moments to which
- * weights are fitted; classes: classes of particles and groups of bonds; with_rotations: true for the model with
- * particle rotations. max_matrix_products: as in surface_fit_solve_least_squares. Returns the remaining residual
- * divided by the residual with all factors 1. */
+ * weights are fitted; classes: classes of particles and groups of bonds; with_rotations: true for the modified
+ * state-based model, in which particles rotate; max_matrix_products: largest number of matrix products of the solver
+ * (surface_fit_solve_least_squares). Returns the remaining residual divided by the residual with all factors 1. */
 real surface_fit_compute_bond_weight_factors(real *factor, const struct near_faces *near,
                                              const struct surface_fit_targets *targets,
                                              const struct bond_classes *classes, bool with_rotations,

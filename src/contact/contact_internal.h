@@ -72,8 +72,8 @@ static inline bool contact_is_possible(const struct contact *c)
 }
 
 /* Returns true if contact forces may act in this step on the particle of row `row` of the contact list of c (particles
- * that may come into contact). They may not on particles at rest and on particles far from all faces, as
- * contact_activate_newly_moving_particles has determined. */
+ * that may come into contact). They do not act on particles that are at rest together with their neighbours, nor on
+ * particles far from all faces (contact_activate_newly_moving_particles). */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
     return c->followed[row] >= ROW_SOURCE;

@@ -65,7 +65,8 @@ void engine_warn_of_cracks(const struct scene *s, const struct particles *p, con
                            struct warnings *warnings);
 
 /* Adds a warning to *warnings if waves from the loads on particles of p do not travel to the nearest crack tip within
- * the duration. tips: crack tips at the start; wave_speed: speed of the fastest wave in any material [m/s]. */
+ * the duration of scene s (the input file). tips: crack tips at the start; wave_speed: speed of the fastest wave in any
+ * material [m/s]. */
 void engine_warn_of_cracks_beyond_waves(const struct scene *s, const struct particles *p, const struct loads *loads,
                                         const struct crack_tips *tips, real wave_speed, struct warnings *warnings);
 

@@ -11,9 +11,10 @@ struct pages {
     uint16_t *grey;           /* [n][height][width], top row first */
 };
 
-/* Appends a page of width x height pixels to p and sets *grey_values to the first grey value of the page; the caller
- * fills the page. file: image file, for the message. Returns REFUSED, with a message, if the size differs from that of
- * earlier pages, or is too large for a file of this length (compressed at most 1100-fold) or for the memory. */
+/* Appends a page (one image of a stack) of width x height pixels to p and sets *grey_values to the first grey value of
+ * the page; the caller fills the page. file: image file, for the message. Returns REFUSED, with a message, if the size
+ * differs from that of earlier pages, or is too large for a file of this length (compressed at most 1100-fold) or for
+ * the memory. */
 status pages_append_page(struct pages *p, const struct source *file, int64_t width, int64_t height,
                          uint16_t **grey_values);
 
@@ -21,13 +22,13 @@ status pages_append_page(struct pages *p, const struct source *file, int64_t wid
  * by the weights of ITU-R Rec. 709. */
 int luminance(int red, int green, int blue);
 
-/* Appends the image in the PNG file `file` to p as a page. Returns REFUSED, with a message, if the file is malformed or
- * of an unsupported kind, FAILED if the PNG library cannot start. The caller releases p->grey with memory_free, also
- * after a failure. */
+/* Appends the image in the PNG file `file` to p as a page (one image of a stack). Returns REFUSED, with a message, if
+ * the file is malformed or of an unsupported kind, FAILED if the PNG library cannot start. The caller releases p->grey
+ * with memory_free, also after a failure. */
 status png_read_pages(struct pages *p, struct source *file);
 
-/* Appends all pages of the TIFF file `file` to p. Returns REFUSED, with a message, if the file is malformed or of an
- * unsupported kind. The caller releases p->grey with memory_free, also after a failure. */
+/* Appends all pages (images of a stack) of the TIFF file `file` to p. Returns REFUSED, with a message, if the file is
+ * malformed or of an unsupported kind. The caller releases p->grey with memory_free, also after a failure. */
 status tiff_read_pages(struct pages *p, struct source *file);
 
 #endif

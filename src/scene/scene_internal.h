@@ -328,8 +328,8 @@ bool key_is_directly_below(const struct key *k, const char *group_path);
 const char *key_group_of_items(const struct key *k);
 
 /* Writes an example of a value of key k for messages to text[capacity], such as [{from: [0.5 mm, 0]}]. dim: number of
- * components of points. wanted: if k is a mapping or a list of mappings, name of the key below k that the example
- * shows; if `wanted` is NULL or no key below k, the example shows a required key. */
+ * components of points. wanted: name of a key below k that the example is to show, if k is a mapping or a list of
+ * mappings; for NULL or any other name, the example shows a required key. */
 void key_write_example(const struct key *k, int dim, const char *wanted, char *text, size_t capacity);
 
 /* Writes an example of a vector of dim numbers, a value of key k, for messages to text[capacity], such as [0.5 mm, 0].
