@@ -26,8 +26,8 @@ void *memory_new_lazy_uninitialised(const char *label, int64_t count, size_t siz
 void *memory_new_lazy_zeroed(const char *label, int64_t count, size_t size);
 
 /* Changes the length of the array `pointer` of memory_new from old_count to `count` elements of `size` bytes and
- * returns the new array; `pointer` is invalid afterwards. The first elements are kept, additional elements are zero.
- * pointer: NULL: a new array is allocated. label: name of the array for messages about memory. */
+ * returns the new array; `pointer` is invalid afterwards. The first elements are kept, additional elements are zero. If
+ * `pointer` is NULL, a new array is allocated. label: name of the array for messages about memory. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
 /* Returns an array of at least `count` elements of `size` bytes: `pointer` itself if it has so many, else a copy at

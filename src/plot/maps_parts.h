@@ -57,7 +57,7 @@ struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count
 
 /* Returns REFUSED, with a message that has the number of panels that fit, if `panel_count` panels have no room in a
  * picture of the size that the user has chosen; else OK. A single panel is not refused. shown: what the map shows;
- * height_over_width: shape of the part of the body that is drawn [1]. */
+ * height_over_width: height of a panel divided by its width. */
 status maps_layout_check_panels_fit(const struct maps_shown *shown, int panel_count, double height_over_width);
 
 /* Returns true if a map (coloured picture) of the quantity `map` has a colour bar; maps of fragments and of named

@@ -136,8 +136,8 @@ void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */
 
 /* Finds, on the first call only, the tips of the pre-cracks of run e and the plane in which they move. Returns true if
- * at least one tip can grow. Returns false if no tip can grow, or if the cracks of the input file are not SIF-driven;
- * in the latter case e->statics->sif.fault is the reason. */
+ * at least one tip can grow. Returns false if no tip can grow, or if the cracks of the input file are not SIF-driven
+ * (growth direction from stress-intensity factors); in the latter case e->statics->sif.fault is the reason. */
 bool sif_cracks_initialise_and_can_grow(struct run *e);
 
 #endif

@@ -118,8 +118,8 @@ const char *key_path_current_name_of_override(struct reader *r, const char *path
  * no such key. */
 const char *key_current_name_of_former_key(const char *former_path);
 
-/* Returns the name of the file from which a node was read; for an override it is the input file. origin_index: member
- * of struct yaml_node. r: reader of the input file. */
+/* Returns the name of the file from which a node was read; for an override it is the input file. origin_index: index of
+ * the file or override, from the node (struct yaml_node). r: reader of the input file. */
 const char *origin_file_name(const struct reader *r, int origin_index);
 
 /* Returns the number of characters of the folder at the beginning of `path`, with its final slash; 0 if there is no

@@ -136,10 +136,10 @@ status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_nod
  * horizon and space of scene s (the input file). */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
-/* Limits the spacing that `method: auto` searches for: reduces its upper bound *r->spacing_most to `largest_spacing`,
- * the largest spacing with which a material can have its tensile strength [m]. Returns true then. Returns false, and
- * does nothing, if the spacing is not searched for (r->spacing_most is NULL); the caller then refuses a strength that
- * does not suit the present spacing. */
+/* Limits the spacing that `method: auto` searches for: reduces its upper bound *r->spacing_most to `largest_spacing` if
+ * that is smaller, the largest spacing with which a material can have its tensile strength [m]. Returns true then.
+ * Returns false, and does nothing, if the spacing is not searched for (r->spacing_most is NULL); the caller then
+ * refuses a strength that does not suit the present spacing. */
 static inline bool limit_spacing_of_spacing_search(struct reader *r, real largest_spacing)
 {
     if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, largest_spacing);
