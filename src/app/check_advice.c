@@ -39,8 +39,8 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Returns the edge length of the box `a` along axis d [m]: doubled if one end of the box is at a plane of symmetry of
- * `source`, and INFINITY if both ends are. scene: spacing. */
+/* Returns the edge length of the box `a` along axis d [m]: doubled if one end of the box is within ON_MIRROR spacings
+ * of a plane of symmetry of `source`, and INFINITY if both ends are. scene: has the spacing. */
 static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
     const real near = ON_MIRROR * scene->spacing;
@@ -218,9 +218,9 @@ static bool rises_in(const struct boundary *b, real rise)
     return b->kind != BOUNDARY_MIRROR && rise_time(&b->time) == rise;
 }
 
-/* Writes to `out` one remark for all loads of scene s that have the rise time of boundary number b, if waves travel
- * less than WAVE spacings in this time. tables: wave speed. Writes nothing if a boundary before b has the same rise
- * time, since the remark then exists. */
+/* Writes to `out` one remark for all loads and supports of scene s that have the rise time of boundary condition number
+ * b, if waves travel less than WAVE spacings in this time. tables: has the wave speed. Writes nothing if a boundary
+ * condition with a number below b has the same rise time, since its remark covers both. */
 static void advise_rise(const struct scene *s, const struct material_tables *tables, int b, FILE *out)
 {
     const real rise = rise_time(&s->boundary[b].time), length = tables->wave_speed * rise / s->spacing;
@@ -286,8 +286,8 @@ static void advise_formulas(const struct run *e, FILE *out)
 }
 
 /* Extends the range *least..*most [m] so that it contains the displacements along axis d that the support l prescribes
- * at time t [s]. They are evaluated at up to PULL_PLACES of the particles of l. Leaves the range unchanged if l is
- * another load or a rotating support, or if the displacement is not known. */
+ * at time t [s] for its particles, evaluated at up to PULL_PLACES of them. p: all particles. Leaves the range unchanged
+ * if l is another load, a support that leaves axis d free or that rotates, or if the displacement is not known. */
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;

@@ -251,9 +251,9 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     return seconds;
 }
 
-/* Estimates the time of an adaptive run if all its particles were peridynamic, c->all_peridynamic [s]. Measures first
- * steps of such a run, or of one with larger particles if there are more than BONDS_MOST bonds. If c->run is only an
- * extrapolation, the upper bound c->most is raised to this time, or to INFINITY if it is unknown. */
+/* Estimates the time of run e, if it is adaptive, with all its particles peridynamic: c->all_peridynamic [s]. Measures
+ * first steps of such a run, or of one with larger particles if there are more than BONDS_MOST bonds. If c->run is only
+ * an extrapolation, the upper bound c->most is raised to this time, or to INFINITY if it is unknown. */
 static void cost_peridynamic(struct cost *c, const struct run *e, const struct run_arguments *a)
 {
     const struct scene *s = e->scene;

@@ -37,8 +37,8 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
     return place;
 }
 
-/* Creates in c a table of the heights of a face: the particles are sorted into columns along the axis b->face, and the
- * height of a column is the coordinate of its particle that is exposed on the face [spacings, positive outwards].
+/* Creates in c a table of the heights of a face: the particles p are sorted into columns along the axis b->face, and
+ * the height of a column is the coordinate of its particle that is exposed on the face [spacings, positive outwards].
  * f->normal[i] > 0 for exposed particles; scene: spacing. Returns false, with nothing to release, if the exposed
  * particles occupy too small a part of the table. Release c->height otherwise. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
@@ -86,8 +86,8 @@ static real slope_along(const struct ends *c, int64_t place, int k)
 }
 
 /* Returns the cosine of the angle between the outward axis of the face of boundary b and the surface normal at particle
- * i [1]. c: heights of the face by columns of particles; the normal follows from their slopes, or from the shape of the
- * body in `scene` if c->height is NULL. */
+ * i of part [1]. c: heights of the face by columns of particles; the normal follows from their slopes, or from the
+ * shape of the body in `scene` if c->height is NULL. */
 static real cosine_at(const struct scene *scene, const struct particles *part, const struct boundary *b,
                       const struct ends *c, int64_t i)
 {

@@ -151,10 +151,10 @@ static double soft_cells(double poisson, double layers)
 #define SOFT_FAMILIES 0.4 /* Poisson's ratios up to which nothing is reported for neighbourhoods */
 #define SOFT_MOST 2.0     /* least error that is reported [%] */
 
-/* Returns the largest Poisson's ratio of those materials of the body with the index `body_index` on which
- * print_advice_on_incompressible_bodies reports: if `families` is true (peridynamics), of all materials, and 0 if it is
- * at most SOFT_FAMILIES; otherwise of those with one dilatation for all points of a cell. Returns 0 if there are none.
- */
+/* Returns the largest Poisson's ratio among the materials of body number `body_index` of scene s, for advice on nearly
+ * incompressible bodies. families: true for peridynamics, where all materials count, but 0 is returned unless the ratio
+ * exceeds SOFT_FAMILIES; false for material points, where only materials count for which all points of a cell have one
+ * dilatation. Returns 0 if no material counts. */
 static real largest_poisson_ratio(const struct scene *s, int body_index, bool families)
 {
     real poisson = 0;
@@ -192,8 +192,9 @@ void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
 static const real layer_shortening[] = {[1] = -0.65, [2] = -0.75, [3] = -0.75};
 #define SHORTENED 0.03 /* share of the length from which on it is reported; 10 % of the stiffness in bending [1] */
 
-/* Returns true if load l of scene s is a support with the default depth behind a face that prescribes the motion normal
- * to the face, one motion for all particles, and if bonds alone move these particles. */
+/* Returns true if load l of scene s is a support that moves a layer of peridynamic particles as one: it prescribes the
+ * same motion, normal to a face, for all particles behind this face to a depth of one horizon (the default depth), and
+ * none of these particles moves with the nodes of a grid or mesh. p: particles. */
 static bool holds_layer_of_bonds(const struct scene *s, const struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;

@@ -46,12 +46,12 @@ static real largest_factor_at(const struct time_function *f, real duration, real
 
 enum { MOMENTS = 200, PLACES = 64 }; /* numbers of times, and of particles of a load, at which formulas are evaluated */
 
-/* Type of functions that compute a vector of the k-th particle of load l at time t [s], its force [N] or its
- * displacement [m], and store it in vector[dim]. */
+/* Type of functions that compute a vector of the k-th particle of load l (an index in p) at time t [s], its force [N]
+ * or its displacement [m], and store it in vector[dim]. */
 typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
 
-/* Returns the sum of |a|^2 over a sample of the particles of load l at time t [s], in the squared unit of a. vector:
- * function that computes a, the force [N] or displacement [m] of one particle. */
+/* Returns the sum of |a|^2 over a sample of the particles of load l (indices in p) at time t [s], in the squared unit
+ * of a. vector: function that computes a, the force [N] or displacement [m] of one particle. */
 static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
 {
     real sum = 0, a[DIM_MAX];
@@ -59,9 +59,9 @@ static real square_sum(const struct load *l, const struct particles *p, vector_f
     return sum;
 }
 
-/* Returns the time between 0 and `duration` at which the vectors of load l are largest [s]. Tests evenly spaced times
- * and the times of the load's table. Returns `duration` unless they are larger at an earlier time. vector: function
- * that computes the force or displacement of one particle. */
+/* Returns the time between 0 and `duration` at which the vectors of load l on its particles (indices in p) are largest
+ * [s]. Tests evenly spaced times and the times of the load's table. Returns `duration` unless they are larger at an
+ * earlier time. vector: function that computes the force or displacement of one particle. */
 static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
 {
     const struct time_function *f = &l->boundary->time;
@@ -279,8 +279,8 @@ static void say_mean_displacement(const struct particles *part, const struct loa
     printf(" m%s", boundary_motion_varies_in_space(l->boundary) ? " on average" : "");
 }
 
-/* Prints the mean displacement that the support l prescribes for its particles, at its maximum and at the end of the
- * run, and its largest speed if the solver of `scene` is explicit. */
+/* Prints the mean displacement that the support l prescribes for its particles (indices in part), at its maximum and at
+ * the end of the run, and its largest speed if the solver of `scene` is explicit. */
 static void say_displacement(const struct scene *scene, const struct particles *part, const struct load *l)
 {
     const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
@@ -375,7 +375,7 @@ static real net_force(const struct loads *loads, const struct particles *p, cons
     return all;
 }
 
-/* Computes in *a the motion of the body of run e by the net force of its loads, along the axes along which nothing
+/* Computes in *a the motion of the body of run e by the net force of its loads, along the axes along which no support
  * holds it, by integration with the midpoint rule. Returns false if the loads balance along these axes, or if the scene
  * has several bodies. */
 static bool drift_by_loads(const struct run *e, struct drift *a)
@@ -403,8 +403,8 @@ static bool drift_by_loads(const struct run *e, struct drift *a)
     return a->net > UNBALANCED * all && isfinite(a->net);
 }
 
-/* Writes to `out` the largest net force on the body of run e, which nothing holds along it, and the motion of the body
- * by this force. a: force and motion. */
+/* Writes to `out` the largest net force on the body of run e along axis a->axis, along which no support holds the body,
+ * and the motion of the body by this force. a: force and motion. */
 static void write_drift(const struct run *e, const struct drift *a, FILE *out)
 {
     fprintf(out,
@@ -423,8 +423,8 @@ void print_advice_on_unbalanced_loads(const struct run *e, FILE *out)
     fprintf(out, ": hold a face along %c, or balance the loads\n", "xyz"[a.axis]);
 }
 
-/* Prints the net force of the loads of run e that do not balance on a body that nothing holds along it, unless
- * print_advice_on_unbalanced_loads writes about it. */
+/* Prints the net force of the loads of run e if they do not balance along an axis along which no support holds the
+ * body, unless print_advice_on_unbalanced_loads writes about it. */
 static void say_balance_of_loads(const struct run *e)
 {
     struct drift a;

@@ -202,9 +202,10 @@ static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
     return (best + end) / 2;
 }
 
-/* Returns the number of particle rows across the piece of k in the column of lattice cells that contains chord m. A
- * chord is the part of a line that is inside the piece. The rows are counted as the lattice lines between the two ends
- * of the chord in the middle of the column. Returns NAN if that chord was not measured. */
+/* Returns the number of particle rows across the piece of k (a body, or its part of one material) in the line of
+ * lattice cells that contains chord m of p. A chord is the part of a line that is inside the piece. The rows are
+ * counted as the lattice lines between the two ends of the chord in the middle of this line of cells. Returns NAN if
+ * that chord was not measured. */
 static real chord_rows(struct chords *p, const struct necks *k, int m)
 {
     const int column = (int)floor((m + 0.5 * SAMPLES) / SAMPLES) * SAMPLES;
@@ -215,11 +216,11 @@ static real chord_rows(struct chords *p, const struct necks *k, int m)
     return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
 }
 
-/* Returns true if the piece, measured on the parallel chords p, is a neck at its narrowest chord, number `narrowest`:
- * its width grows by at least GROWTH spacings on both sides. Bent strips of constant width are excluded by the
- * condition that the midpoint of the chord shifts by less than the width grows. A side that ends at a plane of symmetry
- * is taken as the mirror image of the other side. *even: receives whether the width changes only in steps, each below
- * 0.001 or above 0.5 spacings. */
+/* Returns true if the piece, measured on the parallel chords p, is a neck at its narrowest chord (width on one of these
+ * lines), number `narrowest`: its width grows by at least GROWTH spacings on both sides. k: the piece and the axis of
+ * its width. Bent parts of constant width are excluded by the condition that the midpoint of the chord shifts by less
+ * than the width grows. A side that ends at a plane of symmetry is taken as the mirror image of the other side. *even:
+ * receives whether the width changes only in steps, each below 0.001 or above 0.5 spacings. */
 static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -241,9 +242,9 @@ static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool
 }
 
 /* Returns the relative error of the width of a neck [1]: number of its particle rows times the spacing, divided by its
- * width, minus 1. p: chords (widths on parallel lines) across the neck; narrowest: number of the narrowest one. Both
- * widths are averaged over a length of the neck equal to its width, as 1/mean(1/width), since the compliance of the
- * neck depends on this mean. */
+ * width, minus 1. p: chords (widths on parallel lines) across the neck; narrowest: number of the narrowest one; k: has
+ * the spacing. Both widths are averaged over a length of the neck equal to its width, as 1/mean(1/width), since the
+ * compliance of the neck depends on this mean. */
 static real neck_off(struct chords *p, const struct necks *k, int narrowest)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -269,9 +270,10 @@ static int64_t neck_cell(const struct necks *k, const struct uneven *u)
     return k->rows[cell] > 0 ? cell : -1;
 }
 
-/* Tests whether a neck (narrow part of a body) is narrower beside the point X[dim] [m]: moves X along `axis` in the
- * direction `way` (-1 or 1) in steps of 1/FINE spacing, until the piece ends or X has moved two spacings. Returns true
- * if the width of the piece at the last point inside is less than 0.95 times `width`, the width of the neck [m]. */
+/* Tests whether a neck (narrow part of a body) of k is narrower beside the point X[dim] [m]: moves X along `axis` in
+ * the direction `way` (-1 or 1) in steps of 1/FINE spacing, until the piece ends or X has moved two spacings. Returns
+ * true if the width of the piece at the last point inside is less than 0.95 times `width`, the width of the neck [m].
+ */
 static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
 {
     struct chord chord = {X[k->axis], width};
@@ -282,8 +284,8 @@ static bool narrows_to(const struct necks *k, real *X, int axis, int way, real w
     return chord.width < 0.95 * width;
 }
 
-/* Returns true if a neck in 3D is not narrower elsewhere along the axis `third`, which is normal to both its width and
- * its length. The width at `cell`, a cell of the neck, is `width` [m]. Cells are followed along `third` in both
+/* Returns true if a neck of k in 3D is not narrower elsewhere along the axis `third`, which is normal to both its width
+ * and its length. The width at `cell`, a cell of the neck, is `width` [m]. Cells are followed along `third` in both
  * directions while they have as many particle rows as `cell`. Returns false if the next cells have fewer rows, or if
  * the width decreases towards a surface where the piece ends. This is so for round rods, which check_sections.c
  * examines. */
@@ -300,10 +302,10 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
     return true;
 }
 
-/* Returns the description of a neck: its position, its width at the chord number `narrowest`, and the error of this
- * width. The width is reduced if a parabola through the widths of this chord and its two neighbours has its minimum
- * between them, and the piece is narrower there. p: chords (widths on parallel lines) across the neck; rows: number of
- * particle rows across the neck. */
+/* Returns the description of a neck of k: its position, its width at the chord number `narrowest`, and the error of
+ * this width. The width is reduced if a parabola through the widths of this chord and its two neighbours has its
+ * minimum between them, and the piece is narrower there. p: chords (widths on parallel lines) across the neck; rows:
+ * number of particle rows across the neck. */
 static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
@@ -325,9 +327,10 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
     return u;
 }
 
-/* Measures a neck and adds it to the list if the number of its particle rows times the spacing differs too much from
- * its width. cell: a cell of the first column of the neck; columns: number of consecutive columns of cells with the
- * same number of rows. p: memory for the chords across the neck, in which p->across and p->mirrored are set. */
+/* Measures a neck of k and adds it to the list if the number of its particle rows times the spacing differs too much
+ * from its width. cell: a cell of the first line of cells across the neck; columns: number of consecutive lines of
+ * cells with the same number of rows. p: memory for the chords across the neck, in which p->across and p->mirrored are
+ * set. */
 static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;
@@ -369,10 +372,10 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Looks for a neck, from `cell` on along the axis `across`: consecutive cells of a body k that have equally many
- * particles through the thickness along k->axis, between cells that have more, or between such cells and a plane of
- * symmetry. Adds the neck to `list` if its thickness in the scene differs too much from its number of particles times
- * the spacing. */
+/* Finds out whether a neck begins at `cell`: consecutive lines of lattice cells along k->axis, the axis of the width,
+ * that follow each other along the axis `across` and have equally many particle rows. On each side of a neck a line
+ * with more rows must follow, or on one side a plane of symmetry. Adds the neck to `list` if its width differs too much
+ * from its number of particle rows times the spacing. k: cells of the piece (a body, or its part of one material). */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);

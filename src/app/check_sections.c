@@ -41,7 +41,7 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
     return s->n++;
 }
 
-/* Creates a section, which is a connected set of covered lattice cells within one slice, normal to the axis of the
+/* Creates a section in s, which is a connected set of covered lattice cells within one slice, normal to the axis of the
  * slices. It consists of the cells of slice number `slice` that are connected to the cell `first`. A cell is covered if
  * it contains a particle or is mostly inside the shape. Adds up the area of the shape and that of the particles in the
  * section. stack: work array with an element for each cell of a slice. */
@@ -178,8 +178,9 @@ struct stretch {
     bool even; /* all sections have equal numbers of particles: their faces are along the axis */
 };
 
-/* Returns the sums over at most `most` consecutive sections of s (connected cells in a slice) of nearly equal area,
- * beginning with section number `first`, in ascending order of slices. */
+/* Adds up, over at most `most` consecutive sections of s (connected cells in a slice) of nearly equal area, the areas
+ * of shape and particles. The first one is section number `first`; the others follow in ascending order of slices.
+ * Returns the sums, the number of sections, the one in the middle, and whether all have equal numbers of particles. */
 static struct stretch stretch_from(const struct sections *s, int32_t first, int most)
 {
     const struct section *begin = &s->section[first];
@@ -211,10 +212,10 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Compares the area of the shape with the area of the particles, in the narrow part that begins with section `first`.
- * Both areas are summed over SLICES consecutive sections. If the areas of these sections are not equal, as in parts
- * with slanting faces, they are summed over SLICES_SLANTING sections, because errors by steps of such faces average
- * out. Adds the part to the list if the sums differ too much. */
+/* Compares the area of the shape with the area of the particles, in the narrow part that begins with section `first` of
+ * s (connected cells in a slice). Both areas are summed over SLICES consecutive sections. If the areas of these
+ * sections are not equal, as in parts with slanting faces, they are summed over SLICES_SLANTING sections, because
+ * errors by steps of such faces average out. Adds the part to the list if the sums differ too much. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];

@@ -6,8 +6,8 @@
 #include "geometry/geometry.h"
 #include "scene/shape_file.h"
 
-/* Returns the number of slits in the surface h of a mesh: free surfaces inside the mesh, at which nodes are doubled. h:
- * surface from a file. */
+/* Returns the number of slits that the file of the surface h contains: free surfaces inside a mesh, at which its nodes
+ * are doubled. */
 static int hull_slits(const struct hull *h)
 {
     struct crack *slit = NULL;
@@ -18,7 +18,8 @@ static int hull_slits(const struct hull *h)
     return n;
 }
 
-/* Prints the names of the sets of the mesh f, and ends the line. */
+/* Prints the names of the sets (named parts, such as element sets) of the mesh file f, at most twelve, and ends the
+ * line. */
 static void say_sets(const struct shape_file *f)
 {
     if (f->geometry.sets > 0) printf("; sets");

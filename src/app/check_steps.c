@@ -40,7 +40,7 @@ static bool is_sif_driven(const struct run *e)
 
 /* Returns the distance from a crack tip to the end of the body in a straight line [m]. side: 1 for the distance ahead
  * of the tip, -1 for the distance back along the crack. s: shapes of the bodies; bodies from particle lists are
- * ignored. */
+ * ignored; part: particles, for the size of the bodies. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
     const real most = 2 * (particles_bounding_box_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;

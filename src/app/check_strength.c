@@ -28,9 +28,9 @@ static void say_horizon(const struct scene *s, const struct material *m)
                s->horizon * s->spacing * square(m->tensile_strength) / (m->young * m->energy_release_rate));
 }
 
-/* Prints by how many per cent the energy that a crack dissipates exceeds the fracture energy G_c in the space of scene
- * s. kappa: (critical stretch/onset stretch of softening)^2. Between measured values of kappa the excess is
- * interpolated linearly in log(kappa). Above the largest one it is printed as a lower bound. */
+/* Prints by how many per cent the energy that a crack dissipates exceeds the fracture energy G_c in the dimension of
+ * scene s (plane or 3D). kappa: (critical stretch/onset stretch of softening)^2. Between measured values of kappa the
+ * excess is interpolated linearly in log(kappa). Above the largest one it is printed as a lower bound. */
 static void say_excess(const struct scene *s, real kappa)
 {
     const int of = s->dim == 3, last = measured[of].n - 1;

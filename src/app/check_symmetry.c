@@ -40,7 +40,7 @@ static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 }
 
 /* Returns true if material, body, kind, strength, volume and initial damage of each particle equal those of its mirror
- * image. twin[i]: index of the mirror image of particle i. */
+ * image. twin[i]: index of the mirror image of particle i of p. */
 static bool matter_agrees(const struct particles *p, const int32_t *twin)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -72,10 +72,11 @@ static real load_mark(const struct boundary *b)
     return mark;
 }
 
-/* Computes two numbers for component d of the motion of each particle, so that loads of mirror images can be compared.
- * ask[n]: sum over the loads and prescribed velocities of the particle, each times load_mark(boundary), a number that
- * identifies the boundary. held[n]: sum of load_mark(boundary) over the prescribed velocities and absorbing boundaries
- * of the particle. In a symmetric scene, particles that are mirror images have equal numbers except for signs. */
+/* Computes two numbers for component d of the motion of each particle of part, so that loads of mirror images can be
+ * compared. ask[n]: sum over the loads and prescribed velocities of the particle, each times load_mark(boundary), a
+ * number that identifies the boundary. held[n]: sum of load_mark(boundary) over the prescribed velocities and absorbing
+ * boundaries of the particle. In a symmetric scene, particles that are mirror images have equal numbers except for
+ * signs. */
 static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, part->n, sizeof *ask);
@@ -136,7 +137,7 @@ static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *t
 }
 
 /* Returns true if rigid body b of `scene` is the mirror image of rigid body a in the plane normal to `axis` at `at`
- * [m]: equal motion, and equal distances from a sample of particles and from the images of these particles. */
+ * [m]: equal motion, and equal distances from a sample of the particles p and from the images of these particles. */
 static bool rigid_twins(const struct particles *p, const struct scene *scene, int axis, real at,
                         const struct scene_body *a, const struct scene_body *b)
 {

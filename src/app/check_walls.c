@@ -16,7 +16,7 @@ static real stopping_distance(enum shape shape)
 }
 
 /* Returns the distance between the face of body number `body` and the plane of symmetry of boundary b at the start [m];
- * INFINITY if the body has no particles. spacing: lattice spacing [m]. */
+ * INFINITY if the body has no particles in p. spacing: lattice spacing [m]. */
 static real gap_at_plane(const struct particles *p, int body, const struct boundary *b, real spacing)
 {
     real nearest = INFINITY;

@@ -63,8 +63,8 @@ static const char *topic_answer(const char *word)
     return NULL;
 }
 
-/* Prints the answer to `word` and, if it names a file in the folder `inputs`, which is not in the present folder, where
- * this folder is. */
+/* Prints the answer to `word`. If the answer names a file in the folder `inputs`, and the present folder has no such
+ * folder, also prints the path of `inputs`. */
 static void print_answer(const char *word, const char *answer)
 {
     char folder[4096];

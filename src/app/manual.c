@@ -256,8 +256,8 @@ static void section_troff(FILE *out, const struct section *s)
     }
 }
 
-/* Returns true if the entry e of the section s belongs to the page `cleave help run`: it is no option, or an option of
- * `cleave run`. */
+/* Returns true if the entry e of the section s belongs to the page `cleave help run`: it is not an option at all, or is
+ * an option of `cleave run`. */
 static bool is_of_run(const struct section *s, const struct entry *e)
 {
     const struct command *run = NULL;

@@ -13,9 +13,10 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
-/* Returns true if particle i has a row (list of bonds) in the previous bonds `old` with bonds to all particles within
- * the cutoff, as rows of peridynamic particles have. Rows of material points have bonds to peridynamic neighbours only.
- * For a mirror image, the row of the particle that it mirrors is tested. s: list of the mirror images. */
+/* Returns true if particle i of p has a row (list of bonds) in the previous bonds `old` with bonds to all particles
+ * within the cutoff, as rows of peridynamic particles have. Rows of material points have bonds to peridynamic
+ * neighbours only. For a mirror image, the row of the particle that it mirrors is tested. s: list of the mirror images.
+ */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
@@ -23,7 +24,8 @@ static bool was_whole_row(const struct bonds *old, const struct bond_source *s, 
 }
 
 /* Returns true if rows (lists of bonds of one particle) of the previous bonds `old` can be used again: `old` is not
- * NULL, and no particle that was peridynamic in `old`, with bonds to all its neighbours, is a material point now. */
+ * NULL, and no particle that was peridynamic in `old`, with bonds to all its neighbours, is a material point in p now.
+ */
 static bool rows_reusable(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
@@ -32,8 +34,8 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks particle or mirror image i and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the sets of
- * eight consecutive particles that contain one of them, which get rows of bonds; in fresh[particles] these particles
+/* Marks particle or mirror image i of p and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the sets
+ * of eight consecutive particles that contain one of them, which get rows of bonds; in fresh[particles] these particles
  * themselves, whose neighbours must be searched again. map: map from lattice sites to particles; found[capacity]:
  * working memory for the indices of neighbours; s: cutoff and cells of the search. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
@@ -45,12 +47,12 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
 }
 
-/* Marks by 1 in wanted[(n + 7)/8] the sets of eight consecutive particles that get rows (lists of bonds): sets with a
- * peridynamic particle or with a material point that has a peridynamic neighbour. Rows of other particles of a marked
- * set have no bonds. Whole sets are used, since a block of eight rows keeps its eight particles for as long as it
- * exists. Marks in fresh[n] the particles to be searched again: those that have become peridynamic and all within their
- * cutoff. old: previous bonds or NULL; map: map from lattice sites to particles; s: data from which bonds are made;
- * capacity: largest number of neighbours of a particle. */
+/* Marks by 1 in wanted[(n + 7)/8] the sets of eight consecutive particles of p that get rows (lists of bonds): sets
+ * with a peridynamic particle or with a material point that has a peridynamic neighbour. Rows of other particles of a
+ * marked set have no bonds. Whole sets are used, since a block of eight rows keeps its eight particles for as long as
+ * it exists. Marks in fresh[n] the particles to be searched again: those that have become peridynamic and all within
+ * their cutoff. old: previous bonds or NULL; map: map from lattice sites to particles; s: data from which bonds are
+ * made; capacity: largest number of neighbours of a particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -105,9 +107,10 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
     return row_of;
 }
 
-/* Makes rows (lists of bonds, empty so far) for the particles of all sets of eight consecutive ones that are marked in
- * wanted[sets]: sets b->particle (particle of each row) and b->row_of (row of each particle, -1 without one). Rows are
- * used in blocks of eight; unused rows of the last block repeat its last particle. old: previous bonds or NULL. */
+/* Makes rows (lists of bonds, empty so far) for the particles of p in all sets of eight consecutive ones that are
+ * marked in wanted[sets]: sets b->particle (particle of each row) and b->row_of (row of each particle, -1 without one).
+ * Rows are used in blocks of eight; unused rows of the last block repeat its last particle. old: previous bonds or
+ * NULL. */
 static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
 {
     const int64_t eights = (p->n + LANES - 1) / LANES;
@@ -253,9 +256,10 @@ static void rows_pass_begin(struct rows_pass *pass)
         if (pass->kept[g] < 0) pass->list[pass->n++] = g;
 }
 
-/* Makes all blocks of eight rows (the bonds of eight particles) in pass->list in parallel: counts their columns in the
- * first pass, fills them in the second. In two passes the memory is known before it is filled, and bonds are not stored
- * twice. Increases b->reach to the distance from a particle to the farthest one bonded to it [row_blocks]. */
+/* Makes all blocks of eight rows (the bonds of eight particles) in pass->list in parallel: counts their columns (the
+ * k-th bonds of eight rows) in the first pass, fills them in the second. In two passes the memory is known before it is
+ * filled, and bonds are not stored twice. Increases b->reach to the largest distance between the blocks of two bonded
+ * particles [blocks of eight rows]. */
 static void rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -289,9 +293,10 @@ static void rows_pass_end(const struct rows_pass *pass)
     b->n = made;
 }
 
-/* Makes all blocks of eight rows (the bonds of eight particles) of b in two passes: the first counts their columns, the
- * second fills them. maker: input, with the previous bonds, if any. If there are previous bonds, few blocks change; the
- * neighbours that the first pass finds for these are then kept for the second pass. */
+/* Makes all blocks of eight rows (the bonds of eight particles) of b in two passes: the first counts their columns (the
+ * k-th bonds of eight rows), the second fills them. maker: input, with the previous bonds, if any. If there are
+ * previous bonds, few blocks change; the neighbours that the first pass finds for these are then kept for the second
+ * pass. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = material_pair_table_make_of_micro_moduli(maker.source);

@@ -5,10 +5,10 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Copies the weights of the bonds in changed blocks of eight rows (those in which a bond broke or
- * softened) to w if `saving`, else from w. After restoring, bonds of weight 0 are marked as broken, and the changed
- * blocks use their stored columns instead of a stencil. w: eight weights for each column (the k-th bonds of eight rows)
- * of the changed blocks, in the order of these. */
+/* Copies the weights of the bonds of b in changed blocks of eight rows (those in which a bond broke or softened) to w
+ * if `saving`, else from w. After restoring, bonds of weight 0 are marked as broken, and the changed blocks use their
+ * stored columns instead of a stencil. w: eight weights for each column (the k-th bonds of eight rows) of the changed
+ * blocks, in the order of these. */
 static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
@@ -25,9 +25,9 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
     }
 }
 
-/* Saves to the archive a if a->saving, else restores from it: which blocks of eight rows (the bonds of eight particles)
- * have a broken or softened bond, and the weights of all bonds in these. Other blocks have the weights with which they
- * are made. Returns FAILED if the archive cannot be read or written, or lacks one of these entries. */
+/* Saves to the archive a if a->saving, else restores from it: which blocks of eight rows of b (the bonds of eight
+ * particles) have a broken or softened bond, and the weights of all bonds in these. Other blocks have the weights with
+ * which they are made. Returns FAILED if the archive cannot be read or written, or lacks one of these entries. */
 static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;

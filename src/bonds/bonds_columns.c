@@ -15,8 +15,8 @@ struct holes_by_size {
     int32_t most;
 };
 
-/* Inserts hole number k (a range of unused columns of the bond arrays) at the beginning of the list that s has of the
- * holes of this size. */
+/* Inserts hole number k (a range of unused columns of the bond arrays) at the beginning of the list of holes of its
+ * size in s. */
 static void hole_list(struct holes_by_size *s, int64_t k)
 {
     const int32_t size = s->all->hole[k].columns;

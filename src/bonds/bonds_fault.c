@@ -30,8 +30,8 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
     return NULL;
 }
 
-/* Checks that the common properties of a stored column (b->common[column]) agree with each of its eight bonds. Returns
- * a constant text that names the first fault; NULL if there is none. */
+/* Checks that the common properties of a stored column (the k-th bonds of eight rows), b->common[column], agree with
+ * each of its eight bonds. Returns a constant text that names the first fault; NULL if there is none. */
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];

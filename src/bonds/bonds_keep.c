@@ -15,9 +15,9 @@ int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct r
     return first / LANES;
 }
 
-/* Copies the entries of one array from block `of` of eight rows of the previous bonds `old` to block g of b (eight rows
- * stored together). to, from: the arrays of b and of `old` with entries for all columns; each: size of an entry of a
- * column [byte]. */
+/* Copies the entries of one array from block number `of` of the previous bonds `old` to block number g of b (blocks of
+ * eight rows stored together; a column has the k-th bonds of the rows). to, from: the array in b and in `old`, with an
+ * entry for each column; each: size of such an entry [byte]. */
 static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
                          int64_t g, int64_t of)
 {
@@ -25,8 +25,9 @@ static void columns_copy(void *to, const void *from, size_t each, const struct b
                b->column_count[g], each);
 }
 
-/* Copies the entries of all column arrays from block `from` of eight rows of the previous bonds `old` to block g of b
- * (eight rows stored together), with the softening and plastic state of the bonds. */
+/* Copies the entries of all column arrays, and the softening and plastic state of the bonds, from block number `from`
+ * of the previous bonds `old` to block number g of b (blocks of eight rows stored together; a column has the k-th bonds
+ * of the rows). */
 static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     columns_copy(b->first, old->first, sizeof *b->first, b, old, g, from);

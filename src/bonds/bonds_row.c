@@ -30,9 +30,9 @@ void bond_row_buffer_free(struct row *row)
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Lists the particles and mirror images of the body of particle i within its cutoff in found[capacity], in ascending
- * order, without i. Returns their number. A number above `capacity` means that the list is incomplete. s: cutoff and
- * cells of the search. */
+/* Lists the particles and mirror images of the body of particle i of p within its cutoff in found[capacity], in
+ * ascending order, without i. Returns their number. A number above `capacity` means that the list is incomplete. s:
+ * cutoff and cells of the search. */
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found,
                          int capacity)
 {
@@ -45,8 +45,8 @@ static int family_search(const struct bond_source *s, const struct particles *p,
     return kept;
 }
 
-/* Removes from found[n] those neighbours of particle i for which the line to i passes through a void (a hole of the
- * body without particles). s: has the voids. The others keep their order. Returns the number of remaining
+/* Removes from found[n] those neighbours of particle i of p for which the line to i passes through a void (a hole of
+ * the body without particles). s: has the voids. The others keep their order. Returns the number of remaining
  * neighbours. */
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
@@ -99,7 +99,7 @@ bool particle_is_near_precrack_or_void(const struct bond_source *source, const s
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the weight [1] of the bond between particles i and j: product of partial volume, influence, volumes and
+/* Returns the weight [1] of the bond between particles i and j of p: product of partial volume, influence, volumes and
  * materials of both particles, and the surface correction. xi[dim], r: reference vector from i to j and its length [m];
  * s: neighbourhood and surface correction; pairs: stiffness by pair of materials, divided by that of material 0.
  * Exchanging i and j changes no bit. */
@@ -116,10 +116,10 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
-/* Lists the neighbours with which particle i has bonds in row->nbr[capacity], ascending: all within the cutoff if it is
- * peridynamic, only the peridynamic ones if it is a material point. Sets row->n, their number, and row->family_volume,
- * the volume of all neighbours within the cutoff [m^3]. s: cutoff and cells of the search; map: map from lattice sites
- * to particles. */
+/* Lists the neighbours with which particle i of p has bonds in row->nbr[capacity], ascending: all within the cutoff if
+ * it is peridynamic, only the peridynamic ones if it is a material point. Sets row->n, their number, and
+ * row->family_volume, the volume of all neighbours within the cutoff [m^3]. s: cutoff and cells of the search; map: map
+ * from lattice sites to particles. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
@@ -149,7 +149,7 @@ static real elastic_strain_along(const struct particles *p, const struct materia
     return sum;
 }
 
-/* Returns the initial plastic state of the bond between material points i and j (j may be a mirror image): 0 if
+/* Returns the initial plastic state of the bond between material points i and j of p (j may be a mirror image): 0 if
  * neither has yielded. Its plastic stretch is the part of the present stretch that the points' stress does not explain
  * elastically, its plastic path the mean of their plastic strains. A bar then carries the stress of its points to the
  * last digit. s: has the elastic constants; r: reference length of the bond [m]. The value is symmetric in i and j. */
@@ -168,10 +168,10 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Returns the stretch of the bond between `particle` and `other_particle` above which the vector test reports the bond
- * to the exact test [1]: the stretch at which the bond breaks or begins to soften, reduced by TRIGGER_MARGIN; half of
- * it if the strength depends on the strain rate, which is measured from there on. source: has the critical
- * stretches. */
+/* Returns the stretch of the bond between the particles of p with the indices `particle` and `other_particle` above
+ * which the vector test reports the bond to the exact test [1]: the stretch at which the bond breaks or begins to
+ * soften, reduced by TRIGGER_MARGIN; half of it if the strength depends on the strain rate, which is measured from
+ * there on. source: has the critical stretches. */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle)
 {
@@ -181,7 +181,7 @@ real bond_stretch_that_triggers_exact_test(const struct bond_source *source, con
     return limit->softening && limit->softening[pair].rate ? RATE_FROM * onset : onset;
 }
 
-/* Computes inverse lengths and weights of the bonds from particle i to the row->n neighbours in row->nbr, and
+/* Computes inverse lengths and weights of the bonds from particle i of p to the row->n neighbours in row->nbr, and
  * row->trigger, the smallest stretch at which one of these bonds must be tested for breaking or softening [1]. A bond
  * that a pre-crack cuts gets weight 0 and a negative inverse length. s: data from which bonds are made; pairs:
  * stiffness by pair of materials, divided by that of material 0. */
@@ -213,8 +213,9 @@ static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t r
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
-/* Copies the state of broken, yielded and softened bonds of a particle to `row` from the previous bonds `old`, in which
- * the particle had row old_row. Both rows may have different neighbours; bonds in only one of them are left out. */
+/* Copies the state of broken, yielded and softened bonds of a particle of p to `row` from the previous bonds `old`, in
+ * which the particle had row old_row. Both rows may have different neighbours; bonds in only one of them are left out.
+ */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;

@@ -49,7 +49,7 @@ int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t 
     return *one_offset_per_column ? offsets : longest;
 }
 
-/* Returns the index of the pair of materials of particles i and j in the tables of b->yield. */
+/* Returns the index of the pair of materials of particles i and j of p in the tables of b->yield. */
 static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] * b->yield.materials + p->material[j];
@@ -92,8 +92,8 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-/* Stores the softening of the bonds of block g of eight rows (the bonds of eight particles) if one of them has begun to
- * soften; else only records that none has. buffer: holds the rows and the columns in which
+/* Stores the softening of the bonds of block g of eight rows of b (the bonds of eight particles) if one of them has
+ * begun to soften; else only records in b that none has. buffer: holds the rows and the columns in which
  * bond_row_block_fill_columns_from_rows has put their bonds; rows: number of rows in use. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
@@ -139,10 +139,10 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buf
     bond_row_block_store_columns_or_stencil(b, buffer, g, p);
 }
 
-/* Makes room->stencil for block g of eight rows (the bonds of eight particles) from its columns in `room`. A stencil
- * describes each column by its index distance (neighbour minus particle) and the properties that its eight bonds share.
- * Returns false if the block must store its columns: its particles are not consecutive, bonds are plastic or changed,
- * or a column has unequal bonds. */
+/* Makes room->stencil for block g of eight rows of b (the bonds of eight particles of p) from its columns in `room`. A
+ * stencil describes each column by its index distance (neighbour minus particle) and the properties that its eight
+ * bonds share. Returns false if the block must store its columns: its particles are not consecutive, bonds are plastic
+ * or changed, or a column has unequal bonds. */
 static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -164,7 +164,7 @@ void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_b
         bond_column_write_eight_bonds(b, b->column[g] + k, &buffer->column[k]);
 }
 
-/* Returns which of the particles i .. i + 7 are peridynamic: bit l is set if particle i + l is. */
+/* Returns which of the particles i .. i + 7 of p are peridynamic: bit l is set if particle i + l is. */
 static uint8_t peridynamic(const struct particles *p, int64_t i)
 {
     unsigned bits = 0;

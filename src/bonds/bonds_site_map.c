@@ -21,8 +21,8 @@ enum { HALF_MOST = 16 }; /* largest reach of bonds for which blocks of eight row
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
-/* Returns the index in `map` of the lattice site at the reference position of particle number `particle` (or of an
- * mirror image); -1 if the position is not a lattice site. */
+/* Returns the index in `map` of the lattice site at the reference position of particle or mirror image number
+ * `particle` of p; -1 if the position is not a lattice site. */
 int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle)
 {
     int64_t site = 0;
@@ -51,8 +51,8 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
 }
 
 /* Lists in l->row the sites within the cutoff of a site, as one segment on each lattice row along x, in ascending
- * order. f: neighbourhood, with cutoff and spacing. Returns false if a site is so close to the cutoff that round-off
- * would decide whether it is inside. */
+ * order. dim: number of dimensions; f: neighbourhood, with cutoff and spacing. Returns false if a site is so close to
+ * the cutoff that round-off would decide whether it is inside. */
 static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
@@ -72,7 +72,7 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
     return true;
 }
 
-/* Enters all particles and mirror images in the array l->at of the map of lattice sites: their index plus 1 (0: no
+/* Enters all particles and mirror images of p in the array l->at of the map of lattice sites: their index plus 1 (0: no
  * particle). Returns false if the map cannot be used, because a particle or image is off the lattice or shares its site
  * with another, because there are several bodies, or because the particles are not numbered in the order of their
  * sites. */
@@ -94,9 +94,9 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     return regular;
 }
 
-/* Returns true if the reference coordinates of all particles along axis d differ from the lowest one by exact multiples
- * of one step, without round-off; equal distances on the lattice are then equal to the last bit. Coordinates are
- * compared as whole numbers of units in the last place of the largest coordinate. l: map, with the spacing of the
+/* Returns true if the reference coordinates of all particles p along axis d differ from the lowest one by exact
+ * multiples of one step, without round-off; equal distances on the lattice are then equal to the last bit. Coordinates
+ * are compared as whole numbers of units in the last place of the largest coordinate. l: map, with the spacing of the
  * lattice. */
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
@@ -116,9 +116,9 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
     return exact;
 }
 
-/* Returns true if all particles of the body have the same volume, mass and material, and reference positions that are
- * exact multiples of a step: equal distances are then equal to the last bit. l: map, with the spacing of the lattice.
- * Mirror images are not tested, as regular_bonds leaves them out. */
+/* Returns true if all particles of p (but mirror images) have the same volume, mass and material, and reference
+ * positions that are exact multiples of a step: equal distances are then equal to the last bit. l: map, with the
+ * spacing of the lattice. Mirror images do not matter, as regular_bonds leaves them out. */
 static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;
@@ -186,8 +186,8 @@ int site_map_list_neighbours_of_particle(const struct site_map *map, const struc
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends to *to the bonds from particles i .. i + 7 to their neighbours on one line of the lattice parallel to x. l:
- * map from lattice sites to particles; site: index in the map of the site of particle i; row: the sites of the line
+/* Appends to *to the bonds from particles i .. i + 7 of p to their neighbours on one line of the lattice parallel to x.
+ * l: map from lattice sites to particles; site: index in the map of the site of particle i; row: the sites of the line
  * within the cutoff, relative to that site; number: number of neighbours in a full neighbourhood on all lines before
  * this one. Returns false if the particles on the line do not have consecutive indices. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
@@ -273,10 +273,10 @@ void regular_bonds_free(struct regular_bonds *bonds)
     stencil_cache_free(bonds->stencil_cache);
 }
 
-/* Computes inverse length [1/m] and weight [1] of the bonds from particle i + l to j + l for l = 0 .. 7, in inverse[8]
- * and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s: neighbourhood and
- * materials; pairs: stiffness by pair of materials, divided by that of material 0; dim: number of dimensions, known at
- * compile time. */
+/* Computes inverse length [1/m] and weight [1] of the bonds from particle i + l to j + l of p for l = 0 .. 7, in
+ * inverse[8] and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. s:
+ * neighbourhood and materials; pairs: stiffness by pair of materials, divided by that of material 0; dim: number of
+ * dimensions, known at compile time. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                                 int64_t i, int64_t j, real *inverse, real *w, const int dim)
 {

@@ -7,7 +7,7 @@
 #include "bonds_parts.h"
 
 /* Allocates b->soft.near if a material has a strength surface (failure criterion in stress): a mark for each block of
- * eight rows (the bonds of eight particles) in which a particle may have nearly reached its strength surface. Sets
+ * eight rows (the bonds of eight particles) in which a particle of p may have nearly reached its strength surface. Sets
  * b->soft.gate, the stretch beyond which a block is marked [1]. A new block is marked if one of its rows had no
  * previous row, or one in a marked block. previous: previous bonds or NULL; source: materials. */
 static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
@@ -122,9 +122,9 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous_bonds, it.bond.entry);
 }
 
-/* Copies the softening of all bonds in blocks of eight rows (the bonds of eight particles) where softening has begun:
- * to `packed` if `saving`, else from `packed`. packed: eight entries for each column (the k-th bonds of eight rows) of
- * these blocks, padding included. */
+/* Copies the softening of all bonds of b in blocks of eight rows (the bonds of eight particles) where softening has
+ * begun: to `packed` if `saving`, else from `packed`. packed: eight entries for each column (the k-th bonds of eight
+ * rows) of these blocks, padding included. */
 static void pack_softness(struct bonds *b, struct bond_softness *packed, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)

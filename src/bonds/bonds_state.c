@@ -12,9 +12,9 @@ real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t 
     return Q;
 }
 
-/* Computes the weighted volume Q = sum w r^2 over the bonds of each row of block g of eight rows (the bonds of eight
- * particles) [m^2], in b->state.weighted. If b->state.local, and if all lattice sites within the horizon of the
- * particle are occupied, the sum is over the bonds that exist; bonds that soften, or that broke by softening, count
+/* Computes the weighted volume Q = sum w r^2 over the bonds of each row of block g of eight rows of b (the bonds of
+ * eight particles of p) [m^2], in b->state.weighted. If b->state.local, and if all lattice sites within the horizon of
+ * the particle are occupied, the sum is over the bonds that exist; bonds that soften, or that broke by softening, count
  * with the weight that they had before. Else Q is that of the undamaged family: of a full one on the lattice or, near
  * faces, of the particle's surface class (surface.h). */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)

@@ -43,9 +43,9 @@ void stencil_free(struct stencil *stencil)
 
 /* ---- stencil of one block of eight rows -------------------------------------------------------------------------- */
 
-/* Stores the reference vector of the bonds from particle i + l to particle j + l, l = 0 .. 7, in the stencil column
- * `to` (eight bonds, one of each of eight particles), whose bits to->intact must be set. Returns false if the intact
- * bonds do not all have the same vector to the last bit. */
+/* Stores the reference vector of the bonds from particle i + l to particle j + l of p, l = 0 .. 7, in the stencil
+ * column `to` (eight bonds, one of each of eight particles), whose bits to->intact must be set. Returns false if the
+ * intact bonds do not all have the same vector to the last bit. */
 static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)
 {
     int one = 0, same = 1;
@@ -154,7 +154,7 @@ bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t 
 
 /* ---- bond by bond ------------------------------------------------------------------------------------------------ */
 
-/* Reads neighbours, inverse lengths and weights of column k of a block of eight rows (the k-th bonds of eight
+/* Reads neighbours, inverse lengths and weights of column k of a block of eight rows of b (the k-th bonds of eight
  * particles) into *copy, from the stencil if the block stores no columns. row_block: index of the block. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t k)
 {
@@ -173,9 +173,9 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
         copy->nbr[l] = copy->first + l, copy->inverse_length[l] = copy->w[l] == 0 ? 0 : of->inverse_length;
 }
 
-/* Returns true if bonds b of block number row_block of eight rows may lead to mirror images; false only if none does.
- * Images follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of less than
- * eight lanes: no column leads to an image if the last one ends two blocks before the images. */
+/* Returns true if bonds b of block number row_block of eight rows may lead to mirror images of p; false only if none
+ * does. Images follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of less
+ * than eight lanes: no column leads to an image if the last one ends two blocks before the images. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = bond_row_block_column_count(b, row_block);

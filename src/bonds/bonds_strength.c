@@ -301,7 +301,7 @@ static void evaluation_free(struct evaluation *e)
     memory_free(e->strain[0]), memory_free(e->strain[1]);
 }
 
-/* Returns true if a particle of block g of eight rows (the bonds of eight particles) may have nearly reached its
+/* Returns true if a particle of block g of eight rows of b (the bonds of eight particles) may have nearly reached its
  * strength surface (failure criterion in stress), or a bond of it has begun to soften. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
@@ -434,7 +434,7 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
 
 /* Starts the softening of the bonds of block g of eight rows (the bonds of eight particles) of b that are intact, have
  * not begun to soften, and lead from or to a particle on its strength surface (failure criterion in stress). Material
- * points with such bonds are marked for conversion. e: particles that have reached their strength surface. */
+ * points of p with such bonds are marked for conversion. e: particles that have reached their strength surface. */
 static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {

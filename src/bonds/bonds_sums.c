@@ -12,7 +12,7 @@
  * orders, and differ by round-off. */
 #define WHOLE 1e-12
 
-/* Returns the sum of the volumes of the neighbours of particle i, each times the weight of the bond to it in the
+/* Returns the sum of the volumes of the neighbours of particle i of p, each times the weight of the bond to it in the
  * neighbourhood f [m^3]. s: cutoff and cells of the search; map: map from lattice sites to particles; found[capacity]:
  * working memory. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
@@ -28,8 +28,8 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
     return volume;
 }
 
-/* Computes volume[i .. i + 7]: for each of these eight particles the sum of the volumes of its neighbours, each times
- * `weight` [m^3]. bonds: the neighbours, from the map of lattice sites. */
+/* Computes volume[i .. i + 7]: for each of these eight particles of p the sum of the volumes of its neighbours, each
+ * times `weight` [m^3]. bonds: the neighbours, from the map of lattice sites. */
 static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
                          int64_t i)
 {
@@ -84,9 +84,9 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* Returns an upper bound of omega^2 m for particle i [N/m], where omega is the largest angular frequency of its motion
- * and m its mass: a bound of the largest eigenvalue of the stiffness matrix of its bonds in `row`, taken as springs.
- * stiffness: force per stretch of a bond of weight 1 [N]. */
+/* Returns an upper bound of omega^2 m for particle i of p [N/m], where omega is the largest angular frequency of its
+ * motion and m its mass: a bound of the largest eigenvalue of the stiffness matrix of its bonds in `row`, taken as
+ * springs. stiffness: force per stretch of a bond of weight 1 [N]. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -119,7 +119,7 @@ struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
 
-/* Adds the springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound for particles i .. i + 7.
+/* Adds the springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound for particles i .. i + 7 of p.
  * inverse[8]: inverse lengths of the bonds [1/m]; w[8]: weights of the bonds [1], 0 for no spring; stiffness: force per
  * stretch of a bond of weight 1 [N]; dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
@@ -154,8 +154,8 @@ static void bounds_add_any(struct eight_bounds *bound, const struct particles *p
     }
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from *bounds,
- * the sums over their springs. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 of p [1/s^2] from
+ * *bounds, the sums over their springs. */
 static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
 {
     real largest = 0;
@@ -168,9 +168,9 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2]. bonds: their
- * neighbours on the lattice; the weights of the bonds are computed here, and no rows are stored. pairs: stiffness by
- * pair of materials, divided by that of material 0; stiffness: force per stretch of a bond of weight 1 [N]. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 of p [1/s^2]. bonds:
+ * their neighbours on the lattice; the weights of the bonds are computed here, and no rows are stored. pairs: stiffness
+ * by pair of materials, divided by that of material 0; stiffness: force per stretch of a bond of weight 1 [N]. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -185,8 +185,8 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles in block g of eight rows
- * (the bonds of eight particles) [1/s^2] from its stored bonds. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles (of p) in block g of eight
+ * rows of b (the bonds of eight particles) [1/s^2] from its stored bonds. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];

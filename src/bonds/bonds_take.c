@@ -3,8 +3,8 @@
 
 #include "bonds_parts.h"
 
-/* Marks the bond from the particle of row `row` to particle nbr as broken by load: weight 0, negative inverse length.
- * Does nothing if there is no such bond or it is broken already. */
+/* Marks the bond of b from the particle of row `row` to particle nbr as broken by load: weight 0, negative inverse
+ * length. Does nothing if there is no such bond or it is broken already. */
 static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
 {
     const int lane = (int)(row % LANES);

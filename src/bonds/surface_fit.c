@@ -220,8 +220,8 @@ struct class_goal {
 
 /* Adds face area, dipole (difference between the first layers behind a face) and N (x) N (N: unit normal of faces
  * nearby) of a particle, reflected across the axes in `mirrors` (one bit each) and times `share`, to *to, the goal of
- * its class of particles with equal surroundings. f: these values for all particles; t: index of the particle among
- * those near faces. */
+ * its class of particles with equal surroundings. f: these values for all particles; dim: number of dimensions; t:
+ * index of the particle among those near faces. */
 static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
 {
@@ -234,8 +234,8 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
 }
 
 /* Computes goal[classes], 0 before: the means of face area, dipole (difference between the first layers behind a face)
- * and product of face normals N (x) N over the particles of each class (particles with equal surroundings). b:
- * particles near faces; f: values of each particle; a: classes. */
+ * and product of face normals N (x) N over the particles of each class (particles with equal surroundings). dim: number
+ * of dimensions; b: particles near faces; f: values of each particle; a: classes. */
 static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {

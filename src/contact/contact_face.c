@@ -25,8 +25,8 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 
 /* Computes the density of a flat face at the height s above one of its particles [spacings], and the derivative of the
  * density by s. The density at a point is the number of particles of the face nearby, weighted by a kernel that
- * decreases with their distance. The face is one layer of a square or cubic lattice, in 1D a single particle. *density,
- * *slope: receive the density [1] and the derivative [1/spacing]. */
+ * decreases with their distance. The face is one layer of a square or cubic lattice, in 1D (dim is 1) a single
+ * particle. *density, *slope: receive the density [1] and the derivative [1/spacing]. */
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;
@@ -243,7 +243,7 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
 
 /* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
-/* Returns the contact stiffness of the particle of row `row` of the contact list c [J], for gaps in spacings: the
+/* Returns the contact stiffness of the particle of p in row `row` of the contact list c [J], for gaps in spacings: the
  * smallest stiffness of its pairs with other particles, or, without pairs, that of a pair of two particles like this
  * one. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
@@ -257,7 +257,7 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
 }
 
 /* Returns the width of the widest notch (a pre-crack with a width) between the particle of row `row` of the contact
- * list c and the particles near it in the reference configuration [spacings of the particle]; 0 if there is no
+ * list c and the particles of p near it in the reference configuration [spacings of the particle]; 0 if there is no
  * notch. */
 static real face_notch(const struct contact *c, const struct particles *p, int64_t row)
 {

@@ -22,7 +22,8 @@ static bool row_is_near(const struct contact *c, int64_t row)
     return near;
 }
 
-/* Returns true if the particle of entry k of the contact list c is not at its reference position any more. */
+/* Returns true if the particle of p in entry k of the contact list c (particles that may come into contact) is not at
+ * its reference position any more. */
 static bool entry_has_moved(const struct contact *c, const struct particles *p, int64_t k)
 {
     const int32_t i = c->particle[k];
@@ -31,8 +32,8 @@ static bool entry_has_moved(const struct contact *c, const struct particles *p, 
     return false;
 }
 
-/* Returns true if the particle of row `row` of the contact list c, or the other particle of one of its pairs, is not at
- * its reference position any more. If false, contact exerts no force on the particle. */
+/* Returns true if the particle of p in row `row` of the contact list c, or the other particle of one of its pairs, is
+ * not at its reference position any more. If false, contact exerts no force on the particle. */
 static bool row_has_moved(const struct contact *c, const struct particles *p, int64_t row)
 {
     bool moved = entry_has_moved(c, p, row);
@@ -56,8 +57,8 @@ static bool beside_active(const struct contact *c, int64_t row)
 }
 
 /* Updates the marks of the rows of the contact list c. Rows become ROW_ACTIVE (contact is evaluated from now on) if
- * contact is possible and their particle or one of its pairs has begun to move. Rows of the pairs of such rows, whose
- * particles then experience contact forces as well, become ROW_SOURCE. Returns true if a row was newly marked
+ * contact is possible and their particle (of p) or one of its pairs has begun to move. Rows of the pairs of such rows,
+ * whose particles then experience contact forces as well, become ROW_SOURCE. Returns true if a row was newly marked
  * ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {

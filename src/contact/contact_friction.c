@@ -67,9 +67,9 @@ struct contact_partner {
     real slip[DIM_MAX];                   /* slip [m/s] */
 };
 
-/* Computes a part of the motion of the face near the particle of row `row` of the contact list c: the normal force on
- * the particle, the density of the face (sum of weights), and its weighted mean position, relative to the particle, and
- * mean velocity. Positions are those a time `lag` before now [s], x - lag v. Other members of the result are 0. */
+/* Computes a part of the motion of the face near the particle of p in row `row` of the contact list c: the normal force
+ * on the particle, the density of the face (sum of weights), and its weighted mean position, relative to the particle,
+ * and mean velocity. Positions are those a time `lag` before now [s], x - lag v. Other members of the result are 0. */
 static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
@@ -124,10 +124,10 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes the rotation of the face near the particle of row `row` of the contact list c about the mean position of the
- * face. Stores the pseudo-inverse of the inertia tensor of the face in to->inverse and its angular velocity in omega[3]
- * [1/s]. Positions are those a time `lag` before now [s], x - lag v. The members density, arm and velocity of *to must
- * be set (partner_mean). */
+/* Computes the rotation of the face near the particle of p in row `row` of the contact list c about the mean position
+ * of the face. Stores the pseudo-inverse of the inertia tensor of the face in to->inverse and its angular velocity in
+ * omega[3] [1/s]. Positions are those a time `lag` before now [s], x - lag v. The members density, arm and velocity of
+ * *to must be set (partner_mean). */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
                          real lag, real *omega)
 {
@@ -148,9 +148,9 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Returns the motion of the face near the particle of row `row` of the contact list c, seen as a rigid body, and the
- * slip: the velocity of the particle relative to this motion at the position of the particle [m/s]. Positions are those
- * a time `lag` before now [s], x - lag v. */
+/* Returns the motion of the face near the particle of p in row `row` of the contact list c, seen as a rigid body, and
+ * the slip: the velocity of the particle relative to this motion at the position of the particle [m/s]. Positions are
+ * those a time `lag` before now [s], x - lag v. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);

@@ -9,8 +9,8 @@ struct contact_pair {
     real overlap, r, k, apart[DIM_MAX];
 };
 
-/* Returns the state of pair q (index in c->other) of row `row` of the contact list c: the vector between both
- * particles, its length, the overlap and the stiffness of the contact. All but the vector are 0 if the pair is not in
+/* Returns the state of pair q (index in c->other) of row `row` of the contact list c: the vector between both particles
+ * of p, its length, the overlap and the stiffness of the contact. All but the vector are 0 if the pair is not in
  * contact. */
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
@@ -53,7 +53,7 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
     return sqrt(contact_pair_vector(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
-/* Returns the distance at which contact between two particles begins [m]. It is their distance in the reference
+/* Returns the distance at which contact between two particles of p begins [m]. It is their distance in the reference
  * configuration or their mean spacing, whichever is smaller, minus the width of a notch between them. A new pair that
  * is closer than that begins contact at its present distance, without a force; when the pair opens, this distance grows
  * with it up to the first value. k, l: entries of the particles in the contact list c; previous_distance: result for

@@ -35,9 +35,9 @@ static real gap_of(const struct contact *c, const struct particles *p, const str
     return rigid_signed_distance(r, x, normal) - (0.5 + c->rise[row]) * c->size[row];
 }
 
-/* Returns true if the particle of row `row` of the contact list c may come into contact with rigid body r before the
- * next search, i.e. if the gap between both is less than `skin` [m]. Distant particles are rejected early by a bounding
- * test. */
+/* Returns true if the particle of p in row `row` of the contact list c may come into contact with rigid body r before
+ * the next search, i.e. if the gap between both is less than `skin` [m]. Distant particles are rejected early by a
+ * bounding test. */
 static bool is_near(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                     real skin)
 {
@@ -137,10 +137,10 @@ real contact_rigid_gap_of_particle(const struct contact *c, const struct particl
     return gap_of(c, p, &c->rigid[body_number], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap of rigid body number `body` with particle q of the list of particles near it (c->near) [m]; 0 if
- * both are not in contact. While an equilibrium is computed, marks determine which contacts act, and the overlap of
- * such a contact can be negative. normal[DIM_MAX]: receives the outward unit normal of the body, unless a mark excludes
- * the contact. */
+/* Returns the overlap of rigid body number `body` with particle q of the list of particles near it (c->near, indices in
+ * p) [m]; 0 if both are not in contact. While an equilibrium is computed, marks determine which contacts act, and the
+ * overlap of such a contact can be negative. normal[DIM_MAX]: receives the outward unit normal of the body, unless a
+ * mark excludes the contact. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_rigid_selection_marks(c, body);
@@ -163,8 +163,8 @@ real contact_patch_bounding_box_diagonal(const struct contact *c, const struct p
 }
 
 /* Updates the energy error that time integration has made in the contact of rigid body number `body` with particle q of
- * the list of particles near it (c->near), and the small force that compensates the error. Must be called once per time
- * step. */
+ * the list of particles near it (c->near, indices in p), and the small force that compensates the error. Must be called
+ * once per time step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -173,9 +173,9 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     contact_energy_correction_force(&near->balance[q], k, contact_rigid_gap_of_particle(c, p, body, q, normal), true);
 }
 
-/* Computes the force of rigid body number `body` on particle q of the list of particles near it (c->near): normal
- * force, energy correction and friction. Stores it in force[DIM_MAX] [N]. Returns the overlap [m], 0 if both are not in
- * contact. */
+/* Computes the force of rigid body number `body` on particle q of the list of particles near it (c->near, indices in
+ * p): normal force, energy correction and friction. Stores it in force[DIM_MAX] [N]. Returns the overlap [m], 0 if both
+ * are not in contact. */
 static real push_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *force)
 {
     const struct contact_near *near = &c->near[body];

@@ -28,8 +28,8 @@ static bool lacks_family(const struct bonds *b, int64_t row, real lost, real lea
     return row < 0 || b->family_volume[row] - lost < least;
 }
 
-/* Returns true if particle i is peridynamic and near a face: if it has damage, or its bonded neighbours in b have less
- * volume than least_volume [m^3]. everywhere: true to accept every peridynamic particle. */
+/* Returns true if particle i of p is peridynamic and near a face: if it has damage, or its bonded neighbours in b have
+ * less volume than least_volume [m^3]. everywhere: true to accept every peridynamic particle. */
 static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, bool everywhere, int64_t i)
 {
     const int64_t row = b->row_of[i];
@@ -64,7 +64,7 @@ real contact_notch_width_between_entries(const struct contact *c, const struct p
     return widest;
 }
 
-/* Returns the spacing of particle i, the edge of a square or cube with the volume of the particle [m]. It is
+/* Returns the spacing of particle i of p, the edge of a square or cube with the volume of the particle [m]. It is
  * law->spacing exactly if the volume is that of a lattice particle up to round-off. */
 static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
 {
@@ -73,9 +73,9 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
-/* Returns the rise at particle i: the height of the surface of the body's shape (law->shape) above the particle, minus
- * 1/2 [spacings], at least -RISE_MOST. It is 0 on a lattice that fits the shape, and is set to 0 for particles deep
- * inside the shape, which are at faces that cracks have made, and for bodies without a shape. size: spacing of the
+/* Returns the rise at particle i of p: the height of the surface of the body's shape (law->shape) above the particle,
+ * minus 1/2 [spacings], at least -RISE_MOST. It is 0 on a lattice that fits the shape, and is set to 0 for particles
+ * deep inside the shape, which are at faces that cracks have made, and for bodies without a shape. size: spacing of the
  * particle [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
@@ -106,9 +106,9 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
     }
 }
 
-/* Lists in c->particle the peridynamic particles near a face, in ascending order, then their mirror images, and stores
- * the present positions of all of them in c->at. A particle is near a face if the volume of its bonded neighbours in b
- * is less than a share of that of the complete neighbourhood f. */
+/* Lists in c->particle the peridynamic particles of p near a face, in ascending order, then their mirror images, and
+ * stores the present positions of all of them in c->at. A particle is near a face if the volume of its bonded
+ * neighbours in b is less than a share of that of the complete neighbourhood f. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
@@ -294,7 +294,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
 
 /* ---- times of checks --------------------------------------------------------------------------------------------- */
 
-/* Returns the largest displacement of a particle of the contact list c since the last search [m]; INFINITY if a
+/* Returns the largest displacement of a particle of p in the contact list c since the last search [m]; INFINITY if a
  * position is not finite. */
 static real largest_displacement(const struct contact *c, const struct particles *p)
 {

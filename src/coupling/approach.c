@@ -13,7 +13,7 @@ struct body_box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Returns an array [bodies] with the bounding box of the present positions of the particles of each body [m]. The box
+/* Returns an array [bodies] with the bounding box of the present positions of the particles p of each body [m]. The box
  * of a body without particles is empty (from > to). The caller frees the array with memory_free. */
 static struct body_box *body_boxes(const struct particles *p, int bodies)
 {
@@ -42,8 +42,8 @@ static struct body_box *body_boxes(const struct particles *p, int bodies)
     return all;
 }
 
-/* Returns true if the present position of particle i is inside the bounding box of another body, enlarged by `reach`
- * [m] on all sides. box: bounding boxes of the bodies, [bodies]. */
+/* Returns true if the present position of particle i of p is inside the bounding box of another body, enlarged by
+ * `reach` [m] on all sides. box: bounding boxes of the bodies, [bodies]. */
 static bool in_foreign_box(const struct particles *p, const struct body_box *box, int bodies, int64_t i, real reach)
 {
     for (int b = 0; b < bodies; b++) {
@@ -55,7 +55,7 @@ static bool in_foreign_box(const struct particles *p, const struct body_box *box
     return false;
 }
 
-/* Returns true if the present position of particle i is closer than `reach` [m] to the surface of one of the rigid
+/* Returns true if the present position of particle i of p is closer than `reach` [m] to the surface of one of the rigid
  * bodies rigid[0 .. rigids - 1], or inside one. */
 static bool near_rigid(const struct particles *p, const struct rigid_body *rigid, int rigids, int64_t i, real reach)
 {
@@ -67,9 +67,9 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     return false;
 }
 
-/* Records that particle i is near another body. If it is a material point, flags it for conversion to a peridynamic
- * particle (FLAG_NEAR). If it is peridynamic, restarts the time that must pass before it may become a material point
- * again. */
+/* Records that particle i of p is near another body. If it is a material point, flags it for conversion to a
+ * peridynamic particle (FLAG_NEAR). If it is peridynamic, restarts the time that must pass before it may become a
+ * material point again. */
 static void mark(struct particles *p, int64_t i)
 {
     if (p->kind[i] == KIND_MPM)
@@ -78,8 +78,8 @@ static void mark(struct particles *p, int64_t i)
         p->low_since[i] = INFINITY;
 }
 
-/* Marks (by mark) those of n particles whose present position is within `reach` [m] of another of these particles that
- * belongs to another body. list[n]: indices of the particles. */
+/* Marks (by mark) those of n particles of p whose present position is within `reach` [m] of another of these particles
+ * that belongs to another body. list[n]: indices of the particles. */
 static void mark_listed(struct particles *p, const int32_t *list, int64_t n, real reach)
 {
     struct particles places = {.n = n, .n_all = n, .dim = p->dim};

@@ -22,8 +22,8 @@ static void list_add(struct index_list *l, int64_t i)
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
-/* Returns true if a pre-crack cuts a bond between particle i and a particle of the same body in `near`. s: holds the
- * pre-cracks; near: neighbours of particle i. */
+/* Returns true if a pre-crack cuts a bond between particle i of p and a particle of the same body in `near`. s: holds
+ * the pre-cracks; near: neighbours of particle i. */
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i,
                        const struct neighbour_list *near)
 {
@@ -59,8 +59,8 @@ void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_
 /* Flags that hold for one step, and are cleared at the end of a conversion. */
 #define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
 
-/* Returns true if particle i is a material point whose flags require that it becomes peridynamic: it has lost a bond,
- * is near another body or, if the rule includes conversion by stress, has exceeded the stress at which points
+/* Returns true if particle i of p is a material point whose flags require that it becomes peridynamic: it has lost a
+ * bond, is near another body or, if the rule includes conversion by stress, has exceeded the stress at which points
  * convert. */
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
@@ -70,7 +70,7 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-/* Returns true if particle i has a bond in b, intact or broken, to a material point. */
+/* Returns true if particle i of p has a bond in b, intact or broken, to a material point. */
 static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
@@ -78,10 +78,10 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Appends to l the peridynamic particles that have lost a bond in this step and still have bonds to material points.
- * Appends none unless the model is state-based and s->local is set, i.e. the model normalises its forces by the intact
- * bonds of the neighbourhood. The remaining bonds are then stiffer than before, so that the partial stress (stress that
- * bonds replace) of the material points around must be recomputed. */
+/* Appends to l the peridynamic particles of p that have lost a bond of b in this step and still have bonds to material
+ * points. Appends none unless the model is state-based and s->local is set, i.e. the model normalises its forces by the
+ * intact bonds of the neighbourhood. The remaining bonds are then stiffer than before, so that the partial stress
+ * (stress that bonds replace) of the material points around must be recomputed. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {
@@ -103,11 +103,11 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
     list_add(changed, i);
 }
 
-/* Converts the material points whose flags require it to peridynamic particles. If rule->block is set, also converts
- * all material points of the same body within the cutoff (largest bond length) of these. Appends the converted points
- * to `changed`, and clears the conversion flags of all particles. source: data of bonds; map: map from lattice sites to
- * particles, or NULL to search for neighbours; t: present time [s], stored in *c with the position of the first
- * converted point at the first conversion. */
+/* Converts the material points of p whose flags require it to peridynamic particles. If rule->block is set, also
+ * converts all material points of the same body within the cutoff (largest bond length) of these. Appends the converted
+ * points to `changed`, and clears the conversion flags of all particles. source: data of bonds; map: map from lattice
+ * sites to particles, or NULL to search for neighbours; t: present time [s]. At the first conversion, stores t and the
+ * position of the first converted point in *c. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, const struct site_map *map, struct index_list *changed,
                            real t)
@@ -139,7 +139,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     memory_free(near.at);
 }
 
-/* Appends particle i to the list l and sets its flag FLAG_LISTED. Does nothing if the flag is set already. */
+/* Appends particle i of p to the list l and sets its flag FLAG_LISTED. Does nothing if the flag is set already. */
 static void list_once(struct index_list *l, struct particles *p, int64_t i)
 {
     if (p->flag[i] & FLAG_LISTED) return;
@@ -147,10 +147,10 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
     list_add(l, i);
 }
 
-/* Updates positions and velocities of the converted particles `changed` and of all particles within the cutoff (largest
- * bond length) of these, before bonds between them are made. Each particle is updated once, so that threads write
- * different particles. sync: function that updates listed particles, or NULL if none needs it; source: cutoff and
- * mirror images; map: map from lattice sites to particles, or NULL to search for neighbours. */
+/* Updates positions and velocities of the converted particles `changed` (indices in p) and of all particles within the
+ * cutoff (largest bond length) of these, before bonds between them are made. Each particle is updated once, so that
+ * threads write different particles. sync: function that updates listed particles, or NULL if none needs it; source:
+ * cutoff and mirror images; map: map from lattice sites to particles, or NULL to search for neighbours. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

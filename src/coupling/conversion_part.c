@@ -15,7 +15,7 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-/* Returns true if the conversion flags of all material points must be tested in this step. This is so if there are
+/* Returns true if the conversion flags of all material points of p must be tested in this step. This is so if there are
  * points on the background grid, which keeps no record of flagged points, or if another process may have flagged points
  * or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points belong to the mesh of the
  * reference frame r and no cell of it has recorded a high stress. s: scene. */
@@ -89,9 +89,9 @@ int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_b
     return converted;
 }
 
-/* Stores in c->bonded[p->n] which particles are material points with intact bonds to peridynamic particles: 1 for
- * these, 0 for others. Frees c->bonded and sets it to NULL if b has no rows of bonds. Does nothing without FLIP, which
- * alone needs it, or without points on the grid. */
+/* Stores in c->bonded[p->n] which particles of p are material points with intact bonds to peridynamic particles: 1 for
+ * these, 0 for others. Frees c->bonded and sets it to NULL if b has no rows of bonds. Does nothing unless velocities
+ * are transferred by FLIP, which alone needs it, or without points on the grid. */
 static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
     if (b->rows == 0) { /* all particles have reverted: no material point has bonds */

@@ -10,8 +10,7 @@ static void coupling_free_all(struct run *e)
     memory_free(c->bonded), memory_free(c->start_region.solid);
 }
 
-/* Returns the number of times that a particle has reverted to a material point, for the particle for which it is
- * largest. */
+/* Returns the largest number of times that a single particle of p has reverted to a material point. */
 static int reversions_most(const struct particles *p)
 {
     int most = 0;

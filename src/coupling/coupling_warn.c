@@ -70,8 +70,8 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                                                                : "the key coupling has another value");
 }
 
-/* Returns true if particles i and j start with nearly the same velocity, up to 0.1 %. Parts of bodies that are meant to
- * be joined do; colliding bodies do not. */
+/* Returns true if particles i and j of p start with nearly the same velocity, up to 0.1 %. Parts of bodies that are
+ * meant to be joined do; colliding bodies do not. */
 static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
 {
     real apart2 = 0, most2 = 0;
@@ -82,7 +82,7 @@ static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
     return apart2 <= 1e-6 * most2;
 }
 
-/* Finds the pairs of bodies that touch at the start: with particles closer than `reach` [m] that have the same
+/* Finds the pairs of bodies that touch at the start: with particles of p closer than `reach` [m] that have the same
  * velocity. For each such pair a < b, sets touch[a * bodies + b] to true; touch[bodies * bodies] must be false before.
  * cells: cells of the neighbour search. Returns the number of pairs. */
 static int touching(const struct particles *p, const struct cells *cells, int bodies, real reach, bool *touch)

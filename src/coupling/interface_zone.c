@@ -21,10 +21,10 @@ static bool interface_zone_is_free(const struct particles *p, int32_t j)
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Sets mark[j] to `as` for all particles j within `radius` [m] of one of n particles, list[n], of the same body. Leaves
- * out particles that already have a mark, those whose velocity must not be changed by damping, and, if `as` is POINT,
- * particles that are no material points. s: cells of the neighbour search. Threads that reach the same particle write
- * the same value. */
+/* Sets mark[j] to `as` for all particles j of p within `radius` [m] of one of n particles, list[n], of the same body.
+ * Leaves out particles that already have a mark, those whose velocity must not be changed by damping, and, if `as` is
+ * POINT, particles that are no material points. s: cells of the neighbour search. Threads that reach the same particle
+ * write the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -74,10 +74,11 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the nearest neighbours of member k of the interface zone r (material points near peridynamic particles, and
- * neighbours) with which damping acts. At least one of the two must be a material point of the zone, and no pre-crack
- * of s may separate them. mark, slot: as computed by members_make; to: receives the indices of these neighbours in the
- * list of members, or NULL to count them only; near: working memory. Returns the number of these neighbours. */
+/* Finds the nearest neighbours of member k (a particle of p) of the interface zone r (material points near peridynamic
+ * particles, and neighbours) with which damping acts. At least one of the two must be a material point of the zone, and
+ * no pre-crack of s may separate them. mark, slot: as computed by members_make; to: receives the indices of these
+ * neighbours in the list of members, or NULL to count them only; near: working memory. Returns the number of these
+ * neighbours. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {
@@ -95,10 +96,11 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
     return n;
 }
 
-/* Counts or lists the neighbours of all members of the interface zone r (material points near peridynamic particles,
- * and neighbours). With `count` true, stores the number of neighbours of member k in r->start[k + 1]. With `count`
- * false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by members_make. s: cells
- * of the neighbour search and pre-cracks. Returns the largest number of neighbours of a member, at least 1. */
+/* Counts or lists the neighbours of all members (particles of p) of the interface zone r (material points near
+ * peridynamic particles, and neighbours). With `count` true, stores the number of neighbours of member k in r->start[k
+ * + 1]. With `count` false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by
+ * members_make. s: cells of the neighbour search and pre-cracks. Returns the largest number of neighbours of a member,
+ * at least 1. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
@@ -160,8 +162,8 @@ void interface_zone_free(struct interface_zone *r)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Adds factor ((b - a) . e) e to sum[dim], where e is the unit vector from the present position of particle i to that
- * of particle j. a[dim], b[dim]: vectors of particle i and of particle j, such as their velocities. */
+/* Adds factor ((b - a) . e) e to sum[dim], where e is the unit vector from the present position of particle i of p to
+ * that of particle j. a[dim], b[dim]: vectors of particle i and of particle j, such as their velocities. */
 static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
                       real *sum)
 {
@@ -174,15 +176,15 @@ static void add_along(const struct particles *p, int32_t i, int32_t j, const rea
     for (int d = 0; d < p->dim; d++) sum[d] += factor * along / length2 * y[d];
 }
 
-/* Copies the velocity of particle i to v[dim] [m/s]. */
+/* Copies the velocity of particle i of p to v[dim] [m/s]. */
 static void velocity_of(const struct particles *p, int32_t i, real *v)
 {
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* Computes r->difference of member k of the interface zone (material points near peridynamic particles, and neighbours)
- * [kg m/s]: r->scale times the mass of the member times a sum over its neighbours. A term of the sum is the velocity of
- * the neighbour relative to the member, projected on the line between both. */
+/* Computes r->difference of member k (a particle of p) of the interface zone (material points near peridynamic
+ * particles, and neighbours) [kg m/s]: r->scale times the mass of the member times a sum over its neighbours. A term of
+ * the sum is the velocity of the neighbour relative to the member, projected on the line between both. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];

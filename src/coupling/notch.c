@@ -70,7 +70,7 @@ static struct crack_edges crack_edges_of(const struct crack *c, const struct par
     return zone;
 }
 
-/* Returns true if the reference position of particle i is in one of the peridynamic zones of a crack: within
+/* Returns true if the reference position of particle i of p is in one of the peridynamic zones of a crack: within
  * zone->radius of an edge (in 2D end) of the crack that is inside the body. */
 static bool in_zone(const struct crack_edges *zone, const struct particles *p, int64_t i)
 {
@@ -86,7 +86,7 @@ static bool in_zone(const struct crack_edges *zone, const struct particles *p, i
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if crack c separates the reference positions of particles i and j. */
+/* Returns true if crack c separates the reference positions of particles i and j of p. */
 static bool parted(const struct crack *c, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -95,8 +95,8 @@ static bool parted(const struct crack *c, const struct particles *p, int64_t i, 
     return crack_cuts_bond(c, a, b, p->dim);
 }
 
-/* Returns true if crack c is within the cutoff (largest bond length, from s) of the reference position of particle i,
- * so that it may cut bonds of this particle. */
+/* Returns true if crack c is within the cutoff (largest bond length, from s) of the reference position of particle i of
+ * p, so that it may cut bonds of this particle. */
 static bool near_crack(const struct crack *c, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     real X[DIM_MAX];
@@ -117,7 +117,8 @@ struct flanks {
     int64_t particles, elsewhere;
 };
 
-/* Returns true if crack c cuts a bond between particle i and a particle of the same body in `near`, its neighbours. */
+/* Returns true if crack c cuts a bond between particle i of p and a particle of the same body in `near`, its
+ * neighbours. */
 static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct neighbour_list *near)
 {
     for (int k = 0; k < near->n; k++)
@@ -125,10 +126,10 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
     return false;
 }
 
-/* Counts the particles that lose bonds by a crack, without those in the peridynamic zones around its edges. zone: the
- * crack and these zones; s: cells of the neighbour search. Returns the number of these particles (member `particles`)
- * and the number of those of them that are not points of a mesh, for which the crack cannot be a slit (a gap of the
- * mesh) (member `elsewhere`). */
+/* Counts the particles of p that lose bonds by a crack, without those in the peridynamic zones around its edges. zone:
+ * the crack and these zones; s: cells of the neighbour search. Returns the number of these particles (member
+ * `particles`) and the number of those of them that are not points of a mesh, for which the crack cannot be a slit (a
+ * gap of the mesh) (member `elsewhere`). */
 static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;
@@ -165,7 +166,7 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
 }
 
 /* Returns true if a slit of n (pre-crack along which nodes of the mesh are doubled), or the mirror image of one, is so
- * near particle i that it may cut bonds of this particle. s: cutoff and cells of the neighbour search. */
+ * near particle i of p that it may cut bonds of this particle. s: cutoff and cells of the neighbour search. */
 static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     for (int k = 0; k < n->slits + n->images; k++)
@@ -173,10 +174,10 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* Computes n->lost[i], the share of the neighbour volume of particle i that slits (pre-cracks along which nodes of the
- * mesh are doubled) separate from the particle [1]. Neighbours are the particles of the same body within the cutoff.
- * Returns true if a slit separates particle i from a nearest neighbour, so that the particle is beside the slit.
- * source: cutoff and cells of the neighbour search; near: working memory. */
+/* Computes n->lost[i], the share of the neighbour volume of particle i of p that slits (pre-cracks along which nodes of
+ * the mesh are doubled) separate from the particle [1]. Neighbours are the particles of the same body within the
+ * cutoff. Returns true if a slit separates particle i from a nearest neighbour, so that the particle is beside the
+ * slit. source: cutoff and cells of the neighbour search; near: working memory. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source,
                       struct neighbour_list *near, int64_t i)
 {
@@ -272,9 +273,9 @@ void notches_free(struct notches *n)
 
 /* ---- approach of faces ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance below which two particles on both sides of a void are converted to peridynamic particles [m]; 0
- * if no void is between them. This distance is reached when the faces of the void are VOID_AHEAD spacings apart, but is
- * at least NOTCH_GAP spacings less than the initial distance of the particles. k, l: indices of the particles in
+/* Returns the distance below which two particles of p on both sides of a void are converted to peridynamic particles
+ * [m]; 0 if no void is between them. This distance is reached when the faces of the void are VOID_AHEAD spacings apart,
+ * but is at least NOTCH_GAP spacings less than the initial distance of the particles. k, l: indices of the particles in
  * n->face; spacing: lattice spacing [m]. */
 static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
                                   real spacing)
@@ -285,9 +286,9 @@ static real void_meeting_distance(const struct notches *n, const struct particle
     return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
 }
 
-/* Returns the distance below which two particles on both sides of a slit (pre-crack along which nodes of the mesh are
- * doubled) or of a void are converted to peridynamic particles [m]; 0 if neither is between them. face, other: indices
- * of the particles in n->face; spacing: lattice spacing [m]. */
+/* Returns the distance below which two particles of p on both sides of a slit (pre-crack along which nodes of the mesh
+ * are doubled) or of a void are converted to peridynamic particles [m]; 0 if neither is between them. face, other:
+ * indices of the particles in n->face; spacing: lattice spacing [m]. */
 static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
                              real spacing)
 {
@@ -299,8 +300,8 @@ static real meeting_distance(const struct notches *n, const struct particles *p,
     return width < 0 ? void_meeting_distance(n, p, face, other, spacing) : spacing - real_max(gap, width - gap);
 }
 
-/* Returns the distance that particles i and j will have after the time `ahead` [s] at their present velocities [m], if
- * they approach each other; else their present distance. */
+/* Returns the distance that particles i and j of p will have after the time `ahead` [s] at their present velocities
+ * [m], if they approach each other; else their present distance. */
 static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real ahead)
 {
     real r2 = 0, rate = 0;
@@ -312,10 +313,10 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-/* Returns a search radius that finds all pairs of particles which must be converted because the faces of a slit or void
- * meet [m]. These are pairs that will be nearer than their meeting_distance after the time `ahead` [s]. Two particles
- * approach each other by at most twice the largest speed of the particles beside slits, n->face. spacing: lattice
- * spacing [m]. */
+/* Returns a search radius that finds all pairs of particles of p which must be converted because the faces of a slit or
+ * void meet [m]. These are pairs that will be nearer than their meeting_distance after the time `ahead` [s]. Two
+ * particles approach each other by at most twice the largest speed of the particles beside slits, n->face. spacing:
+ * lattice spacing [m]. */
 static real meeting_reach(const struct notches *n, const struct particles *p, real spacing, real ahead)
 {
     const real gap = NOTCH_GAP * spacing;

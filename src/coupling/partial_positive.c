@@ -11,9 +11,9 @@
 
 #include "partial_parts.h"
 
-/* Computes the tensor zeta = (1/Q) sum w xi (x) xi over the intact bonds b of material point i of p, in symmetric
- * components [1]; zeta must be 0 before. w: weight of a bond; xi: reference vector of the bond; Q: weighted volume of
- * the point's neighbourhood. Returns true if the point has an intact bond, else false. */
+/* Computes the tensor zeta = (1/Q) sum w xi (x) xi over the intact bonds that material point i of p has in b, in
+ * symmetric components [1]; zeta must be 0 before. w: weight of a bond; xi: reference vector of the bond; Q: weighted
+ * volume of the point's neighbourhood. Returns true if the point has an intact bond, else false. */
 static bool own_bonds(real *zeta, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;

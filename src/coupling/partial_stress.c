@@ -88,8 +88,8 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
         }
 }
 
-/* Returns V/Q of a particle [m^-2]: its volume V divided by Q, the weighted volume of its neighbourhood (sum of w xi^2
- * V over its bonds). Without bonds in b, V and Q are those of a complete neighbourhood on the lattice. s: the
+/* Returns V/Q of a particle of p [m^-2]: its volume V divided by Q, the weighted volume of its neighbourhood (sum of w
+ * xi^2 V over its bonds). Without bonds in b, V and Q are those of a complete neighbourhood on the lattice. s: the
  * neighbourhood on the lattice and the list of images; i: index of the particle or of a mirror image of it. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -116,8 +116,8 @@ struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
-/* Returns the bounding box of the particle of row `row` (its bonds in b) and of the other ends of its intact bonds, in
- * the reference configuration [m]. */
+/* Returns the bounding box of the particle of p in row `row` (its bonds in b) and of the other ends of its intact
+ * bonds, in the reference configuration [m]. */
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
     struct box box = {{0}, {0}};
@@ -142,11 +142,11 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* Adds to T the contributions of the bonds of particle j to the stiffness of a cubic cell, which belongs to another
- * material point. Only the part of a bond inside the cell counts; only bonds of material points count. T[n][n]:
- * stiffness of all bonds in the cell times its volume, over symmetric components [J]; s: law of the bonds and list of
- * images; j: particle or mirror image; X[dim], half: centre and half edge of the cell [m]; box[rows]: bounding boxes of
- * the bonds of each row, by which most rows are skipped. */
+/* Adds to T the contributions of the bonds that particle j of p has in b to the stiffness of a cubic cell, which
+ * belongs to another material point. Only the part of a bond inside the cell counts; only bonds of material points
+ * count. T[n][n]: stiffness of all bonds in the cell times its volume, over symmetric components [J]; s: law of the
+ * bonds and list of images; j: particle or mirror image; X[dim], half: centre and half edge of the cell [m]; box[rows]:
+ * bounding boxes of the bonds of each row, by which most rows are skipped. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -175,10 +175,10 @@ real particle_cell_half_edge(const struct particles *p, const struct bond_source
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Computes T, the stiffness that the bonds of all material points near point i have within the cell of i, times the
- * volume of the cell [J]. Tests the bonds one by one, which works for any arrangement of particles. s: law of the bonds
- * and cells of the search; T[n][n]: over symmetric components, 0 before; box[rows]: bounding boxes of the bonds of each
- * row; near: working memory. */
+/* Computes T, the stiffness that the bonds (of b) of all material points of p near point i have within the cell of i,
+ * times the volume of the cell [J]. Tests the bonds one by one, which works for any arrangement of particles. s: law of
+ * the bonds and cells of the search; T[n][n]: over symmetric components, 0 before; box[rows]: bounding boxes of the
+ * bonds of each row; near: working memory. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
 {
@@ -192,7 +192,7 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
 }
 
 /* Computes the matrix M = T C^-1/V over symmetric components, M[n][n]: M sigma is the part of the stress sigma of
- * material point i that bonds carry. C, V: elastic tensor and volume of the point; s: has the materials; T[n][n]:
+ * material point i of p that bonds carry. C, V: elastic tensor and volume of the point; s: has the materials; T[n][n]:
  * stiffness of the bonds within the cell of the point, times V [J]. Returns false if M is 0, i.e. if no bond crosses
  * the cell. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
@@ -302,12 +302,13 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds the material points whose partial stress must be recomputed because particles near them have been converted to
- * peridynamic ones or back, and stores these points in r. The partial stress of a point near bonds is its stress less
- * that which the bonds that cross its lattice cell carry. changed[n]: indices of the converted particles, or NULL for
- * all peridynamic ones. Also stores the rows (a row: the bonds of one particle) whose bonds may cross the lattice cells
- * of these points, unless `table` (what a bond of each lattice direction carry) holds for all particles: no rows are
- * then needed. s: cutoff of the bonds and cells for the search of neighbours. Release r with renewal_free. */
+/* Finds the material points of p whose partial stress must be recomputed because particles near them have been
+ * converted to peridynamic ones or back, and stores these points in r. The partial stress of a point near bonds is the
+ * part of its stress that remains without the part that the bonds b across its lattice cell carry. changed[n]: indices
+ * of the converted particles, or NULL for all peridynamic ones. Also stores the rows (a row: the bonds of one particle)
+ * whose bonds may cross the lattice cells of these points, unless `table` (stiffness that a bond of each lattice
+ * direction adds to a cell) holds for all particles, so that no rows are needed. s: cutoff of the bonds and cells for
+ * the search of neighbours. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
@@ -360,9 +361,9 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
-/* Removes unused entries from the arrays of values in `partial` if they are more than half of all. Points that have
- * become peridynamic or have lost their bonds leave unused entries. size, local: number of values of the matrix M and
- * of the tensor L in an entry. */
+/* Removes unused entries from the arrays of values in `partial` if they are more than half of all. Points of p that
+ * have become peridynamic or have lost their bonds leave unused entries. size, local: number of values of the matrix M
+ * and of the tensor L in an entry. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;

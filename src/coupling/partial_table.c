@@ -211,7 +211,7 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
     }
 }
 
-/* Returns true if the reference positions of the particles of each body, with their mirror images, are on one lattice
+/* Returns true if the reference positions of the particles p of each body, with their mirror images, are on one lattice
  * with the given spacing [m]. Bodies may have different lattices. */
 static bool on_lattice(const struct particles *p, real spacing)
 {
@@ -320,9 +320,9 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes the responses to strain (struct response) of the bonds in row `row`, the bonds of one particle. t: table of
- * bond vectors; s: law of the bonds; response[vectors][parts]: receives the responses, by the number of the bond's
- * vector on the lattice; 0 for broken bonds and for vectors without a bond. */
+/* Computes the responses to strain (struct response) of the bonds in row `row` of b, the bonds of one particle of p. t:
+ * table of bond vectors; s: law of the bonds; response[vectors][parts]: receives the responses, by the number of the
+ * bond's vector on the lattice; 0 for broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -350,8 +350,8 @@ struct row_block_intact {
     unsigned rows;
 };
 
-/* Returns true if particle i is a material point with an intact bond in b. *last: result for the last block of eight
- * rows queried (rows of eight particles stored together), updated. */
+/* Returns true if particle i of p is a material point with an intact bond in b. *last: result for the last block of
+ * eight rows queried (rows of eight particles stored together), updated. */
 static bool partial_table_has_bonds(struct row_block_intact *last, const struct particles *p, const struct bonds *b,
                                     int64_t i)
 {
@@ -440,10 +440,10 @@ bool partial_table_applies_to_particle(const struct particles *p, const struct b
     return fabs(p->volume0[particle] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Inserts particle or mirror image j into to[n], a list in ascending order of j, if its bonds may cross the cell of a
- * material point: if j is a material point, or the image of one, whose bond responses are stored in t. s: list of the
- * images; place: number of the site of j in the table with that material point at its centre. Returns the new length of
- * the list. */
+/* Inserts particle or mirror image j of p into to[n], a list in ascending order of j, if its bonds may cross the cell
+ * of a material point: if j is a material point, or the image of one, whose bond responses are stored in t. s: list of
+ * the images; place: number of the site of j in the table with that material point at its centre. Returns the new
+ * length of the list. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -455,10 +455,10 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists the particles and mirror images whose bonds may cross the cell of material point i in `to`, in ascending order.
- * l: map from lattice sites to particles, in which the sites of table t are looked up; s: list of the images. Sites are
- * visited in the order of the particles, so that only images have to be inserted between others. Returns the number of
- * listed particles, at most t->vectors + 1. */
+/* Lists the particles and mirror images whose bonds may cross the cell of material point i of p in `to`, in ascending
+ * order. l: map from lattice sites to particles, in which the sites of table t are looked up; s: list of the images.
+ * Sites are visited in the order of the particles, so that only images have to be inserted between others. Returns the
+ * number of listed particles, at most t->vectors + 1. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -472,9 +472,9 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists the particles and mirror images whose bonds may cross the cell of material point i in `to`, in ascending order,
- * found by a neighbour search: for particles without a map of lattice sites. t: table of bond responses; s: cells of
- * the search; near: working memory. Returns the number of listed particles. */
+/* Lists the particles and mirror images whose bonds may cross the cell of material point i of p in `to`, in ascending
+ * order, found by a neighbour search: for particles without a map of lattice sites. t: table of bond responses; s:
+ * cells of the search; near: working memory. Returns the number of listed particles. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

@@ -44,10 +44,10 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
     return false;
 }
 
-/* Returns true if the stress of peridynamic particle i is low enough for reversion to a material point: its largest
- * principal value is less than rule->low_stress times the stress at which a point is converted. In bond-based models
- * the stress of a particle near a surface is too small because neighbours are missing, and is divided by the volume
- * share of those that exist. b: bonds, with these volumes. */
+/* Returns true if the stress of peridynamic particle i of p is low enough for reversion to a material point: its
+ * largest principal value is less than rule->low_stress times the stress at which a point is converted. In bond-based
+ * models the stress of a particle near a surface is too small because neighbours are missing, and is divided by the
+ * volume share of those that exist. b: bonds, with these volumes. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -187,9 +187,9 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Adds the sums K = sum w e e and G = sum w e y/r over the intact bonds of row `row`, the bonds of one particle, to
- * K[dim][dim] and G[dim][dim]. w: weight of a bond; e, r: its reference direction and length [m]; y: its present vector
- * [m]. The deformation gradient F of the neighbourhood follows from K F^T = G. */
+/* Adds the sums K = sum w e e and G = sum w e y/r over the intact bonds in row `row` of b, the bonds of one particle of
+ * p, to K[dim][dim] and G[dim][dim]. w: weight of a bond; e, r: its reference direction and length [m]; y: its present
+ * vector [m]. The deformation gradient F of the neighbourhood follows from K F^T = G. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -215,10 +215,10 @@ struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
 
-/* Adds half of the contribution of one bond to the stress in the cell *to of a particle, and to the derivative of this
- * stress by a uniform strain, both times the volume of the cell. The other half is added when the bond is found in the
- * row of its other particle. bond: the bond, as stored for the particle r->root; j: that particle or a mirror image of
- * it; r: reflection that maps r->root to j. */
+/* Adds half of the contribution of one bond of b to the stress in the cell *to of a particle of p, and to the
+ * derivative of this stress by a uniform strain, both times the volume of the cell. The other half is added when the
+ * bond is found in the row of its other particle. bond: the bond, as stored for the particle r->root; j: that particle
+ * or a mirror image of it; r: reflection that maps r->root to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -250,7 +250,7 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* Computes the stress in the cell of particle i from all bonds that cross it, sigma = (1/V) sum l F (x) y, and the
+/* Computes the stress in the cell of particle i of p from all bonds that cross it, sigma = (1/V) sum l F (x) y, and the
  * derivative of this stress by a uniform strain, T = (1/V) sum k r l e e e e, in *to [Pa]. V: volume of the cell; l:
  * fraction of the bond inside the cell; F, y: force and present vector of the bond; k, r, e: its stiffness, reference
  * length and direction. In a uniform strain sigma equals the virial stress of the bonds of particle i, but it averages
@@ -281,10 +281,10 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Corrects `stress`, the stress of the bonds that cross the cell of particle i [Pa], for missing bonds. The uniform
- * strain that causes this stress is T^-1 stress; the corrected stress is that of a complete neighbourhood under this
- * strain. source: neighbourhood and materials; T[n][n]: derivative of the stress by a uniform strain [Pa], overwritten.
- * Leaves the stress unchanged if T is singular. */
+/* Corrects `stress`, the stress of the bonds that cross the cell of particle i of p [Pa], for missing bonds. The
+ * uniform strain that causes this stress is T^-1 stress; the corrected stress is that of a complete neighbourhood under
+ * this strain. source: neighbourhood and materials; T[n][n]: derivative of the stress by a uniform strain [Pa],
+ * overwritten. Leaves the stress unchanged if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -296,10 +296,10 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-/* Computes the stress that peridynamic particle i gets as a material point. stress: receives its symmetric components
- * [Pa]. In bond-based models it is the stress of the bonds that cross the cell of the particle. In state-based models
- * it is the virial stress of its own bonds, since a single bond has no force of its own there. source: law of the bonds
- * and cells of the neighbour search; near: working memory. */
+/* Computes the stress that peridynamic particle i of p gets as a material point. stress: receives its symmetric
+ * components [Pa]. In bond-based models it is the stress of the bonds that cross the cell of the particle. In
+ * state-based models it is the virial stress of its own bonds, since a single bond has no force of its own there.
+ * source: law of the bonds and cells of the neighbour search; near: working memory. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
                              const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
@@ -311,8 +311,8 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
     memcpy(stress, c.stress, sizeof c.stress);
 }
 
-/* Sets the state that peridynamic particle i has as a material point from its bonds b: stress, volume and stretch. The
- * velocity gradient becomes 0. If the bonds have too few directions to determine the deformation, it is taken to be
+/* Sets the state that peridynamic particle i of p has as a material point from its bonds b: stress, volume and stretch.
+ * The velocity gradient becomes 0. If the bonds have too few directions to determine the deformation, it is taken to be
  * undeformed. source: law of the bonds and cells of the search; near: working memory. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct neighbour_list *near)

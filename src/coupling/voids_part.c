@@ -33,9 +33,9 @@ static void closed_add(struct closed *to, int64_t i)
     if (to->n++ == 0) to->first = i;
 }
 
-/* Returns true if a void of v (gap in a body) is between particle i and another particle of the same body among its
- * neighbours `near`, so that the sides of the void face each other. Mirror images do not count: the gap between a body
- * and a plane of symmetry is no void of the body. */
+/* Returns true if a void of v (gap in a body) is between particle i of p and another particle of the same body among
+ * its neighbours `near`, so that the sides of the void face each other. Mirror images do not count: the gap between a
+ * body and a plane of symmetry is no void of the body. */
 static bool void_is_within_body(const struct voids *v, const struct particles *p, int64_t i,
                                 const struct neighbour_list *near)
 {
@@ -53,11 +53,11 @@ static bool void_is_within_body(const struct voids *v, const struct particles *p
     return within;
 }
 
-/* Counts the material points beside gaps that are too narrow for the grid to separate their sides. *inside: receives
- * number and first index of those beside voids of a body; *at_plane: the same for gaps between a body and a plane of
- * symmetry. v: voids of bodies whose surface is known, or NULL, then nothing is counted; cells: cells of the search;
- * reach: largest width of such a gap [m]; uncut: true if voids do not divide the mesh of the reference frame; if false,
- * points of this mesh are left out. */
+/* Counts the material points of p beside gaps that are too narrow for the grid to separate their sides. *inside:
+ * receives number and first index of those beside voids of a body; *at_plane: the same for gaps between a body and a
+ * plane of symmetry. v: voids of bodies whose surface is known, or NULL, then nothing is counted; cells: cells of the
+ * search; reach: largest width of such a gap [m]; uncut: true if voids do not divide the mesh of the reference frame;
+ * if false, points of this mesh are left out. */
 static void closed_on_grid(const struct particles *p, const struct voids *v, const struct cells *cells, real reach,
                            bool uncut, struct closed *inside, struct closed *at_plane)
 {
@@ -70,8 +70,8 @@ static void closed_on_grid(const struct particles *p, const struct voids *v, con
     memory_free(near.at);
 }
 
-/* Computes next[2 dim], the distances from particle i to the nearest neighbours of its body along each axis, first in
- * negative, then in positive direction [m]; INFINITY if there is none. near: neighbours of particle i. */
+/* Computes next[2 dim], the distances from particle i of p to the nearest neighbours of its body along each axis, first
+ * in negative, then in positive direction [m]; INFINITY if there is none. near: neighbours of particle i. */
 static void next_along(const struct particles *p, int64_t i, const struct neighbour_list *near, real *next)
 {
     for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
@@ -86,9 +86,9 @@ static void next_along(const struct particles *p, int64_t i, const struct neighb
     }
 }
 
-/* Counts the particles of body b that are beside gaps, rows of empty lattice sites narrower than `reach` [m], for
- * bodies whose surface is not known. s: scene, with the spacing; cells: cells of the neighbour search. Returns their
- * number with the index of the first one. The number is 0 if the particles are not on a lattice. */
+/* Counts the particles (of p) of body b that are beside gaps, rows of empty lattice sites narrower than `reach` [m],
+ * for bodies whose surface is not known. s: scene, with the spacing; cells: cells of the neighbour search. Returns
+ * their number with the index of the first one. The number is 0 if the particles are not on a lattice. */
 static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
                                        int b, real reach)
 {

@@ -98,9 +98,9 @@ struct search {
     bool ascending, any_order;
 };
 
-/* Appends to s->found the particles within the search radius in the consecutive cells first .. last of a row along x.
- * Counts in s->n also those that exceed the capacity s->room, which are not stored. dim: number of dimensions, known at
- * compile time. */
+/* Appends to s->found the particles of p within the search radius in the consecutive cells first .. last of a row along
+ * x. Counts in s->n also those that exceed the capacity s->room, which are not stored. dim: number of dimensions, known
+ * at compile time. */
 static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
 {
     const int32_t *order = s->c->order;
@@ -137,7 +137,7 @@ static inline void cells_within(const struct cells *c, const real *X, int d, rea
     if (*high >= c->count[d]) *high = c->count[d] - 1;
 }
 
-/* Lists the particles within s->radius of s->X in s->found, in ascending order unless s->any_order. dim: number of
+/* Lists the particles of p within s->radius of s->X in s->found, in ascending order unless s->any_order. dim: number of
  * dimensions, known at compile time. Returns the number of particles found; if it exceeds the capacity s->room, the
  * list is incomplete. */
 static inline int near(struct search *s, const struct particles *p, const int dim)
@@ -163,8 +163,8 @@ static inline int near(struct search *s, const struct particles *p, const int di
     return s->n;
 }
 
-/* Lists the particles within s->radius of s->X in s->found, by the copy of `near` that is compiled for the number of
- * dimensions. Returns the number of particles found; if it exceeds the capacity s->room, the list is incomplete. */
+/* Lists the particles of p within s->radius of s->X in s->found, by the copy of `near` that is compiled for the number
+ * of dimensions. Returns the number of particles found; if it exceeds the capacity s->room, the list is incomplete. */
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {

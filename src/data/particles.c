@@ -48,7 +48,8 @@ static int if_return(int dim, int optional) { return (void)dim, optional & WITH_
 #define FIELD(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, false)
 #define TRIAL(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, true)
 
-/* Table of all arrays of struct particles. */
+/* Table of all arrays of struct particles: member, type of an entry, number of components, unit and meaning. TRIAL:
+ * arrays of plastic state. */
 const struct particle_field particle_fields[] = {
     FIELD(X, real, vector, "m", "reference position"),
     FIELD(x, real, vector, "m", "position"),
@@ -90,7 +91,7 @@ _Static_assert(sizeof(struct particles) ==
                    offsetof(struct particles, X) + (5 * DIM_MAX + 54 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
-/* Returns the pointer to component k of a particle array. f: row of the table particle_fields, which has the offset of
+/* Returns the pointer to component k of an array of p. f: row of the table particle_fields, which has the offset of
  * this pointer in struct particles. The pointer is copied byte by byte, since a `real *` must not be read as a `void
  * *`. */
 static void *get(const struct particles *p, const struct particle_field *f, int k)
@@ -100,7 +101,7 @@ static void *get(const struct particles *p, const struct particle_field *f, int 
     return array;
 }
 
-/* Stores `array` as the pointer to component k of a particle array. f: row of the table particle_fields, which has the
+/* Stores `array` as the pointer to component k of an array of p. f: row of the table particle_fields, which has the
  * offset of this pointer in struct particles. */
 static void particles_put(struct particles *p, const struct particle_field *f, int k, void *array)
 {
@@ -267,7 +268,7 @@ void particles_sort_by_lattice_rows(struct particles *p, real spacing, int optio
     particles_rebuild_lists_by_kind(p);
 }
 
-/* Returns true if the eight particles i .. i + 7 have the same kind, and either all or none of them are part of a
+/* Returns true if the eight particles i .. i + 7 of p have the same kind, and either all or none of them are part of a
  * mesh. */
 static bool eight_alike(const struct particles *p, int64_t i)
 {

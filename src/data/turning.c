@@ -87,9 +87,10 @@ static struct division *divisions_make(const struct particles *p, real spacing, 
     return all;
 }
 
-/* Returns an array of all particles, sorted by the group with which they rotate and by position, so that their order
- * does not depend on their numbers. The caller releases it with memory_free. spacing: lattice spacing [m]; division:
- * for each body one[b], from divisions_make; one: for each body the first of the bodies that are joined to it. */
+/* Returns an array of all particles of p, sorted by the group with which they rotate and by position, so that their
+ * order does not depend on their numbers. The caller releases it with memory_free. spacing: lattice spacing [m];
+ * division: for each body one[b], from divisions_make; one: for each body the first of the bodies that are joined to
+ * it. */
 static struct member *members_sorted(const struct particles *p, real spacing, const struct division *division,
                                      const int *one)
 {

@@ -168,8 +168,9 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
 
 /* ---- all particles ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if a void, space without particles, is between the particles `particle` and `other_particle` of one
- * body: the segment that connects them leaves the shape of the body. Returns false if v is NULL. */
+/* Returns true if a void, space without particles, is between the particles of p with the indices `particle` and
+ * `other_particle`, both of one body: the segment that connects them leaves the shape of the body. Returns false if v
+ * is NULL. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle)
 {
@@ -202,10 +203,10 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns a bit for each solid of the body of particle i that contains the particle, not nearer than a small margin to
- * its surface, and is convex near the particle. Two particles at most `reach` [m] apart have no void between them if
- * they have a bit in common. Returns ALONE instead if there is such a solid and no other solid of the body is within
- * `reach`. Returns 0 if a subtracted or intersected solid is that near, or if the body has more than SOLIDS_MOST
+/* Returns a bit for each solid of the body of particle i of p that contains the particle, not nearer than a small
+ * margin to its surface, and is convex near the particle. Two particles at most `reach` [m] apart have no void between
+ * them if they have a bit in common. Returns ALONE instead if there is such a solid and no other solid of the body is
+ * within `reach`. Returns 0 if a subtracted or intersected solid is that near, or if the body has more than SOLIDS_MOST
  * solids. v: shapes of the bodies. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
@@ -230,12 +231,12 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
     return within == 1 && inside ? ALONE : inside;
 }
 
-/* Tests whether voids, spaces without material, separate particle i from the neighbours `near` of its own body. Returns
- * VOID_NEAR if the straight line to one of them leaves the body, else 0. Adds VOID_ACROSS if the two surfaces that such
- * a line crosses face each other. v: shapes of the bodies. Skips neighbours that need no test: depth[n_all], lower
- * bounds of the distances of particles from the surface [m], shows that the line is inside if the two balls with these
- * radii cover it; inside[n_all], bits of the convex solids that contain a particle, shows it if the two particles have
- * a bit in common. */
+/* Tests whether voids, spaces without material, separate particle i of p from the neighbours `near` of its own body.
+ * Returns VOID_NEAR if the straight line to one of them leaves the body, else 0. Adds VOID_ACROSS if the two surfaces
+ * that such a line crosses face each other. v: shapes of the bodies. Skips neighbours that need no test: depth[n_all],
+ * lower bounds of the distances of particles from the surface [m], shows that the line is inside if the two balls with
+ * these radii cover it; inside[n_all], bits of the convex solids that contain a particle, shows it if the two particles
+ * have a bit in common. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
                            int64_t i, const struct neighbour_list *near)
 {

@@ -14,9 +14,9 @@
 
 #define FAR_AWAY 1e7 /* largest coordinate of a particle [spacings]; as too_far in fill.c */
 
-/* Checks particles that were restored from a checkpoint before their indices are used in arrays. A checkpoint with a
- * correct checksum may still contain a state that no run of scene s produces. Returns FAILED, with a message, for such
- * a state. */
+/* Checks the particles p, which were restored from a checkpoint before their indices are used in arrays. A checkpoint
+ * with a correct checksum may still contain a state that no run of scene s produces. Returns FAILED, with a message,
+ * for such a state. */
 static status particles_check(const struct scene *s, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n_all; i++) {

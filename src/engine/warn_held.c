@@ -29,9 +29,9 @@ static bool motion_known(const struct load *l)
     return l->boundary->kind == BOUNDARY_VELOCITY && boundary_check_displacement_known(l->boundary) == OK;
 }
 
-/* Returns the components in which loads a and b prescribe different displacements of one particle, as bits (bit d for
- * component d). The displacements are compared at MOMENTS_OF_SUPPORTS times in the duration of scene s. The particle is
- * number j in the list of load a and number k in that of load b. */
+/* Returns the components in which loads a and b prescribe different displacements of one particle of p, as bits (bit d
+ * for component d). The displacements are compared at MOMENTS_OF_SUPPORTS times in the duration of scene s. The
+ * particle is number j in the list of load a and number k in that of load b. */
 static unsigned components_apart(const struct scene *s, const struct particles *p, const struct load *a, int64_t j,
                                  const struct load *b, int64_t k)
 {
@@ -47,8 +47,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     return apart & a->boundary->components & b->boundary->components;
 }
 
-/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles, so
- * that the order of the loads in the scene decides which of them moves the particles. b: the later load. */
+/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles of p,
+ * so that the order of the loads in scene s decides which of them moves the particles. b: the later load. */
 static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
                              const struct load *b, struct warnings *to)
 {
@@ -105,8 +105,8 @@ static real force_and_idle_part(const struct scene *s, const struct particles *p
 }
 
 /* Adds a warning to *to for each traction, pressure and body force in `loads`, the loads of scene s, if the larger part
- * of its force along an axis acts on particles whose motion along this axis a support prescribes, so that this part has
- * no effect. */
+ * of its force along an axis acts on particles of p whose motion along this axis a support prescribes, so that this
+ * part has no effect. */
 static void warn_of_idle_forces(const struct scene *s, const struct loads *loads, const struct particles *p,
                                 struct warnings *to)
 {

@@ -20,7 +20,7 @@ static void lone_add(struct lone *l, int64_t i)
     if (l->n++ == 0) l->first = i;
 }
 
-/* Returns true if the particle to which row `row` of the stored bonds belongs has no bond. */
+/* Returns true if the particle to which row `row` of the bonds b belongs has no bond. */
 static bool row_empty(const struct bonds *b, int64_t row)
 {
     struct bond_iterator it = bond_iterator_of_row(b, row);
@@ -39,7 +39,7 @@ static bool from_file(const struct scene *s, int body)
     return any;
 }
 
-/* Counts the peridynamic particles without any bond in lone[b], an entry for each body b. */
+/* Counts in lone[b], an entry for each body b, the peridynamic particles of p without any bond. */
 static void lone_bonds_count(const struct bonds *b, const struct particles *p, struct lone *lone)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -72,8 +72,9 @@ enum { SAMPLED = 128 };  /* number of particles of a list that are tested */
 #define ALIKE 0.01
 #define LATTICE_OFF 0.02 /* relative difference of the distance of a lattice from the spacing */
 
-/* Computes the distance of particle i from its nearest neighbour and the number of neighbours at that distance. near:
- * neighbours of i; *apart: receives the distance [m], INFINITY if `near` is empty; *beside: receives the number. */
+/* Computes the distance of particle i of p from its nearest neighbour and the number of neighbours at that distance.
+ * near: neighbours of i; *apart: receives the distance [m], INFINITY if `near` is empty; *beside: receives the number.
+ */
 static void surroundings(const struct particles *p, const struct neighbour_list *near, int64_t i, real *apart,
                          real *beside)
 {
@@ -89,8 +90,8 @@ static void surroundings(const struct particles *p, const struct neighbour_list 
     *apart = sqrt(least2);
 }
 
-/* Adds a warning to *to if the particles of a list without volumes are farther apart or closer than the spacing from
- * which their volumes are computed. b: body made from the list; spacing: lattice spacing [m]; cells: cells of the
+/* Adds a warning to *to if the particles (of p) of a list without volumes are farther apart or closer than the spacing
+ * from which their volumes are computed. b: body made from the list; spacing: lattice spacing [m]; cells: cells of the
  * neighbour search. */
 static void warn_of_list_spacing(const struct scene_body *b, real spacing, const struct cells *cells,
                                  const struct particles *p, struct warnings *to)

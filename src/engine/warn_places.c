@@ -27,9 +27,9 @@ static bool belongs_to_first_only(const struct scene *s, const struct particles 
            (one->joined != other->joined || !scene_body_can_have_material(other, p->material[i]));
 }
 
-/* Returns the particles of body number a of scene s that are inside the shape of body number b by more than `least`
- * [m]: their number, the deepest one and its depth. Returns none if b is made from a list of particles, whose surface
- * is not known, or if its bounding box has an infinite side. */
+/* Returns the particles (of p) of body number a of scene s that are inside the shape of body number b by more than
+ * `least` [m]: their number, the deepest one and its depth. Returns none if b is made from a list of particles, whose
+ * surface is not known, or if its bounding box has an infinite side. */
 static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
 {
     const struct region *shape = &s->body[b].shape;
@@ -53,7 +53,7 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
 }
 
 /* Adds a warning to *to about the overlap of two bodies of scene s. inner: number of the body with particles inside the
- * other one; outer: number of the other body; found: those particles. */
+ * other one; outer: number of the other body; found: those particles (indices in p). */
 static void warn_of_overlap(const struct scene *s, const struct particles *p, int inner, int outer,
                             const struct overlap *found, struct warnings *to)
 {
@@ -79,8 +79,9 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         }
 }
 
-/* Returns true if at least one particle of the joined bodies number `body` of scene s (-1: of any body) is in `region`.
- * Also returns true if the run has cells whose particles are not created, since these may be in the region. */
+/* Returns true if at least one particle (of p) of the joined bodies number `body` of scene s (-1: of any body) is in
+ * `region`. Also returns true if the run has cells whose particles are not created, since these may be in the region.
+ */
 static bool region_holds_particle(const struct scene *s, const struct particles *p, const struct region *region,
                                   int body)
 {
@@ -110,8 +111,8 @@ static bool region_beyond_mirror(const struct scene *s, const struct region *reg
     return beyond;
 }
 
-/* Adds a warning to *to for each part of a body of scene s that holds no particle, since the part is outside the body,
- * too small or covered by a later part. Parts beyond planes of symmetry are meant to be empty. */
+/* Adds a warning to *to for each part of a body of scene s that holds no particle of p, since the part is outside the
+ * body, too small or covered by a later part. Parts beyond planes of symmetry are meant to be empty. */
 static void warn_of_empty_parts(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && p->n == p->n_body; b++) {
@@ -136,8 +137,7 @@ static void warn_of_empty_parts(const struct scene *s, const struct particles *p
     }
 }
 
-/* Returns true if the initial state number k of the scene applies to at least one particle. Also returns true for a
- * pulse. */
+/* Returns true if initial state number k of scene s applies to at least one particle of p, or is a pulse. */
 static bool initial_is_met(const struct scene *s, const struct particles *p, int k)
 {
     const struct scene_initial *initial = &s->initial[k];
@@ -155,8 +155,8 @@ static real mirror_distance(const struct particles *p, const struct boundary *b)
 }
 
 /* Adds a warning to *to about the plane of symmetry `mirror` of scene s, with a gap of `distance` [m] to the nearest
- * particle, and says what acts across the gap: bonds to the mirror image, up to their length of `horizon` [m]; grid
- * nodes on the plane, up to the size of a cell; contact with the image; or nothing. */
+ * particle of p, and says what acts across the gap: bonds to the mirror image, up to their length of `horizon` [m];
+ * grid nodes on the plane, up to the size of a cell; contact with the image; or nothing. */
 static void warn_of_mirror_beside(const struct scene *s, const struct particles *p, const struct boundary *mirror,
                                   real distance, real horizon, struct warnings *to)
 {

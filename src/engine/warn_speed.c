@@ -4,16 +4,16 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 
-/* Sets body[b] to true for each body b that contains particles of load l, and to false for the others. For joined
- * bodies only the one with the lowest index is marked. body: [scene->bodies]. */
+/* Sets body[b] to true for each body b that contains particles of load l (indices in part), and to false for the
+ * others. For joined bodies only the one with the lowest index is marked. body: [scene->bodies]. */
 static void bodies_mark(const struct scene *scene, const struct particles *part, const struct load *l, bool *body)
 {
     for (int b = 0; b < scene->bodies; b++) body[b] = false;
     for (int64_t k = 0; k < l->n; k++) body[scene->body[part->body[l->particle[k]]].joined] = true;
 }
 
-/* Returns true if load l has particles in bodies that are marked by body[b] = true. body: [scene->bodies]; for joined
- * bodies only the one with the lowest index is marked. */
+/* Returns true if load l has particles (indices in part) in bodies that are marked by body[b] = true. body:
+ * [scene->bodies]; for joined bodies only the one with the lowest index is marked. */
 static bool load_meets(const struct scene *scene, const struct particles *part, const struct load *l, const bool *body)
 {
     bool any = false;
@@ -29,9 +29,10 @@ struct driver {
     real limit;
 };
 
-/* Returns true if nothing in scene s prevents the bodies on whose particles the load d->load acts from moving with this
- * load: no mirror across its components, no absorbing face, no damping, no contact with other bodies, and no other load
- * that drives the same components with a velocity that differs by more than d->limit. all: all loads of the run. */
+/* Returns true if nothing in scene s prevents the bodies on whose particles (of p) the load d->load acts from moving
+ * with this load: no mirror across its components, no absorbing face, no damping, no contact with other bodies, and no
+ * other load that drives the same components with a velocity that differs by more than d->limit. all: all loads of the
+ * run. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
                          const struct particles *p)
 {
@@ -91,9 +92,9 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
                             d->load->boundary->name, change, within, d->limit);
 }
 
-/* Adds warnings to *warnings about boundaries of scene s, whose loads are `loads`, that move particles, or change their
- * velocity at t = 0, by more than the speed at which bonds next to them break. A face moved at speed v strains the
- * material behind it by v/c at once, c being the wave speed. */
+/* Adds warnings to *warnings about boundaries of scene s, whose loads are `loads`, that move particles of p, or change
+ * their velocity at t = 0, by more than the speed at which bonds next to them break. A face moved at speed v strains
+ * the material behind it by v/c at once, c being the wave speed. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *warnings)
 {

@@ -259,8 +259,9 @@ struct load_figures {
     int supports;
 };
 
-/* Returns the stress that the applied load l causes at time t [s] at particle number k of its list [Pa]: the magnitude
- * of a traction or pressure, or that of a body force times the longest edge of the box around all particles. */
+/* Returns the stress that the applied load l causes at time t [s] at particle number k of its list (indices in p) [Pa]:
+ * the magnitude of a traction or pressure, or that of a body force times the longest edge of the box around all
+ * particles. */
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
 {
     real value[DIM_MAX] = {0}, density = 0;
@@ -273,7 +274,7 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
 }
 
 /* Updates the largest values in *f by the stress or displacement that the load l prescribes at time t [s] at particle
- * number k of its list. */
+ * number k of its list (indices in p). s: scene. */
 static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
                             struct load_figures *f)
 {
@@ -289,7 +290,8 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
 }
 
 /* Raises the largest stress and displacement in *f to those that load l of scene s applies or prescribes, evaluated at
- * sampled times between 0 and the duration and at some of the particles of l. Counts supports in f->supports. */
+ * sampled times between 0 and the duration and at some of the particles of l (indices in p). Counts supports in
+ * f->supports. */
 static void load_figures_add(const struct scene *s, const struct particles *p, const struct load *l,
                              struct load_figures *f)
 {
@@ -304,7 +306,8 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
 
-/* Returns the largest difference between the initial velocities of particles and rigid bodies, including 0 [m/s]. */
+/* Returns the largest difference between the initial velocities of the particles p and the rigid bodies of scene s,
+ * where a body at rest is included [m/s]. */
 static real units_speed_at_start(const struct scene *s, const struct particles *p)
 {
     real apart[DIM_MAX] = {0};
@@ -462,8 +465,8 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
 }
 
-/* Adds warnings to *to about bodies of s with a pre-crack if they have few particles along an axis. Joined bodies count
- * as one. */
+/* Adds warnings to *to about bodies of scene s (particles p) with a pre-crack if they have few particles along an axis.
+ * Joined bodies count as one. */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {

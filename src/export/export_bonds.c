@@ -17,8 +17,8 @@ static real lammps_share(const struct exported *x, real r)
     return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
 }
 
-/* Returns the squared reference distance of the particles i and j [m^2], with the same rounding as in LAMMPS, which has
- * z = 0 for all particles in 2D. */
+/* Returns the squared reference distance of the particles i and j of p [m^2], with the same rounding as in LAMMPS,
+ * which has z = 0 for all particles in 2D. */
 static real distance2(const struct particles *p, int64_t i, int64_t j)
 {
     real sum = 0;
@@ -27,8 +27,8 @@ static real distance2(const struct particles *p, int64_t i, int64_t j)
 }
 
 /* Returns the ratio c/c_0 of the micro-modulus c of a bond between the materials number a and b to the micro-modulus
- * c_0 of material 0 in the exported scene [1]. The two halves of the bond act as springs in series: c = 2 c_a c_b/(c_a
- * + c_b). */
+ * c_0 of material 0 in the exported scene of x [1]. The two halves of the bond act as springs in series: c = 2 c_a
+ * c_b/(c_a + c_b). */
 static real modulus_ratio(const struct exported *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
@@ -38,8 +38,8 @@ static real modulus_ratio(const struct exported *x, int a, int b)
     return 2 * first * second / (first + second) / family_micro_modulus(f, &m[0]);
 }
 
-/* Returns true if the weight of `bond`, a bond of particle i in the exported scene, equals the weight that LAMMPS would
- * use, to within the relative tolerance WEIGHT_NEAR. */
+/* Returns true if the weight of `bond`, a bond of particle i in the export x, equals the weight that LAMMPS would use,
+ * to within the relative tolerance WEIGHT_NEAR. */
 static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &x->e->part;
@@ -57,10 +57,10 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
                       p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0, what);
 }
 
-/* Sets bonded[j] = i + 1 for each neighbour j of particle i to which the exported scene has a bond, and stores the
- * number of these bonds in *n. bonded[particles]: 0 before the first call. Returns REFUSED, with a message, if LAMMPS
- * would give a bond another weight, or if a bond is longer than the cutoff of LAMMPS by round-off. The latter can occur
- * for bonds as long as the horizon. */
+/* Sets bonded[j] = i + 1 for each neighbour j of particle i to which the scene of the export x has a bond, and stores
+ * the number of these bonds in *n. bonded[particles]: 0 before the first call. Returns REFUSED, with a message, if
+ * LAMMPS would give a bond another weight, or if a bond is longer than the cutoff of LAMMPS by round-off. The latter
+ * can occur for bonds as long as the horizon. */
 static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
 {
     const struct run *e = x->e;
@@ -141,9 +141,9 @@ struct search {
     int room;
 };
 
-/* Sets a->number[i] to 1 for each particle i with at least one cut bond, else to 0. Cut bonds are pairs within the
- * cutoff of LAMMPS that have no bond in the exported scene. *bonds, *cut: receive the number of bonds of the scene and
- * of cut bonds. Returns REFUSED, with a message, if LAMMPS cannot represent a bond of the scene. */
+/* Sets a->number[i] to 1 for each particle i of the export x with at least one cut bond, else to 0. Cut bonds are pairs
+ * within the cutoff of LAMMPS that have no bond in the exported scene. *bonds, *cut: receive the number of bonds of the
+ * scene and of cut bonds. Returns REFUSED, with a message, if LAMMPS cannot represent a bond of the scene. */
 static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
 {
     int64_t ends = 0, ends_cut = 0;

@@ -91,8 +91,8 @@ static status frames_open(struct exodus_export *x)
     return OK;
 }
 
-/* Checks that the frame f has the particles of the exported mesh, as an Exodus file has one list of elements for all
- * times. Returns OK, or REFUSED with a message. */
+/* Checks that the frame f has the particles of the mesh exported by x, as an Exodus file has one list of elements for
+ * all times. Returns OK, or REFUSED with a message. */
 static status frame_check(const struct exodus_export *x, const struct output_frame *f)
 {
     const struct particles *p = &x->mesh.e->part;

@@ -43,8 +43,8 @@ static int heavier_first(const void *a, const void *b)
     return x->first < y->first ? -1 : 1;
 }
 
-/* Adds particle i to fragment f: increments the number of particles, and adds the mass, mass times position and mass
- * times velocity of the particle to the sums of the fragment. */
+/* Adds particle i of p to fragment f: increments the number of particles, and adds the mass, mass times position and
+ * mass times velocity of the particle to the sums of the fragment. */
 static void add_particle(struct fragment *f, const struct particles *p, int32_t i)
 {
     f->particles++, f->mass += p->mass[i];

@@ -124,7 +124,7 @@ static void fading_add(struct growing_crack *g, int32_t i, int32_t j, real w, re
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Appends the intact bonds of particle i that cross `path`, the last increment of the tip, to g->fading, the bonds
+/* Appends the intact bonds of particle i of p that cross `path`, the last increment of the tip, to g->fading, the bonds
  * behind the tip whose weights decrease as crack g grows. Bonds that are already in the list are skipped. */
 static void cross_row(struct growing_crack *g, const struct bonds *b, const struct particles *p,
                       const struct crack *path, int32_t i)
@@ -139,7 +139,7 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
     }
 }
 
-/* Finds the particles that may have bonds across the segment from from[2] to to[2] [m]: those whose distance from
+/* Finds the particles of p that may have bonds across the segment from from[2] to to[2] [m]: those whose distance from
  * `from` is at most the length of the segment plus the length of the longest bond. s: cells of the neighbour search.
  * *found: receives a list of their indices, which the caller frees with memory_free. Returns the number of these
  * particles. */
@@ -153,9 +153,9 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
     return cells_list_particles_near_point(s->cells, p, X, radius, -1, *found, room);
 }
 
-/* Marks the material points within the cutoff (largest bond length) of the tip of crack g for conversion to peridynamic
- * particles, because cracks grow through bonds only. Returns the number of marked points. s: cells of the neighbour
- * search. */
+/* Marks the material points of p within the cutoff (largest bond length) of the tip of crack g for conversion to
+ * peridynamic particles, because cracks grow through bonds only. Returns the number of marked points. s: cells of the
+ * neighbour search. */
 static int claim(const struct growing_crack *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
@@ -170,9 +170,9 @@ static int claim(const struct growing_crack *g, struct particles *p, const struc
     return claimed;
 }
 
-/* Appends the bonds that the tip of crack g has crossed on the straight path from from[2] [m] to its present position
- * to g->fading, the bonds whose weights decrease as the crack grows. Both directed bonds of a pair of particles are
- * appended, and also bonds across the images of the path in planes of symmetry (s->mirror). */
+/* Appends the bonds of b between particles of p that the tip of crack g has crossed on the straight path from from[2]
+ * [m] to its present position to g->fading, the bonds whose weights decrease as the crack grows. Both directed bonds of
+ * a pair of particles are appended, and also bonds across the images of the path in planes of symmetry (s->mirror). */
 static void cross(struct growing_crack *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
@@ -205,9 +205,9 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Resets the weights of the bonds in g->fading, which decrease gradually behind the tip, to those of the previous step,
- * so that `fade` can reduce them again and book the lost energy. Bonds that load has broken since then are removed from
- * the list. */
+/* Resets the weights of the bonds of b in g->fading, which decrease gradually behind the tip, to those of the previous
+ * step, so that `fade` can reduce them again and book the lost energy. Bonds that load has broken since then are
+ * removed from the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -222,12 +222,12 @@ static void step_back(struct growing_crack *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the bonds in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent, and
- * removes bonds without weight from the list. `grown` is the growth of the crack since its tip crossed the bond, w0 the
- * weight of the bond at that time; p: particles; f: neighbourhood, half its horizon is the default of `damping`. The
- * energy lost is booked at the present positions: half of the loss of the previous step and half of that of this step.
- * Bonds change one after the other, each from its weight of the previous step, so that the losses sum to the whole
- * energy. Returns the number of directed bonds whose weight becomes 0. */
+/* Reduces the weights of the bonds of b in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent,
+ * and removes bonds without weight from the list. `grown` is the growth of the crack since its tip crossed the bond, w0
+ * the weight of the bond at that time; p: particles; f: neighbourhood, half its horizon is the default of `damping`.
+ * The energy lost is booked at the present positions: half of the loss of the previous step and half of that of this
+ * step. Bonds change one after the other, each from its weight of the previous step, so that the losses sum to the
+ * whole energy. Returns the number of directed bonds whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -252,10 +252,10 @@ static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
 /* Advances growing crack g by one time step dt [s] at time t [s]: moves the tip by its speed times dt, appends the
- * bonds that the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. Material
- * points of p around the tip are marked for conversion. source: data of bonds, with the cells of the neighbour search;
- * control: present stress-intensity factors, NULL if not known. Returns the number of directed bonds whose weight has
- * become 0. */
+ * bonds of b that the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list.
+ * Material points of p around the tip are marked for conversion. source: data of bonds, with the cells of the neighbour
+ * search; control: present stress-intensity factors, NULL if not known. Returns the number of directed bonds whose
+ * weight has become 0. */
 int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,
                                                   const struct bond_source *source,
                                                   const struct growth_control *control, real t, real dt)

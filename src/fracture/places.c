@@ -20,8 +20,9 @@ static bool places_near(const struct place *a, const struct place *b, int dim, r
     return dot(apart, apart, dim) <= square(reach);
 }
 
-/* Returns true if position a comes after b in the order of x, then y, then z. Coordinates that differ by less than
- * EQUAL_POSITION * reach count as equal; reach: distance that positions in one group may have [m]. */
+/* Returns true if position a comes after b in the order of x, then y, then z. dim: number of coordinates. Coordinates
+ * that differ by less than EQUAL_POSITION * reach count as equal; reach: distance that positions in one group may have
+ * [m]. */
 static bool comes_after(const struct place *a, const struct place *b, int dim, real reach)
 {
     for (int d = 0; d < dim; d++)

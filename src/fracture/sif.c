@@ -109,14 +109,14 @@ static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][
     }
 }
 
-/* Computes x[2], the reference position of particle i relative to the crack tip, in the axes of the crack [m]: x[0]
- * along its direction, x[1] perpendicular to it. */
+/* Computes x[2], the reference position of particle i of p relative to the crack tip, in the axes of the crack [m]:
+ * x[0] along its direction, x[1] perpendicular to it. */
 static void local_place(const struct sif_tip *tip, const struct particles *p, int64_t i, real x[2])
 {
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Lists in s->particle the particles of the tip's body within the outer radius of the largest of n contours,
+/* Lists in s->particle the particles (of p) of the tip's body within the outer radius of the largest of n contours,
  * contour[n], and allocates s->point for them. Without inertia and loads inside the contours (s->inner is false),
  * particles within the smallest inner radius contribute nothing and are left out. Particles at the tip itself are left
  * out in any case. */
@@ -148,9 +148,9 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
     local_tensor(tip, global, state->stress);
 }
 
-/* Computes s->point[k]: position, area and fields of particle s->particle[k] in the axes of the crack. The fields are
- * displacement gradient, stress and, with inertia, velocity and acceleration minus that caused by loads. m: motion of
- * the particles; stencil: weights by which gradients at this particle are computed. */
+/* Computes s->point[k]: position, area and fields of particle s->particle[k] of p in the axes of the crack. The fields
+ * are displacement gradient, stress and, with inertia, velocity and acceleration minus that caused by loads. m: motion
+ * of the particles; stencil: weights by which gradients at this particle are computed. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {
@@ -179,7 +179,7 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     for (int d = 0; d < 2; d++) point->state.acceleration[d] += moved[d];
 }
 
-/* Computes in parallel s->point, position and fields of all particles listed around the tip. m: motion of the
+/* Computes in parallel s->point, position and fields of all particles of p listed around the tip. m: motion of the
  * particles; rule: how gradients are computed; c: cells of the neighbour search. */
 static void points_make(struct sif_points *s, const struct sif_motion *m, const struct gradient_rule *rule,
                         const struct particles *p, const struct cells *c)

@@ -21,8 +21,8 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
     return false;
 }
 
-/* Returns true if a crack or a broken bond is between particles i and j, so that neither contributes to the gradient at
- * the other. s: cracks and bonds that are considered. */
+/* Returns true if a crack or a broken bond is between particles i and j of p, so that neither contributes to the
+ * gradient at the other. s: cracks and bonds that are considered. */
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
     return precracks_cut_bond_between(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
@@ -30,9 +30,9 @@ static bool hidden(const struct sight *s, const struct particles *p, int64_t i, 
 
 static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
-/* Returns the distance of particles i and j by which their weights in gradients decrease [m]. Without an obstacle it is
- * their reference distance r. If a crack or a broken bond is between them, it is r (r_tip/r)^diffraction instead, where
- * r_tip is the length of the path through the tip, or INFINITY if rule->diffraction is 0. */
+/* Returns the distance of particles i and j of p by which their weights in gradients decrease [m]. Without an obstacle
+ * it is their reference distance r. If a crack or a broken bond is between them, it is r (r_tip/r)^diffraction instead,
+ * where r_tip is the length of the path through the tip, or INFINITY if rule->diffraction is 0. */
 static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
@@ -85,19 +85,19 @@ static real spline(real s)
 }
 
 /* Computes the terms b = (1, x, y, x^2, x y, y^2) of a quadratic polynomial [1], where (x, y) is the reference vector
- * from particle i to particle j divided by `scale` [m]. */
+ * from particle i to particle j of p divided by `scale` [m]. */
 static void basis(const struct particles *p, int64_t i, int32_t j, real scale, real b[QUADRATIC])
 {
     const real x = (p->X[0][j] - p->X[0][i]) / scale, y = (p->X[1][j] - p->X[1][i]) / scale;
     b[0] = 1, b[1] = x, b[2] = y, b[3] = x * x, b[4] = x * y, b[5] = y * y;
 }
 
-/* Computes the gradient weights of particle i by moving least squares (Belytschko et al. 1994). On entry, weight[k][0]
- * of the stencil s is the weight W_k of neighbour k. On return, weight[k][0 .. 1] are the weights [1/m] of this
- * neighbour in both components of the gradient: the rows of A^-1 P^T W for the linear terms, with the polynomials P at
- * the neighbours and the moment matrix A = P^T W P. (The order of the factors in that paper does not conform.) scale:
- * unit of length of the polynomials [m]; terms: LINEAR or QUADRATIC, their number. Returns false, with W unchanged, if
- * A is singular. */
+/* Computes the gradient weights of particle i of p by moving least squares (Belytschko et al. 1994). On entry,
+ * weight[k][0] of the stencil s is the weight W_k of neighbour k. On return, weight[k][0 .. 1] are the weights [1/m] of
+ * this neighbour in both components of the gradient: the rows of A^-1 P^T W for the linear terms, with the polynomials
+ * P at the neighbours and the moment matrix A = P^T W P. (The order of the factors in that paper does not conform.)
+ * scale: unit of length of the polynomials [m]; terms: LINEAR or QUADRATIC, their number. Returns false, with W
+ * unchanged, if A is singular. */
 static bool least_squares(struct gradient_stencil *s, const struct particles *p, int64_t i, real scale, int terms)
 {
     real A[QUADRATIC][QUADRATIC] = {{0}}, b[QUADRATIC], y[2][QUADRATIC] = {{0, 1}, {0, 0, 1}};
@@ -117,9 +117,9 @@ static bool least_squares(struct gradient_stencil *s, const struct particles *p,
     return true;
 }
 
-/* Computes the gradient weights of particle i by moving least squares over its neighbours in the stencil s. Neighbours
- * behind cracks are removed from s. rule: support radius and cracks. s->order: receives 2 if the polynomials are
- * quadratic, 1 if only linear ones are possible, 0 if none are (there are then no weights). */
+/* Computes the gradient weights of particle i of p by moving least squares over its neighbours in the stencil s.
+ * Neighbours behind cracks are removed from s. rule: support radius and cracks. s->order: receives 2 if the polynomials
+ * are quadratic, 1 if only linear ones are possible, 0 if none are (there are then no weights). */
 static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                         int64_t i)
 {
@@ -139,10 +139,10 @@ static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *
 
 /* ---- peridynamic differential operator --------------------------------------------------------------------------- */
 
-/* Computes the gradient weights g_ij V_j = omega K_i^-1 xi_ij V_j [1/m] of particle i by the peridynamic differential
- * operator, with K_i = sum omega xi xi^T V_j and omega = delta/r (Madenci, Barut & Futch 2016), in the stencil s, whose
- * neighbours must be set. Neighbours behind cracks are removed from s. rule: delta and cracks. s->order: receives 1, or
- * 0 if K_i is singular. */
+/* Computes the gradient weights g_ij V_j = omega K_i^-1 xi_ij V_j [1/m] of particle i of p by the peridynamic
+ * differential operator, with K_i = sum omega xi xi^T V_j and omega = delta/r (Madenci, Barut & Futch 2016), in the
+ * stencil s, whose neighbours must be set. Neighbours behind cracks are removed from s. rule: delta and cracks.
+ * s->order: receives 1, or 0 if K_i is singular. */
 static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                          int64_t i)
 {

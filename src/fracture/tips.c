@@ -32,8 +32,8 @@ struct flood {
     bool grown_by[TIPS_MAX]; /* another crack has become a part of the crack in this sample */
 };
 
-/* Returns true if particle i can be assigned to a crack: its damage exceeds TIP_DAMAGE, it is not yet assigned to a
- * crack of t, and its motion is not prescribed. */
+/* Returns true if particle i of p can be assigned to a crack: its damage exceeds TIP_DAMAGE, it is not yet assigned to
+ * a crack of t, and its motion is not prescribed. */
 static bool can_belong(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
@@ -46,7 +46,7 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
     return bits;
 }
 
-/* Returns true if one of n particles, at[n], has damage above 0. The bits of their damages are combined instead of
+/* Returns true if one of n particles of p, at[n], has damage above 0. The bits of their damages are combined instead of
  * comparing numbers, which is faster. */
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
@@ -90,8 +90,8 @@ static int tips_root_of(const struct flood *f, int tip)
     return tip;
 }
 
-/* Returns true if particle i is behind the tip of `crack` as it was in the previous sample, by more than TIP_TOUCH
- * spacings. */
+/* Returns true if particle i (of f->search.p) is behind the tip of `crack` as it was in the previous sample (set of tip
+ * positions), by more than TIP_TOUCH spacings. */
 static bool is_behind(const struct flood *f, const struct crack_tip *crack, int32_t i)
 {
     real X[DIM_MAX], offset[DIM_MAX];
@@ -150,8 +150,8 @@ static void flood_run(struct flood *f)
     f->queued = 0;
 }
 
-/* Returns the number of the crack of t whose start is nearest to the reference position of particle i, among cracks
- * that start at the end of a pre-crack in the body of i; -1 if none starts within TIP_START_REACH spacings. */
+/* Returns the number of the crack of t whose start is nearest to the reference position of particle i of p, among
+ * cracks that start at the end of a pre-crack in the body of i; -1 if none starts within TIP_START_REACH spacings. */
 static int start_near(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
@@ -184,8 +184,8 @@ static int crack_touched(struct flood *f, int64_t i)
     return lowest;
 }
 
-/* Returns the number of the crack of t whose tip is nearest to the reference position of particle i. It is used if t
- * cannot store more tips. */
+/* Returns the number of the crack of t whose tip is nearest to the reference position of particle i of p. It is used if
+ * t cannot store more tips. */
 static int tip_nearest(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = 0;
@@ -249,9 +249,9 @@ static void flood_close_ranks(struct flood *f)
     t->n = kept;
 }
 
-/* Prepares the assignment of damaged particles to cracks in one sample: lists in f->fresh the damaged particles that
- * belong to no crack of t yet, in the order of the list of peridynamic particles. c: cells of the neighbour search.
- * Release f with flood_free. */
+/* Prepares the assignment of damaged particles to cracks in one sample: lists in f->fresh the damaged particles of p
+ * that belong to no crack of t yet, in the order of the list of peridynamic particles. c: cells of the neighbour
+ * search. Release f with flood_free. */
 static void flood_make(struct flood *f, struct crack_tips *t, const struct particles *p, const struct cells *c)
 {
     const int32_t *list = p->list[KIND_PD];

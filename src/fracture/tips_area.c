@@ -59,7 +59,7 @@ static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X
 
 /* Marks the part of the area ahead of all pre-cracks of t that is damaged. The fronts of pre-cracks are divided into
  * strips about one spacing wide, and the strip ahead of a front into `deepest` cells of one spacing. cell: the entries
- * of cells that contain a particle with more damage than `least` are set to 1; NULL: no cell is marked. first[k]:
+ * of cells that contain a particle of p with more damage than `least` are set to 1; NULL: no cell is marked. first[k]:
  * number of the first strip of tip k; strip s has the cells from cell[s * deepest] on. Returns the largest distance of
  * such a particle from its front [cells]. */
 static int64_t strips_mark(const struct crack_tips *t, const struct particles *p, real least, const int64_t *first,
@@ -150,9 +150,9 @@ static int bar_place_order(const void *a, const void *b)
     return (p->X > q->X) - (p->X < q->X);
 }
 
-/* Increases *kept to the farthest position that an intact bond of particle i of a bar reaches on one side, and *lost to
- * the farthest position that a bond broken by load reaches, if they are farther. side: 1 towards larger positions, -1
- * towards smaller ones. *kept, *lost: positions times `side` [m]. */
+/* Increases *kept to the farthest position that an intact bond (in b) of particle i of p reaches in a bar on one side,
+ * and *lost to the farthest position that a bond broken by load reaches, if they are farther. side: 1 towards larger
+ * positions, -1 towards smaller ones. *kept, *lost: positions times `side` [m]. */
 static void bar_bonds_reach(const struct bonds *b, const struct particles *p, int32_t i, int side, real *kept,
                             real *lost)
 {

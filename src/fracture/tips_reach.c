@@ -27,7 +27,7 @@ static int64_t next_of_crack(const struct crack_tips *t, const struct particles 
     return p->n_of[KIND_PD];
 }
 
-/* Returns the distance of particle i from the start of its crack [m]; -1 if the particle is beside the end of the
+/* Returns the distance of particle i of p from the start of its crack [m]; -1 if the particle is beside the end of the
  * pre-crack, behind the start. The particle must belong to a crack of t. */
 static real tips_reach_of(const struct crack_tips *t, const struct particles *p, int64_t i)
 {

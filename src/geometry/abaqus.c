@@ -200,8 +200,8 @@ static status instance_read(struct deck *d)
 
 /* ---- the deck ------------------------------------------------------------------------------------------------- */
 
-/* Reads all keywords of the input file d; defined below, and declared here because a keyword may include another file,
- * whose keywords are read in turn. */
+/* Reads all keywords of the input file d. Returns REFUSED, with a message, for invalid ones. Declared before its
+ * definition because a keyword may include another file, whose keywords are read in turn. */
 static status keywords_read(struct deck *d);
 
 /* Calls read(d) for the file that the parameter INPUT of the current keyword names, sought in the folder of the file

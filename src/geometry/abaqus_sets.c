@@ -37,8 +37,8 @@ int abaqus_find_part(const struct deck *d, const char *name, bool instance)
     return -1;
 }
 
-/* Counts n members that deck d adds to a set without listing them. Returns REFUSED, with a message, if there are more
- * of them than a deck of its length can mean. */
+/* Counts n members that deck d adds to a set without listing them. Returns REFUSED, with a message, if more are added
+ * in this way than is plausible for a file of this length. */
 static status generated_add(struct deck *d, int64_t n)
 {
     d->generated += n;
@@ -56,8 +56,8 @@ static void set_add_index(struct deck *d, int number, int64_t index)
     set->member[set->resolved++] = (int32_t)index;
 }
 
-/* Adds the node or element with the number `label` of the deck to set number `set`. part: the part that has it, which
- * has ended, and a label that it does not have is left out; NULL: the current one. */
+/* Adds the node or element with the number `label` of deck d to set number `set`. part: the part that has it, which has
+ * ended, and a label that it does not have is left out; NULL: the current one. */
 static void set_add_label(struct deck *d, int set, const struct scope *part, int64_t label)
 {
     if (!part) {
@@ -142,8 +142,8 @@ void abaqus_resolve_sets(struct deck *d, const struct scope *scope)
     }
 }
 
-/* Adds the nodes of element number k of the mesh to set number `set` with `add`: of an element of the current part
- * their labels, of other elements their indices. k < 0: none. */
+/* Adds the nodes of element number k of the mesh of deck d to set number `set` with `add`: of an element of the current
+ * part their labels, of other elements their indices. k < 0: none. */
 static void nodes_of_element_add(struct deck *d, int set, int64_t k, void (*add)(struct deck *, int, int64_t))
 {
     const struct element *e = k < 0 ? NULL : &d->m->element[k];

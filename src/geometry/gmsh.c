@@ -92,7 +92,7 @@ static status entities_read(struct gmsh *g)
 }
 /* ---- sections ------------------------------------------------------------------------------------------------- */
 
-/* Reports that the file has the format `version` of Gmsh, which is not read. Returns REFUSED. */
+/* Reports that the file of g has the format `version` of Gmsh, which is not read. Returns REFUSED. */
 static status format_refuse(const struct gmsh *g, const char *version)
 {
     return source_report_fault(

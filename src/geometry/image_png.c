@@ -25,7 +25,7 @@ static void fault_kept(png_structp png, png_const_charp what)
     png_longjmp(png, 1);
 }
 
-/* Callback of libpng for warnings: does nothing. */
+/* Callback of libpng for warnings: ignores the message `what` in the state `png` of libpng. */
 static void warning_dropped(png_structp png, png_const_charp what) { (void)png, (void)what; }
 
 /* Makes libpng convert any kind of image to grey values of 8 or 16 bits, big-endian. png, info: the image, whose header

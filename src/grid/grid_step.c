@@ -58,9 +58,10 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
 /* Largest share of the points of a grid, as its reciprocal, that is sorted apart from the others. */
 enum { LEFT_MOST = 4 };
 
-/* Sorts the material points of the grid f by cells. If few points have left their cells, as the order of f marks them,
- * and the box of the grid contains these, moves only them in the order; else sorts all points by field_sort, whose
- * arguments and status are the same. */
+/* Sorts the material points (of p) of the grid f by cells. If few points have left their cells, as marks in f->order
+ * show, and the box of the grid contains these, moves only them in the order; else sorts all points by field_sort.
+ * Arguments and returned status are those of field_sort: coupling of peridynamic particles and points; *lost: set to
+ * true if positions are not finite; FAILED or REFUSED if the grid would need too many nodes. */
 static status field_sort_left(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};

@@ -33,10 +33,10 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
     return !has_moved(b, p, row_block);
 }
 
-/* Returns the block of eight rows of b (LANES rows of bonds stored together, one for each particle) that contains the
- * row of the neighbour at the end of one bond. If the neighbour is a mirror image in l, the row of the particle that it
- * copies is meant. Returns -1 if the bond is padding or there is no such row. column: one bond of each of the LANES
- * rows of a block; lane: number of the row, from 0. */
+/* Returns the block of eight rows of b (LANES rows of bonds stored together, one for each particle of p) that contains
+ * the row of the neighbour at the end of one bond. If the neighbour is a mirror image in l, the row of the particle
+ * that it copies is meant. Returns -1 if the bond is padding or there is no such row. column: one bond of each of the
+ * LANES rows of a block; lane: number of the row, from 0. */
 static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
                             const struct column_copy *column, int lane)
 {

@@ -124,10 +124,10 @@ void loads_free(struct loads *l)
 
 /* ---- forces on particles ----------------------------------------------------------------------------------------- */
 
-/* Replaces the force on the peridynamic particles of a load with prescribed velocity by the force that gives them this
- * velocity, m (v_prescribed - v)/dt_velocity. The difference from the previous force is exerted by the support: adds
- * its impulse to l->impulse and its work to l->constraint_work. load->reaction is reduced by the previous forces. by:
- * motion prescribed in this step; dt_velocity: duration of the velocity update [s]. */
+/* Replaces the force on the peridynamic particles (of p) of a load with prescribed velocity by the force that gives
+ * them this velocity, m (v_prescribed - v)/dt_velocity. The difference from the previous force is exerted by the
+ * support: adds its impulse to l->impulse and its work to l->constraint_work. load->reaction is reduced by the previous
+ * forces. by: motion prescribed in this step; dt_velocity: duration of the velocity update [s]. */
 static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
                   real dt_velocity)
 {

@@ -297,9 +297,9 @@ static int64_t loads_columns_shown(const struct columns *c, int64_t column, cons
     return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
-/* Returns the index in c->order of the first particle of body c->body in column `column` (a line of particles normal to
- * the face of b) that is at least BENEATH particle widths behind the particle with index k in c->order. Returns -1 if
- * there is none before the column ends or has a hole of more than GAP widths. */
+/* Returns the index in c->order of the first particle (of p) of body c->body in column `column` (a line of particles
+ * normal to the face of b) that is at least BENEATH particle widths behind the particle with index k in c->order.
+ * Returns -1 if there is none before the column ends or has a hole of more than GAP widths. */
 static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
                        const struct particles *p)
 {
@@ -317,7 +317,7 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
  * times too large.) So for tangential components the exposed particle gets 3/2 of the area and the next one in the
  * column -1/2, which preserves force and moment. If there is no next particle or `two` is false, the first one gets
  * all. selected[p->n]: 1 for particles in the region of b; area: of the column [m^2], or 0 to use the volume of the
- * exposed particle over its width. */
+ * exposed particle divided by its width. */
 static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {

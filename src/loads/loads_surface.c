@@ -81,7 +81,7 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes k[dim], the lattice indices of particle i from the first particle of its body; false: it is on no site. */
+/* Computes k[dim], lattice indices of particle i from the first of its body. Returns false if it is on no site. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -108,7 +108,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Lists in s->site, sorted, the lattice sites of bodies with faces in f. Returns REFUSED if one is on no site. */
+/* Lists in s->site, sorted, the sites of bodies with faces in f. Returns REFUSED if a particle is on no site. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -128,7 +128,7 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
-/* Returns twice the distance of mirror m from the first particle of `body` [spacings]: odd midway between sites. */
+/* Returns the distance of mirror m from the first particle of `body` [half spacings]: odd if midway between sites. */
 static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
@@ -183,8 +183,8 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Gives each corner of the faces f a number, the same to corners that coincide: sets a->corners and a->corner. s:
- * lattice sites. Returns the corners of all faces by position, value = 4 face + corner; free it with memory_free. */
+/* Numbers the corners of the faces f, equal positions alike: sets a->corners and a->corner. s: lattice sites. Returns
+ * the corners of all faces, sorted by position, with value = 4 face + corner; free it with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -205,7 +205,7 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
     return all;
 }
 
-/* Lists in a->part the faces that meet in each corner. all[n]: corners of all faces, as corners_number returns them. */
+/* Lists in a->part, for each corner, the faces that meet there. all[n]: corners of all faces, from corners_number. */
 static void parts_make(struct surface *a, const struct site *all, int64_t n)
 {
     a->face_first = NEW("loads.face_first", a->corners + 1, int64_t);
@@ -224,8 +224,8 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds the particle of `body` (or source of an image) at site `site` to *t with weight `counts`, unless it is there or
- * *t is full. off[dim]: steps to `site` from the site above the corner of *t. Returns false if `site` is empty. */
+/* Adds to *t with weight `counts` the particle of `body` at `site` (beyond a mirror the source of the image), unless *t
+ * has it or is full. off[dim]: `site` minus the site above the corner. Returns false if `site` is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -316,7 +316,7 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Computes in a the particles that move each corner, and its position. s: lattice sites; all: sorted corners of f. */
+/* Finds in a the particles that move each corner, and its position. s: lattice sites; all: sorted corners of f. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
@@ -432,7 +432,7 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes to[2][2], half the area vector of a 2D face of s for each end [m^2]. x: ends [m]; sign: orientation, +-1. */
+/* Computes to[2][2], the halves of the area vector of a 2D face at its ends x [m^2]. sign: orientation, 1 or -1. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -479,7 +479,7 @@ static void surface_face_area(struct surface *s, int64_t q)
         quadrilateral_area(x, s->sign[q], to);
 }
 
-/* Computes in s->x the present position of corner c: reference position plus weighted displacements of particles. */
+/* Computes in s->x the present position of corner c: reference position plus weighted displacements of p. */
 static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {
@@ -503,7 +503,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area along axis d of particle number k of the load s [m^2], a sum over the corners near it. */
+/* Returns the inward area along axis d of particle number k of the load s [m^2], summed over corners that it moves. */
 static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;
@@ -513,7 +513,7 @@ static real particle_surface_area(const struct surface *s, int64_t k, int d)
     return area;
 }
 
-/* Computes the inward areas of all particles of the load, area[dim][s->particles] [m^2], in any number of threads. */
+/* Computes area[dim][s->particles], the inward areas of all particles of the load at their present positions [m^2]. */
 void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area)
 {
     const bool many = s->corners > SUM_BLOCK;

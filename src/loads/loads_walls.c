@@ -110,8 +110,8 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
 /* Lists in *s the components of nodes of g that the loads l constrain because of the position of the node: in the
  * region of a prescribed motion, or on a plane of symmetry. Adds nodes beyond such planes to g as mirror nodes, which
  * copy the motion of another node. Nodes doubled by slits have no mirror nodes. Must be called once for each box of
- * nodes. mesh: the mesh to which g belongs, or NULL; reference: true if nodes move with the material; only then regions
- * of rotating loads constrain nodes, because the region rotates with the material. */
+ * nodes. mesh: the mesh to which g belongs, or NULL; p: particles; reference: true if nodes move with the material;
+ * only then regions of rotating loads constrain nodes, because the region rotates with the material. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {

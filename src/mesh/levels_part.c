@@ -128,10 +128,10 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
 }
 
 /* Returns flags [fine->grid.n] that are 1 for the cells of r that must be of level 0 (the finest). With l = r->levels
- * and R = l.roomy_cells + more, these are the cells within R cells of peridynamic particles and of the cells requested
- * in l.wanted; within R + FLANK_MORE cells of slits if there are several, within one cell of a single slit; and within
- * one cell of particles on which `loads` act, of probes of stress-intensity factors and of planes of symmetry that are
- * not on nodes. Release the flags with memory_free. */
+ * and R = l.roomy_cells + more, these are the cells within R cells of peridynamic particles of p and of the cells
+ * requested in l.wanted; within R + FLANK_MORE cells of slits if there are several, within one cell of a single slit;
+ * and within one cell of particles on which `loads` act, of probes of stress-intensity factors and of planes of
+ * symmetry that are not on nodes. Release the flags with memory_free. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {

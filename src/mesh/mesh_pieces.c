@@ -7,7 +7,7 @@
 
 bool mesh_cell_contains_material(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
 
-/* Initialises *box as a box of nodes around the particles, aligned with the nodes of the grid `like`; arrays over the
+/* Initialises *box as a box of nodes around the particles p, aligned with the nodes of the grid `like`; arrays over the
  * nodes are not allocated. Returns false if the box has too many nodes. */
 static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
 {
