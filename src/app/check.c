@@ -279,8 +279,8 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
     }
 }
 
-/* Prints that other programs keep the machine busy, if they do. load: load average of the machine before the trial
- * steps, since the steps themselves raise it [processes]; threads: number of threads of the run. */
+/* Prints a line if other programs keep the machine busy. load: load average of the machine before the trial steps,
+ * since the steps themselves raise it [processes]; threads: number of threads of the run. */
 static void say_busy(double load, int threads)
 {
     char text[256];

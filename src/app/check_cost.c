@@ -184,8 +184,8 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
  * neighbours within the horizon) divided by that of a lattice cell [1]. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Returns an estimate of the time for writing the output of run e [s]: all frames including the one at the start, two
- * checkpoints, profiles and particle series. */
+/* Returns an estimate of the time for writing the output of run e [s]: all frames (outputs of all particles at one
+ * time) including the one at the start, two checkpoints, profiles and particle series. */
 static double output_seconds(const struct run *e)
 {
     double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;

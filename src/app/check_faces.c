@@ -37,10 +37,10 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
     return place;
 }
 
-/* Creates in c a table of the heights of a face: the particles p are sorted into columns along the axis b->face, and
- * the height of a column is the coordinate of its particle that is exposed on the face [spacings, positive outwards].
- * f->normal[i] > 0 for exposed particles; scene: spacing. Returns false, with nothing to release, if the exposed
- * particles occupy too small a part of the table. Release c->height otherwise. */
+/* Creates in c a table of the heights of a face: the particles p are sorted into columns (lines of particles) along the
+ * axis b->face, and the height of a column is the coordinate of its particle that is exposed on the face [spacings,
+ * positive outwards]. f->normal[i] > 0 for exposed particles; scene: spacing. Returns false, with nothing to release,
+ * if the exposed particles occupy too small a part of the table. Release c->height otherwise. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
                       const struct exposed_face *f)
 {

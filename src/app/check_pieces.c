@@ -6,8 +6,9 @@
 #include "check_parts.h"
 #include "fracture/fragments.h"
 
-/* Sets driven[k] to true for each fragment k of f in which a support holds or drives a particle of `part`. If `source`
- * has a plane of symmetry, sets driven[k] of all fragments to true, since the plane may hold any fragment. */
+/* Sets driven[k] to true for each fragment k of f in which a support prescribes the motion of a particle of `part`. If
+ * `source` has a plane of symmetry, sets driven[k] of all fragments to true, since the plane may constrain any
+ * fragment. */
 static void mark_driven(const struct bond_source *source, const struct particles *part, const struct fragments *f,
                         bool *driven)
 {

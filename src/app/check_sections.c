@@ -76,8 +76,8 @@ static int32_t larger(const struct sections *s, int32_t a, int32_t b)
 
 /* Divides a piece into slices one lattice cell thick, normal to `axis`, and each slice into sections. A section is a
  * connected set of cells that the body covers. Finds for each section the largest section that it touches in the next
- * and in the previous slice. c: lattice cells of the piece; named[cells]: marks of parts that have been reported; s
- * keeps this pointer. Release s with sections_free. */
+ * and in the previous slice. c: lattice cells of the piece; named[cells]: marks of parts that have been reported; c and
+ * named are stored by reference in s. Release s with sections_free. */
 static void sections_make(struct sections *s, const struct cover *c, int axis, uint8_t *named)
 {
     const int64_t stride[DIM_MAX] = {1, c->n[0], c->n[0] * c->n[1]};

@@ -65,7 +65,7 @@ static void hint_sizes(const struct run *e, struct warnings *to)
                                 k + 1, s->crack[k].width, longest);
 }
 
-/* Adds a hint to *to if the frames of run e will take much space on the disk. */
+/* Adds a hint to *to if the frames of run e (outputs of all particles at one time) will take much space on the disk. */
 static void hint_frames(const struct run *e, struct warnings *to)
 {
     const double steps = (double)e->clock.steps, frames = e->scene->frames < steps ? e->scene->frames : steps;

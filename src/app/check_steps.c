@@ -193,7 +193,7 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Writes a remark to `out` for each support of run e that is meant as a pin or roller but constrains rotation: it holds
+/* Writes a remark to `out` for each support of run e that is meant as a pin or roller but constrains rotation: it fixes
  * more rows of particles side by side than a pin, but too few for a grip. */
 static void advise_supports(const struct run *e, FILE *out)
 {

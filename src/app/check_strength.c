@@ -100,7 +100,7 @@ static void print_surface(const struct scene *s, const struct material *m)
     printf("\n");
 }
 
-/* Prints the tensile strength of material m at the lowest and the highest strain rate of its table of strength over
+/* Prints the tensile strength of material m at the lowest and the highest strain rate of its table of strength by
  * strain rate. Prints nothing if m has no such table. */
 static void print_rate(const struct material *m)
 {

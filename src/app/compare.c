@@ -74,15 +74,16 @@ struct times {
     struct listed_frame *list;
 };
 
-/* Returns the mean time between the frames t of a run [s]; INFINITY for fewer than two. */
+/* Returns the mean time between the frames (outputs) of a run, whose times are in t [s]; INFINITY for fewer than two.
+ */
 static double interval(const struct times *t)
 {
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Finds the latest frame of run A for which run B has a frame at the same time, that is, within SAME_TIME times the
- * shorter of the mean intervals between frames of A and B. a, b: frames of A and B. Stores the index of the frame of A
- * in *i and of B in *j. Returns false if there is no such pair. */
+/* Finds the latest frame (output at one time) of run A for which run B has a frame at the same time, that is, within
+ * SAME_TIME times the shorter of the mean intervals between frames of A and B. a, b: frames of A and B. Stores the
+ * index of the frame of A in *i and of B in *j. Returns false if there is no such pair. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -130,8 +131,8 @@ static struct difference field_difference(float *const *a, float *const *b, int 
 }
 
 /* Prints a row of the table of fields: label and unit, then from d the largest and the root-mean-square difference, the
- * largest value of the field, and the reference position of the particle with the largest difference. f: frame of run
- * A, with the reference positions. */
+ * largest value of the field, and the reference position of the particle with the largest difference. f: frame (output
+ * at one time) of run A, with the reference positions. */
 static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
@@ -160,8 +161,8 @@ static void print_fields(const struct output_frame *a, const struct output_frame
     printf("  %-28s %14lld of %lld\n", "kind differs (bond or point)", (long long)other_kind, (long long)a->n);
 }
 
-/* Returns the reason why the frames a and b cannot be compared particle by particle, as a constant text for a message;
- * NULL if they can be compared. */
+/* Returns the reason why the frames a and b (outputs of two runs at one time) cannot be compared particle by particle,
+ * as a constant text for a message; NULL if they can be compared. */
 static const char *particles_differ(const struct output_frame *a, const struct output_frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
@@ -175,9 +176,9 @@ static double frame_step_length(const struct output_frame *f)
     return f->step > 0 ? f->t / (double)f->step : INFINITY;
 }
 
-/* Prints the difference in time of the compared frames a and b of the runs p, unless it is below half a step. If
- * exactly one of the runs is of LAMMPS, also prints that the velocities of the other run are taken half a step before
- * those of LAMMPS, and its damage one step before. */
+/* Prints the difference in time of the compared frames a and b (outputs at one time) of the runs p, unless it is below
+ * half a step. If exactly one of the runs is of LAMMPS, also prints that the velocities of the other run are taken half
+ * a step before those of LAMMPS, and its damage one step before. */
 static void print_time_apart(const struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
@@ -192,7 +193,7 @@ static void print_time_apart(const struct pair *p, const struct output_frame *a,
 }
 
 /* Returns the largest distance between the reference positions of particles of the same number in the frames a and b
- * [m]. */
+ * (outputs of two runs) [m]. */
 static double largest_start_distance(const struct output_frame *a, const struct output_frame *b)
 {
     double largest = 0;
@@ -204,8 +205,8 @@ static double largest_start_distance(const struct output_frame *a, const struct 
     return largest;
 }
 
-/* Compares the frames a and b of the runs p particle by particle and prints the differences, or the reason why they
- * cannot be compared. */
+/* Compares the frames a and b (outputs at one time) of the runs p particle by particle and prints the differences, or
+ * the reason why they cannot be compared. */
 static void compare_particles(struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const char *why = particles_differ(a, b);
@@ -227,8 +228,9 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
     print_fields(a, b);
 }
 
-/* Compares the last frames that both runs of p have at a common time, particle by particle, and prints the differences,
- * or the reason why frames are not compared. Returns FAILED, with a message, if frames cannot be read. */
+/* Compares the last frames (outputs at one time) that both runs of p have at a common time, particle by particle, and
+ * prints the differences, or the reason why frames are not compared. Returns FAILED, with a message, if frames cannot
+ * be read. */
 static status compare_frames(struct pair *p)
 {
     struct times t[2] = {{0}};

@@ -146,8 +146,8 @@ status lammps_run_read_frame(struct output_frame *f, const char *folder, int fra
 
 /* ---- the check --------------------------------------------------------------------------------------------------- */
 
-/* Prints the largest differences in displacement and damage between the frame f of LAMMPS and the states of Cleave in
- * check.csv, c. */
+/* Prints the largest differences in displacement and damage between the frame f (output at one time) of LAMMPS and the
+ * states of Cleave in check.csv, c. */
 static void check_print(const struct check *c, const struct lammps_frame *f)
 {
     double apart = 0, size = 0, damage = 0;

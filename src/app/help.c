@@ -124,7 +124,7 @@ static const char *help_word(int argc, char **argv, char *joined, size_t capacit
     return argc > 1 ? joined : NULL;
 }
 
-/* Converts `word` to small letters if help knows it only so: Johnson_Cook to johnson_cook. */
+/* Converts `word` in place to small letters if only that form is a topic or key, as Johnson_Cook to johnson_cook. */
 static void help_word_to_small_letters(char *word)
 {
     char small[256];

@@ -24,8 +24,8 @@ static int64_t number_in(const char *path)
 }
 
 /* Returns the smallest memory limit of a control group and of all groups above it [byte]; INT64_MAX if there is none.
- * The limits are the numbers in the files base/group/file. A container sees its own group as the highest. group: path
- * of the control group, which is cut to the empty text; file: name of the files with limits. */
+ * The limits are the numbers in the files base/group/file. In a container, the highest group is that of the container.
+ * group: path of the control group, which is cut to the empty text; file: name of the files with limits. */
 static int64_t group_and_above(const char *base, char *group, const char *file)
 {
     int64_t limit = INT64_MAX;

@@ -57,8 +57,8 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
 
 /* Counts in c->n the intact bonds of all blocks of eight rows (the bonds of eight particles of p) of b to mirror images
  * across clamped planes (planes at which all motion is prevented), and stores them if c->entry is not NULL. Images have
- * indices behind those of the body, so that one comparison excludes most columns. is[images]: 1 for images across
- * clamped planes. */
+ * indices behind those of the body, so that one comparison excludes most columns (each with eight bonds). is[images]: 1
+ * for images across clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;

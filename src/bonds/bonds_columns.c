@@ -15,8 +15,8 @@ struct holes_by_size {
     int32_t most;
 };
 
-/* Inserts hole number k (a range of unused columns of the bond arrays) at the beginning of the list of holes of its
- * size in s. */
+/* Inserts hole number k (a range of unused columns of the bond arrays, each with eight bonds) at the beginning of the
+ * list of holes of its size in s. */
 static void hole_list(struct holes_by_size *s, int64_t k)
 {
     const int32_t size = s->all->hole[k].columns;
@@ -24,8 +24,8 @@ static void hole_list(struct holes_by_size *s, int64_t k)
     s->first[size] = (int32_t)k;
 }
 
-/* Returns lists of all holes (ranges of unused columns of the bond arrays) by size. all: the holes, kept by reference.
- * Release the lists with holes_close. */
+/* Returns lists of all holes (ranges of unused columns of the bond arrays, each with eight bonds) by size. all: the
+ * holes, kept by reference. Release the lists with holes_close. */
 static struct holes_by_size holes_sort(struct bond_holes *all)
 {
     struct holes_by_size s = {.all = all};
@@ -53,8 +53,8 @@ static int64_t hole_take(struct holes_by_size *s, int32_t columns)
     return at;
 }
 
-/* Removes the holes (ranges of unused columns) of which no column is left from the array s->all, and frees the lists of
- * holes by size. */
+/* Removes the holes (ranges of unused columns, each with eight bonds) of which no column is left from the array s->all,
+ * and frees the lists of holes by size. */
 static void holes_close(struct holes_by_size *s)
 {
     int64_t n = 0;
@@ -65,8 +65,8 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* Appends the columns of those blocks of eight rows of the previous bonds `old` (eight rows stored together) that are
- * not kept to the list of unused columns b->holes. The next rebuilding may use them; the present one still reads them.
+/* Appends the columns of those blocks of eight rows of the previous bonds `old` (the bonds of eight particles) that are
+ * not kept to b->holes, the list of unused columns. The next rebuilding may use them; the present one still reads them.
  * kept[row_blocks of b]: block of `old` that is kept, or -1. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
@@ -133,10 +133,10 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Chooses the position of each block g of eight rows (the bonds of eight particles) of b in the column arrays of the
- * previous bonds `old`. If kept[g] >= 0, it is equal to this previous block and stays at the columns of that one. If
- * kept[g] is -1, it gets a range of unused columns that is large enough, or else columns at the end of the arrays,
- * which are extended. */
+/* Chooses the position of each block g of eight rows (the bonds of eight particles) of b in the arrays of the previous
+ * bonds `old` that have an entry for each column (the k-th bonds of the eight rows). If kept[g] >= 0, it is equal to
+ * this previous block and stays at the columns of that one. If kept[g] is -1, it gets a range of unused columns that is
+ * large enough, or else columns at the end of the arrays, which are extended. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);
@@ -150,8 +150,8 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 }
 
 /* Makes b use the column arrays of the previous bonds `old`. Both use them until bonds_clear_pointers_to_moved_arrays
- * removes them from `old`. kept[g]: block of eight rows of `old` (eight rows stored together) whose columns block g
- * keeps, or -1. */
+ * removes them from `old`. kept[g]: block of eight rows of `old` (the bonds of eight particles) whose columns block g
+ * of b uses further, or -1. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;

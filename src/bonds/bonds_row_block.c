@@ -66,7 +66,7 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
 
 /* Stores properties of block g of eight rows (the bonds of eight particles) in b: whether its particles are
  * consecutive, and for each of its `rows` rows the smallest stretch at which a bond may break, the volume of all
- * neighbours and that of the neighbours whose bonds are broken. room: holds the rows. */
+ * neighbours and that of the neighbours whose bonds are broken. room: has the rows. */
 static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -81,10 +81,10 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if column k of a block of eight rows (the bonds of eight particles) must contain the bond number `used`
- * of row l (0 to 7), the first bond of this row that has no column yet. by_offset: true if all bonds of column k have
- * the index distance room->offset[k] (neighbour minus particle), false if a column takes any bond. particle[8]:
- * particles of the rows. */
+/* Returns true if column k (the k-th bonds) of a block of eight rows (the bonds of eight particles) must contain the
+ * bond number `used` of row l (0 to 7), the first bond of this row that has no column yet. by_offset: true if all bonds
+ * of column k have the index distance room->offset[k] (neighbour minus particle), false if a column takes any bond.
+ * particle[8]: particles of the rows. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -93,8 +93,8 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
 }
 
 /* Stores the softening of the bonds of block g of eight rows of b (the bonds of eight particles) if one of them has
- * begun to soften; else only records in b that none has. buffer: holds the rows and the columns in which
- * bond_row_block_fill_columns_from_rows has put their bonds; rows: number of rows in use. */
+ * begun to soften; else only records in b that none has. buffer: has the rows, and the columns (k-th bonds of all rows)
+ * in which bond_row_block_fill_columns_from_rows has stored the bonds; rows: number of rows in use. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
     bool begun = false;
@@ -139,10 +139,10 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buf
     bond_row_block_store_columns_or_stencil(b, buffer, g, p);
 }
 
-/* Makes room->stencil for block g of eight rows of b (the bonds of eight particles of p) from its columns in `room`. A
- * stencil describes each column by its index distance (neighbour minus particle) and the properties that its eight
- * bonds share. Returns false if the block must store its columns: its particles are not consecutive, bonds are plastic
- * or changed, or a column has unequal bonds. */
+/* Makes room->stencil for block g of eight rows of b (the bonds of eight particles of p) from its columns in `room`
+ * (column k: the k-th bonds of its particles). A stencil describes each column by its index distance (neighbour minus
+ * particle) and the properties that its eight bonds share. Returns false if the block must store its columns: its
+ * particles are not consecutive, bonds are plastic or changed, or a column has unequal bonds. */
 static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -253,7 +253,7 @@ static bool whole_families(const struct regular_bonds *bonds)
 
 /* Fills block g of eight rows (the bonds of eight particles) of b from the bonds in buffer->regular, which follow from
  * the map of lattice sites. If the particles have bonds to all their neighbours, and a recent block had equal bonds,
- * the stencil of that one and its sums over bonds are used again. m: input of the rows. */
+ * copies the stencil of that block and the sums over its bonds. m: data from which rows are made. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
                                             const struct row_maker *m)
 {

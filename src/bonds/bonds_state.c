@@ -46,9 +46,9 @@ void state_based_update_weighted_volumes(struct bonds *b, const struct particles
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
-/* Computes the weighted volume Q (sum over the bonds of a row) of the blocks of eight rows of b (eight rows stored
- * together) in which it is still 0: those that are rebuilt. Blocks that were copied from the previous bonds keep their
- * Q. s: inputs of the bonds; p: particles. */
+/* Computes the weighted volume Q (sum over the bonds of a row) of those blocks of eight rows of b (the bonds of eight
+ * particles) that are rebuilt: those in which Q is still 0. Blocks that were copied from the previous bonds already
+ * have their Q. s: inputs of the bonds; p: particles. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)

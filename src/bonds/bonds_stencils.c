@@ -174,8 +174,9 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
 }
 
 /* Returns true if bonds b of block number row_block of eight rows may lead to mirror images of p; false only if none
- * does. Images follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of less
- * than eight lanes: no column leads to an image if the last one ends two blocks before the images. */
+ * does. Images follow all particles, and the columns of a stencil (one bond of each of the eight particles) ascend by
+ * their neighbours, up to the padding of less than eight lanes: no column leads to an image if the last one ends two
+ * blocks before the images. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = bond_row_block_column_count(b, row_block);
@@ -208,8 +209,8 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
     bond_column_update_common_properties(b, column_number);
 }
 
-/* Writes the columns of block `row_block` of eight rows (the bonds of eight particles), which so far only its stencil
- * defines, to the column arrays of b. */
+/* Writes the columns (k-th bonds of all rows) of block `row_block` of eight rows (the bonds of eight particles), which
+ * so far only its stencil defines, to the column arrays of b. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

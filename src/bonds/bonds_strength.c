@@ -26,8 +26,9 @@
 /* Smallest determinant of a moment divided by that of an isotropic moment [1]; below it, bonds lack in a direction. */
 #define SPANS 1e-6
 
-/* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles. A row holds
- * the bonds of one particle. Strains are averaged over the neighbourhood as many times as the material requires. */
+/* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles. A row is the
+ * list of the bonds of one particle. Strains are averaged over the neighbourhood as many times as the material
+ * requires. */
 struct evaluation {
     const struct bonds *b;
     const struct particles *p;
@@ -119,10 +120,10 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     }
 }
 
-/* Computes sum[8], the moment matrices of the bonds of each of the eight rows of block g of eight rows (struct
- * moments), from which the strains of its particles follow. The block must have a stencil: its bonds are intact and
- * have not begun to soften, and all bonds of a column have one index distance. e: bonds and particles; dim: number of
- * dimensions, known at compile time. */
+/* Computes sum[8], the moment matrices of the bonds of each particle of block g of eight rows (the bonds of eight
+ * particles, struct moments), from which the strains of the particles follow. The block must have a stencil: its bonds
+ * are intact and have not begun to soften, and all bonds of a column (the k-th bonds of the eight) have one index
+ * distance (neighbour minus particle). e: bonds and particles; dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -171,8 +172,8 @@ static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, cons
     }
 }
 
-/* Computes the strains of the rows of block g of eight rows (the bonds of eight particles) that are marked in
- * wanted[8], into e->strain[0]. dim: number of dimensions, known at compile time. */
+/* Computes the strains of those particles of block g of eight rows (the bonds of eight particles) that are marked in
+ * wanted[8], and stores them in e->strain[0]. dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, const bool *wanted, const int dim)
 {
     struct moments sum[LANES];
@@ -185,8 +186,9 @@ static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, c
     }
 }
 
-/* Computes the strains of those of the eight rows of block g of eight rows (rows stored together) that are marked in
- * wanted[8], into e->strain[0]. Does nothing if no row is marked. */
+/* Computes the strains of those particles of block g of eight rows (a row has the bonds of one particle; eight are
+ * stored together) that are marked in wanted[8], and stores them in e->strain[0]. Does nothing if no particle is
+ * marked. */
 static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted)
 {
     bool any = false;
@@ -197,10 +199,10 @@ static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted
 
 /* ---- means ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the row (bonds of one particle) that holds the strain of particle or image j: the row of j, or for an image
- * the row of the particle that it mirrors, whose strain is still to be reflected. sign[dim]: receives -1 for the axes
- * to be reflected, else 1. e: bonds and strains. Returns -1 if that row does not hold bonds to all neighbours, or if a
- * mirror is clamped. */
+/* Returns the row (bonds of one particle) in which the strain of particle or image j is stored: the row of j, or for an
+ * image the row of the particle that it mirrors, whose strain is still to be reflected. sign[dim]: receives -1 for the
+ * axes to be reflected, else 1. e: bonds and strains. Returns -1 if that row does not have bonds to all neighbours, or
+ * if a mirror is clamped. */
 static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
 {
     const struct particles *p = e->p;

@@ -123,8 +123,8 @@ static struct lattice_sums lattice_sums(const struct family *f)
 
 /* Computes the two factors f->shell_weight, of bonds nearer the axes and of bonds nearer the diagonals, such that the
  * neighbourhood f is isotropic: sum k n1^4 = 3 sum k n1^2 n2^2 with k of stiffness_weight, i.e. C11 = C12 + 2 C44 with
- * C12 = C44. Their scale keeps sum r omega V unchanged. If there is no solution, or in 1D, the factors remain as they
- * are. */
+ * C12 = C44. They are scaled so that sum r omega V does not change. If there is no solution, or in 1D, the factors
+ * remain as they are. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;

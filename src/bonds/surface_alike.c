@@ -136,8 +136,8 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 
 /* Returns a reflection under which the surroundings of the particles of kind number `kind` have the smallest hash
  * (colour) of all reflections. (The particles of a kind have equal surroundings.) A reflection is a set of axes, with
- * bit d for axis d. Returns the first such set >= `from`; -1 if there is none. s: kinds, with the hashes; b: particles
- * near faces. */
+ * bit d for axis d; sets are compared as numbers. Returns the smallest such set >= `from`; -1 if there is none. s:
+ * kinds, with the hashes; b: particles near faces. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);

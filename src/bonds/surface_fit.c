@@ -89,9 +89,10 @@ static real full_of(const struct moments *m, int a, int b, int c, int d)
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
-/* Computes the basis in which deviations of moment tensors are measured by the stresses that they cause: orthonormal
- * symmetric strain tensors B_k; their stresses M:B_k, with the fourth moment M of a full neighbourhood (m->full); and
- * the coefficients by which products of B_k with a moment tensor follow from the components of that tensor. */
+/* Computes in m the basis of strains by which deviations of moment tensors are measured, as the stresses that they
+ * cause: orthonormal symmetric strain tensors B_k; the stresses M:B_k, with the fourth moment M of a full neighbourhood
+ * (m->full); and the coefficients by which products of B_k with a moment tensor follow from the components of that
+ * tensor. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;

@@ -285,7 +285,8 @@ static real least_gap(const struct contact *c, const struct face_field *field, i
 }
 
 /* Returns true if row `row` of the contact list c and row `was` of the list of the previous search, `before`, have
- * pairs with the same particles in the same order. The densities of the face then are equal. */
+ * pairs with the same particles in the same order. The densities of the face, from which gaps follow, are then equal.
+ */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
     const int64_t n = c->first[row + 1] - c->first[row];

@@ -22,8 +22,8 @@ static void list_add(struct index_list *l, int64_t i)
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
-/* Returns true if a pre-crack cuts a bond between particle i of p and a particle of the same body in `near`. s: holds
- * the pre-cracks; near: neighbours of particle i. */
+/* Returns true if a pre-crack cuts a bond between particle i of p and a particle of the same body in `near`. s: has the
+ * pre-cracks; near: neighbours of particle i. */
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i,
                        const struct neighbour_list *near)
 {

@@ -18,15 +18,16 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
 /* Returns true if the conversion flags of all material points of p must be tested in this step. This is so if there are
  * points on the background grid, which keeps no record of flagged points, or if another process may have flagged points
  * or broken bonds (growth laws of cracks, load steps, reversion). Returns false if all points belong to the mesh of the
- * reference frame r and no cell of it has recorded a high stress. s: scene. */
+ * reference frame r (a mesh of the undeformed body) and no cell of it has recorded a high stress. s: scene. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
            r->levels.returned || mesh_may_exceed_conversion_stress(&r->mesh);
 }
 
-/* Updates positions and velocities of those of n listed particles that are points of the mesh of the reference frame.
- * context: the run (struct run); list[n]: indices of the particles. It is a callback of struct conversion_sync. */
+/* Updates positions and velocities of those of n listed particles that are points of the mesh of the reference frame
+ * (the undeformed body). context: the run (struct run); list[n]: indices of the particles. It is a callback of struct
+ * conversion_sync. */
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;

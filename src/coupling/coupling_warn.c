@@ -44,8 +44,9 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
 }
 
 /* Adds a warning to `to` if several bodies of scene s have no contact with each other, with the consequence for the
- * method of the scene. reference: states for each body whether it is in the reference frame; approaches: true if
- * particles convert when bodies approach each other, so that they have contact and no warning is needed. */
+ * method of the scene. reference: states for each body whether it is in the reference frame (on a mesh of the
+ * undeformed body); approaches: true if particles convert when bodies approach each other, so that they have contact
+ * and no warning is needed. */
 static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
                             struct warnings *to)
 {

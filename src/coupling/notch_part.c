@@ -22,7 +22,8 @@ static const char *scene_obstacle(const struct scene *s)
 }
 
 /* Returns the reason why pre-cracks may not be slits, along which nodes of the mesh are doubled, as a constant text: in
- * the scene s, the reference frame r or the grid g. Returns NULL if nothing prevents slits. */
+ * the scene s, the reference frame r (mesh of the undeformed body) or the background grid g. Returns NULL if nothing
+ * prevents slits. */
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
@@ -76,8 +77,9 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
 /* Marks (FLAG_NEAR) the points beside the slits and voids n whose faces approach each other, so that they convert
- * before the faces touch: moves these points of p with the mesh of `frame` first. loads: with the mirror images of the
- * points; spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if n has faces. */
+ * before the faces touch: moves these points of p with the mesh of the reference frame `frame` first. loads: with the
+ * mirror images of the points; spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if
+ * n has faces. */
 bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
                                   const struct loads *loads, real spacing, real time_ahead)
 {

@@ -307,8 +307,8 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
  * part of its stress that remains without the part that the bonds b across its lattice cell carry. changed[n]: indices
  * of the converted particles, or NULL for all peridynamic ones. Also stores the rows (a row: the bonds of one particle)
  * whose bonds may cross the lattice cells of these points, unless `table` (stiffness that a bond of each lattice
- * direction adds to a cell) holds for all particles, so that no rows are needed. s: cutoff of the bonds and cells for
- * the search of neighbours. Release r with renewal_free. */
+ * direction adds to a cell) is valid for all particles, so that no rows are needed. s: cutoff of the bonds and cells
+ * for the search of neighbours. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)

@@ -56,8 +56,8 @@ static bool void_is_within_body(const struct voids *v, const struct particles *p
 /* Counts the material points of p beside gaps that are too narrow for the grid to separate their sides. *inside:
  * receives number and first index of those beside voids of a body; *at_plane: the same for gaps between a body and a
  * plane of symmetry. v: voids of bodies whose surface is known, or NULL, then nothing is counted; cells: cells of the
- * search; reach: largest width of such a gap [m]; uncut: true if voids do not divide the mesh of the reference frame;
- * if false, points of this mesh are left out. */
+ * search; reach: largest width of such a gap [m]; uncut: true if voids do not divide the mesh of the reference frame
+ * (the undeformed body); if false, points of this mesh are left out. */
 static void closed_on_grid(const struct particles *p, const struct voids *v, const struct cells *cells, real reach,
                            bool uncut, struct closed *inside, struct closed *at_plane)
 {

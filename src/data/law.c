@@ -6,8 +6,9 @@
 #define FLOW_PROPERTIES(upper, lower, word, own_yield, steep) [FLOW_##upper] = {word, own_yield, steep},
 const struct flow_properties flow_properties[FLOW_LAWS] = {FLOWS(FLOW_PROPERTIES)};
 
-/* Computes the straight line of each segment k of a hardening curve, stress over plastic strain: its value c->start[k]
- * at plastic strain 0 [Pa] and its slope c->slope[k] [Pa]. The stress is constant beyond the last point. */
+/* Computes the straight line through each segment k of the hardening curve c (yield stress as a function of plastic
+ * strain): its value c->start[k] at plastic strain 0 [Pa] and its slope c->slope[k] [Pa]. The stress is constant beyond
+ * the last point. */
 static void curve_lines(struct flow_curve *c)
 {
     const int last = c->points - 1;

@@ -45,8 +45,8 @@ static real box_level(const struct solid *s, const real *X, int dim)
     return far;
 }
 
-/* Returns the support of the box s in the direction along[dim]: the maximum of X . along over the points X of the
- * box. */
+/* Returns the support of the box s in the direction along[dim]: the maximum of X . along over the points X of the box
+ * [m times the unit of `along`]. */
 static real box_support(const struct solid *s, const real *along, int dim)
 {
     real sum = 0;

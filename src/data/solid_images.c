@@ -79,8 +79,8 @@ static struct placement image_made(const struct placement *from, const struct so
     return stays ? to : image_turned(from, R, m->about, dim);
 }
 
-/* Returns the number of copies that the motion m makes of one solid, the original included if it is kept. It is a real
- * number, as counts of scenes may exceed the integers. dim: number of dimensions. */
+/* Returns the number of copies that the motion m makes of one solid, the original included if it is kept. The number is
+ * real, as a scene may request more copies than an integer can count. dim: number of dimensions. */
 static real motion_count(const struct solid_motion *m, int dim)
 {
     real count = 1;

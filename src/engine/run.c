@@ -9,7 +9,8 @@
 #include "step/checks.h"
 
 /* Stores position and radius of the integration contours of all SIF probes (stress-intensity factors) of p in f->ring.
- * Cells of the reference frame f inside these contours are not made coarser. seen: view of the run for probes. */
+ * Cells of the reference frame f (mesh of the undeformed body) inside these contours are not made coarser. seen: view
+ * of the run for probes. */
 static void rings_find(struct reference_frame *f, struct probes *p, const struct observed_run *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);

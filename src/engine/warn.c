@@ -77,7 +77,7 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
 }
 
 /* Adds warnings to *to about keys for coarse mesh cells and for slits (pre-cracks as gaps in the mesh) that have no
- * effect in the scene s. frame: reference frame of the run with its mesh. */
+ * effect in the scene s. frame: reference frame of the run, with the mesh of the undeformed body. */
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
@@ -154,10 +154,9 @@ static void warn_of_lists(const struct scene *s, struct warnings *to)
         if (s->body[b].list.note[0]) warnings_add_if_new(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
 }
 
-/* Adds a warning to *to if plastic strain or temperature is requested for frames although no material yields or is
- * heated; a scene that requests all fields gets no warning. asked: fields that the
- * scene requests for frames (bits ASK_...); p, b: particles and bonds, which have plastic arrays if a material
- * yields. */
+/* Adds a warning to *to if plastic strain or temperature is requested for frames (outputs of all particles) although no
+ * material yields or is heated; a scene that requests all fields gets no warning. asked: fields that the scene requests
+ * for frames (bits ASK_...); p, b: particles and bonds, which have plastic arrays if a material yields. */
 static void warn_of_fields(unsigned asked, const struct particles *p, const struct bonds *b, struct warnings *to)
 {
     enum {
@@ -174,8 +173,9 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
                                 "give one, or remove this field");
 }
 
-/* Adds warnings to *to about regions for which scene s requests frames of their own but which contain no particle of p.
- * frame: its hollow cells may contain particles that are not created; no region is then reported. */
+/* Adds warnings to *to about regions for which scene s requests frames (outputs of particles) of their own but which
+ * contain no particle of p. frame: its hollow cells may contain particles that are not created; no region is then
+ * reported. */
 static void warn_of_regions(const struct scene *s, const struct reference_frame *frame, const struct particles *p,
                             struct warnings *to)
 {
@@ -232,8 +232,8 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
 
 #define STIFFNESS_APART 0.05 /* relative error of a bulk modulus that is worth a warning; vmpd has 0.02 */
 
-/* Adds a warning to *to if bonds of the neighbourhood f, by their calibration, make a material stiffer or softer than
- * scene s says. */
+/* Adds a warning to *to if bonds of the neighbourhood f, by their calibration, make the first material of scene s
+ * stiffer or softer than specified by more than the relative error STIFFNESS_APART. */
 static void warn_of_stiffness(const struct scene *s, const struct family *f, struct warnings *to)
 {
     real c11, c12;

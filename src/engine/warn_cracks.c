@@ -139,9 +139,9 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
             k + 1, (long long)near);
 }
 
-/* Adds warnings to *to about the first pre-cracks of scene s that cannot grow because supports (in `loads`) hold the
- * particles p, or that cut a body and end far outside of it. tips: crack tips at the start; reach: length of the
- * longest bonds [m]. */
+/* Adds warnings to *to about the first pre-cracks of scene s that cannot grow because supports (in `loads`) prescribe
+ * the motion of the particles p, or that cut a body and end far outside of it. tips: crack tips at the start; reach:
+ * length of the longest bonds [m]. */
 static void warn_of_fixed_cracks(const struct scene *s, const struct particles *p, const struct loads *loads,
                                  const struct crack_tips *tips, real reach, struct warnings *to)
 {

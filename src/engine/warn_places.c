@@ -27,9 +27,9 @@ static bool belongs_to_first_only(const struct scene *s, const struct particles 
            (one->joined != other->joined || !scene_body_can_have_material(other, p->material[i]));
 }
 
-/* Returns the particles (of p) of body number a of scene s that are inside the shape of body number b by more than
- * `least` [m]: their number, the deepest one and its depth. Returns none if b is made from a list of particles, whose
- * surface is not known, or if its bounding box has an infinite side. */
+/* Returns which particles p of body number a of scene s are inside the shape of body number b by more than `least` [m]:
+ * their number, the deepest one and its depth. Returns none if b is made from a list of particles, whose surface is not
+ * known, or if its bounding box has an infinite side. */
 static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
 {
     const struct region *shape = &s->body[b].shape;
@@ -79,9 +79,9 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         }
 }
 
-/* Returns true if at least one particle (of p) of the joined bodies number `body` of scene s (-1: of any body) is in
- * `region`. Also returns true if the run has cells whose particles are not created, since these may be in the region.
- */
+/* Returns true if at least one of the particles p that belong to the joined bodies number `body` of scene s (-1: to any
+ * body) is in `region`. Also returns true if the run has cells whose particles are not created, since these may be in
+ * the region. */
 static bool region_holds_particle(const struct scene *s, const struct particles *p, const struct region *region,
                                   int body)
 {

@@ -29,10 +29,10 @@ struct driver {
     real limit;
 };
 
-/* Returns true if nothing in scene s prevents the bodies on whose particles (of p) the load d->load acts from moving
- * with this load: no mirror across its components, no absorbing face, no damping, no contact with other bodies, and no
- * other load that drives the same components with a velocity that differs by more than d->limit. all: all loads of the
- * run. */
+/* Returns true if nothing in scene s prevents the bodies on whose particles the load d->load acts from moving with this
+ * load: no mirror across its components, no absorbing face, no damping, no contact with other bodies, and no other load
+ * that drives the same components with a velocity that differs by more than d->limit. all: all loads of the run; p:
+ * particles. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
                          const struct particles *p)
 {

@@ -25,8 +25,8 @@ struct variable {
     int field, component;
 };
 
-/* Fields of frames that are exported, if the run has them. nodal: true for vectors, which are stored at nodes; the
- * others are stored as values of elements. */
+/* Fields of frames (outputs of all particles at one time) that are exported, if the run has them. nodal: true for
+ * vectors, which are stored at nodes; the others are stored as values of elements. */
 static const struct exported_field {
     const char *name;
     bool nodal;
@@ -69,8 +69,8 @@ static void variables_add(struct exodus_export *x, int field)
     }
 }
 
-/* Lists the frames of the run in x->folder, and appends the variables of the fields that the first frame has. Returns
- * REFUSED if the run has no frames, FAILED if they or the first frame cannot be read. */
+/* Lists the frames (outputs at one time) of the run in x->folder, and appends the variables of the fields that the
+ * first frame has. Returns REFUSED if the run has no frames, FAILED if they or the first frame cannot be read. */
 static status frames_open(struct exodus_export *x)
 {
     struct output_frame f;
@@ -91,8 +91,8 @@ static status frames_open(struct exodus_export *x)
     return OK;
 }
 
-/* Checks that the frame f has the particles of the mesh exported by x, as an Exodus file has one list of elements for
- * all times. Returns OK, or REFUSED with a message. */
+/* Checks that the frame f (output at one time) has the particles of the mesh exported by x, as an Exodus file has one
+ * list of elements for all times. Returns OK, or REFUSED with a message. */
 static status frame_check(const struct exodus_export *x, const struct output_frame *f)
 {
     const struct particles *p = &x->mesh.e->part;
@@ -106,9 +106,9 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
                       printable_name(x->folder).text, f->t, (long long)f->n, (long long)x->mesh.n);
 }
 
-/* Writes the variables of frame number k of the list x->frame as one record of the file, in the order in which the
- * arrays were defined. Returns FAILED if the frame cannot be read, REFUSED if it has other particles or components than
- * the first one. */
+/* Writes the variables of frame (output at one time) number k of the list x->frame as one record of the file, in the
+ * order in which the arrays were defined. Returns FAILED if the frame cannot be read, REFUSED if it has other particles
+ * or components than the first one. */
 static status exodus_frame_write(struct exodus_export *x, int k)
 {
     const struct export_mesh *m = &x->mesh;

@@ -71,8 +71,8 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes to the stream `to` what of scene s the script leaves out: the number of probes, and of regions with frames of
- * their own. Writes nothing if there are none. */
+/* Writes to the stream `to` what of scene s the script leaves out: the number of probes, and of regions with frames
+ * (outputs) of their own. Writes nothing if there are none. */
 static void left_out_write(FILE *to, const struct scene *s)
 {
     if (s->probes == 0 && s->n_series == 0) return;

@@ -160,8 +160,8 @@ static void test_write(FILE *to, int64_t steps)
             (long long)steps, (long long)steps);
 }
 
-/* Returns the number of time steps from each frame of run e to the next if it is the same for all frames, else 0.
- * frames: number of frames. */
+/* Returns the number of time steps from each frame (output of all particles) of run e to the next if it is the same for
+ * all frames, else 0. frames: number of frames. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
     const int64_t first = report_step_number_of_frame(e->scene, &e->clock, 1);
@@ -171,8 +171,8 @@ static int64_t frame_distance(const struct run *e, int64_t frames)
 }
 
 /* Writes the LAMMPS command `dump` of the export x to the script `to`, with output at exactly the steps of Cleave's
- * frames. If their distance varies, a variable returns the step of the next frame; with more than FRAMES_MOST such
- * frames, the dump has a constant distance. */
+ * frames (outputs of all particles). If their distance varies, a variable returns the step of the next frame; with more
+ * than FRAMES_MOST such frames, the dump has a constant distance. */
 static void frames_write(FILE *to, const struct exported *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"

@@ -206,7 +206,7 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
 }
 
 /* Resets the weights of the bonds of b in g->fading, which decrease gradually behind the tip, to those of the previous
- * step, so that `fade` can reduce them again and book the lost energy. Bonds that load has broken since then are
+ * step, so that `fade` can reduce them again and count the lost energy. Bonds that load has broken since then are
  * removed from the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
@@ -225,7 +225,7 @@ static void step_back(struct growing_crack *g, struct bonds *b)
 /* Reduces the weights of the bonds of b in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent,
  * and removes bonds without weight from the list. `grown` is the growth of the crack since its tip crossed the bond, w0
  * the weight of the bond at that time; p: particles; f: neighbourhood, half its horizon is the default of `damping`.
- * The energy lost is booked at the present positions: half of the loss of the previous step and half of that of this
+ * The lost energy is computed at the present positions: half of the loss of the previous step and half of that of this
  * step. Bonds change one after the other, each from its weight of the previous step, so that the losses sum to the
  * whole energy. Returns the number of directed bonds whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)

@@ -112,9 +112,9 @@ static bool are_side_by_side(const struct flood *f, const struct crack_tip *a, c
            is_behind(f, b, j);
 }
 
-/* Merges the cracks of the particles i and j of f, which touch. Two cracks that both start at ends of pre-cracks, or
- * that run side by side, stay separate. Otherwise a crack that starts at no pre-crack is merged into one that does, or,
- * if neither starts at a pre-crack, the later crack into the earlier one. */
+/* Merges two cracks that touch: those of the particles i and j of f. Two cracks that both start at ends of pre-cracks,
+ * or that run side by side, stay separate. Otherwise a crack that starts at no pre-crack is merged into one that does,
+ * or, if neither starts at a pre-crack, the later crack into the earlier one. */
 static void flood_join(struct flood *f, int32_t i, int32_t j)
 {
     const struct crack_tip *tip = f->t->tip;
@@ -314,8 +314,8 @@ static void tip_move(struct crack_tip *tip, const struct tip_reach *r, struct cr
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
 
-/* Returns the slope of the least-squares line through the growth of tip k of t over time, of the samples first .. last
- * [m/s]; NAN if all these samples have the same time. */
+/* Returns the slope of the least-squares line through the growth of tip k of t as a function of time, in the samples
+ * first .. last [m/s]; NAN if all these samples have the same time. */
 static real regression(const struct crack_tips *t, int k, int64_t first, int64_t last)
 {
     real n = (real)(last - first + 1), mean_time = 0, mean_growth = 0, both = 0, spread = 0;

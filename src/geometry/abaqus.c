@@ -114,8 +114,9 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
     return OK;
 }
 
-/* Ends the current part of deck d, or what is outside parts, and replaces its labels by indices. A middle node with
- * label 0 is missing; its edge is then straight. Returns REFUSED, with a message, for unknown or repeated labels. */
+/* Ends the current part of deck d (an Abaqus input file), or the section outside parts, and replaces its node and
+ * element labels by indices. A middle node with label 0 is missing; its edge is then straight. Returns REFUSED, with a
+ * message, for unknown or repeated labels. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -143,7 +144,7 @@ static status scope_end(struct deck *d)
     return OK;
 }
 
-/* Begins a part of deck d called `name` and makes it the current one. name: "" for what is outside parts. */
+/* Begins a part of deck d called `name` and makes it the current one. name: "" for the section outside parts. */
 static void scope_begin(struct deck *d, const char *name)
 {
     GROW("abaqus.parts", d->scope, d->scopes + 1);
@@ -153,9 +154,9 @@ static void scope_begin(struct deck *d, const char *name)
     scope->node = d->m->nodes, scope->element = d->m->elements, scope->set = d->m->sets;
 }
 
-/* Ends the current part of deck d, or what is outside parts, and begins the next. name: name of the part that begins;
- * NULL for what is outside parts. Returns REFUSED if there are too many parts, or if labels in the ended one are
- * invalid. */
+/* Ends the current part of deck d (an Abaqus input file), or the section outside parts, and begins the next one. name:
+ * name of the part that begins; NULL for the section outside parts. Returns REFUSED if there are too many parts, or if
+ * labels in the ended one are invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
     if (d->scopes >= PARTS_MAX)

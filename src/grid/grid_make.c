@@ -61,9 +61,9 @@ real grid_shape_reach_beyond_cell(const struct scene *s)
 }
 
 /* Sets up the background grids mpm of scene s with particles p: position of the nodes, smallest masses, contact between
- * grids. nodes_midway_between_particles: true if bodies have meshes of the reference frame. Unless mpm.origin or a
- * mirror determines the position of the nodes, a node is at the lower corner of the shape of the first body, or of the
- * particles of its list. */
+ * grids. nodes_midway_between_particles: true if bodies have meshes of the undeformed body (reference frame). Unless
+ * mpm.origin or a mirror determines the position of the nodes, a node is at the lower corner of the shape of the first
+ * body, or of the particles of its list. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p,
                            bool nodes_midway_between_particles)
 {

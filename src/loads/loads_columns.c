@@ -76,8 +76,8 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
 
 /* Finds the coordinate of a lattice site of body c->body along axis d, at or near coordinate `low` [m], and stores it
  * in *site [m]. Coordinates of particles p are mapped to angles on a circle whose circumference is one particle width,
- * and the mean direction gives the site. Uses at most about SITES_SAMPLED particles. Returns false if the particles
- * have no order along d. */
+ * and the site follows from the mean direction. Uses at most about SITES_SAMPLED particles. Returns false if the
+ * particles have no order along d. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;

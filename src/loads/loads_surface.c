@@ -108,7 +108,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Lists in s->site, sorted, the sites of bodies with faces in f. Returns REFUSED if a particle is on no site. */
+/* Lists in s->site, sorted, the lattice sites of bodies with faces in f. Returns REFUSED if one is off the lattice. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};

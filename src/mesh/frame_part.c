@@ -50,8 +50,9 @@ static const struct boundary *plane_with_fit(const struct particles *p, const st
 
 /* Returns the reason, as a part of a message, why the body of p cannot be in the reference frame (points whose nodes
  * belong to a mesh of the undeformed body); NULL if it can. Only for bodies for which scene s does not choose the
- * frame. The body must be a single piece on one lattice, with two particles per grid cell along each axis. mpm: its
- * first grid gives the nodes; hollow: cells whose particles were not created. The text is not to be freed. */
+ * frame. The body must be a single piece on one lattice, with two particles per grid cell along each axis. mpm: has the
+ * grid with whose nodes those of the mesh must coincide; hollow: cells whose particles were not created. The text is
+ * not to be freed. */
 static const char *frame_obstacle(const struct particles *p, const struct scene *s, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {
@@ -122,8 +123,8 @@ static void take_frame(struct frame_choice *f, bool reference, const char *reaso
     *f = (struct frame_choice){reference, reason};
 }
 
-/* Sets FLAG_MESHED, the mark of points of the mesh, for all particles of `part` in bodies whose frame in `frame` is the
- * reference frame. */
+/* Sets FLAG_MESHED, the mark of points of the mesh, for all particles of `part` in those bodies that are in the
+ * reference frame (on a mesh of the undeformed body) according to frame->choice. */
 static void frames_mark(struct particles *part, struct reference_frame *frame)
 {
     for (int64_t i = 0; i < part->n; i++)

@@ -48,9 +48,9 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     return acts;
 }
 
-/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) of l contains a given node of the
- * next finer level and computes forces. at[dim]: indices of this node along the axes, counted from the lower corner of
- * the body in cells of the finer level. */
+/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) of l computes forces and has the
+ * given node of the next finer level inside or on its boundary. at[dim]: indices of this node along the axes, counted
+ * from the lower corner of the body in cells of the finer level. */
 static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
 {
     const struct mesh *mesh = &l->at[level].mesh;
@@ -68,17 +68,17 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
     return false;
 }
 
-/* Appends a ghost to the list of level m. A ghost is a node of the coarse mesh, `coarse`, whose displacement is that of
- * the node `fine` of the finer mesh at the same position. */
+/* Appends a ghost to the list of the coarse level m. A ghost is a node of the coarse mesh, `coarse`, whose displacement
+ * is that of the node `fine` of the finer mesh at the same position. */
 static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
 {
     GROW("levels.ghost", m->ghost, m->ghosts + 1);
     m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
 }
 
-/* Appends node I of `mesh`, the finer mesh, to the hanging nodes of level m. A hanging node is in the middle of an edge
- * or face of a coarser cell, and its motion is the mean of that of the nodes at the ends or corners, its masters. odd:
- * axes along which the edge or face extends, as bits (bit d: axis d). */
+/* Appends node I of `mesh`, the next finer mesh, to the list of hanging nodes of the coarse level m. A hanging node is
+ * in the middle of an edge or face of a coarser cell, and its motion is the mean of that of the nodes at the ends or
+ * corners, its masters. odd: axes along which the edge or face extends, as bits (bit d: axis d). */
 static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
 {
     struct mesh_hanging h = {.node = (int32_t)I};

@@ -55,8 +55,8 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
     return I;
 }
 
-/* Sets demand[I] = 1, which requires level 0 (the finest), for the cells I of `frame` beside those planes of symmetry
- * in `loads` that do not pass through nodes of all levels. */
+/* Sets demand[I] = 1, which requires level 0 (the finest), for the mesh cells I of the reference frame `frame` beside
+ * those planes of symmetry in `loads` that do not pass through nodes of all levels. */
 static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -83,9 +83,9 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Finds the cells I of level 0 (the finest) of `frame` inside and around the circle `ring`, a contour of a probe of
- * stress-intensity factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for
- * these cells, which requires level 0; NULL if it is not needed. */
+/* Finds the cells I of level 0 (the finest) of the mesh of `frame` inside and around the circle `ring`, a contour of a
+ * probe of stress-intensity factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to
+ * 1 for these cells, which requires level 0; NULL if it is not needed. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -109,10 +109,10 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Finds the cells I of level 0 (the finest) of `frame` inside and around the contours of all probes of stress-intensity
- * factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which
- * requires level 0; NULL if it is not needed. The probes need accelerations in every step, and nodes of coarse cells
- * have them in some steps only. */
+/* Finds the cells I of level 0 (the finest) of the mesh of `frame` inside and around the contours of all probes of
+ * stress-intensity factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for
+ * these cells, which requires level 0; NULL if it is not needed. The probes need accelerations in every step, and nodes
+ * of coarse cells have them in some steps only. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -176,9 +176,9 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
     memory_free(own);
 }
 
-/* Returns flags [fine->grid.n] of the cells of `frame` whose stress exceeds `share` (dimensionless) times the stress at
- * which points convert, and of cells around them; NULL if no cell is stressed so much. all: true to test all cells,
- * false for coarse cells only. Release the flags with memory_free. */
+/* Returns flags [fine->grid.n] of the mesh cells of `frame` whose stress exceeds `share` (dimensionless) times the
+ * stress at which points convert, and of cells around them; NULL if no cell is stressed so much. all: true to test all
+ * cells, false for coarse cells only. Release the flags with memory_free. */
 static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -401,8 +401,8 @@ void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct 
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic energy of all nodes of the reference frame `reference` [J]: of the mesh and of the coarse cells
- * of all levels. */
+/* Returns the kinetic energy of all nodes of the reference frame `reference` [J]: of the mesh of the undeformed body
+ * and of the coarse cells of all levels. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference)
 {
     return mesh_kinetic(&reference->mesh) + levels_kinetic_energy_of_coarse_levels(&reference->levels);

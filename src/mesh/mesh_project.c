@@ -111,7 +111,7 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
     return sum;
 }
 
-/* Returns true if a slit (a gap for a pre-crack) divides a cell around node I of the mesh, or gives such a cell extra
+/* Returns true if a slit (a gap for a pre-crack) divides a cell around node I of the mesh, or such a cell has extra
  * nodes. */
 static bool beside_slit(const struct mesh *mesh, int64_t I)
 {

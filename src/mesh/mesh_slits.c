@@ -303,7 +303,7 @@ static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
     return s->corner + (int64_t)s->cell[I] * corners;
 }
 
-/* Returns the cell of the mesh that holds piece g of cell I of the grid: I itself for g = 0, else an extra cell. A
+/* Returns the cell of the mesh that contains piece g of cell I of the grid: I itself for g = 0, else an extra cell. A
  * piece is a set of points of a cell that no slit separates. */
 static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 {
