@@ -237,8 +237,8 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
             more ? "" : "s", length, WAVE, length_text_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark to `out` for each load of scene s during whose rise time waves travel less than WAVE spacings, and
- * for each initial pulse that is narrower than WAVE spacings. tables: wave speed. */
+/* Writes a remark to `out` for each load of scene s that rises too fast, because waves travel less than WAVE spacings
+ * in its rise time, and for each initial pulse that is narrower than WAVE spacings. tables: wave speed. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
     for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
@@ -264,8 +264,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
                 shock.remedy);
 }
 
-/* Writes a remark to `out` if the scene of run e prescribes a number of levels of coarse cells (the edge doubles with
- * each level), and the cells of the coarsest level are too large for the loads or for the thin parts of the body. */
+/* Writes a remark to `out` if the coarsest cells of run e are too large for the loads or for the thin parts of the
+ * body. Only for scenes that prescribe the number of levels of coarse cells (the edge doubles with each level). */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -318,9 +318,9 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
 #define PARTS_AT_GRIP 1.3
 
 /* Writes to `out` up to two remarks for metal bodies that supports pull to `stretch` times their initial length. The
- * first is written if forces are too small at this stretch with the shape functions of scene s. The second is written
- * if, at this stretch, material points next to those with a prescribed velocity no longer share grid nodes with them,
- * so that the body separates there. */
+ * first is written if the shape functions of scene s make forces too small at this stretch. The second is written if,
+ * at this stretch, material points next to those with a prescribed velocity no longer share grid nodes with them, so
+ * that the body separates there. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
     const struct weak_shape *weak = shape_properties_if_weak_in_tension(s->shape);

@@ -164,10 +164,10 @@ struct part_of_face {
     double at, area;
 };
 
-/* If the particles of the face f of boundary b are in several planes normal to the axis of the face, more than
- * PLACE_GAP spacings apart, as on both steps of an L, prints the coordinates of these planes, and a region that selects
- * only the outermost plane. Planes with less than SHARE_LEAST of the area are left out. p: particles; spacing: their
- * spacing [m]. */
+/* Prints where the face f of boundary b is, if its particles are in several planes normal to the axis of the face that
+ * are more than PLACE_GAP spacings apart, as on both steps of an L: the coordinates of these planes, and a region that
+ * selects only the outermost plane. Planes with less than SHARE_LEAST of the area are left out. p: particles; spacing:
+ * their spacing [m]. */
 static void print_places_of_face(const struct particles *p, real spacing, const struct boundary *b,
                                  const struct exposed_face *f)
 {

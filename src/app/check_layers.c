@@ -26,9 +26,9 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
     return site;
 }
 
-/* Finds which lattice sites are filled by particles of body number `body` of run e, among the sites in the bounding box
- * of these particles, and stores the result in m, with m->filled[sites] 1 or 0. Returns false, with nothing to release,
- * for more than CELLS_MOST sites. Otherwise the caller frees m->filled with memory_free. */
+/* Finds which lattice sites in the bounding box of body number `body` of run e are filled by particles of this body.
+ * Stores the result in m, with m->filled[sites] 1 or 0. Returns false, with nothing to release, for more than
+ * CELLS_MOST sites. Otherwise the caller frees m->filled with memory_free. */
 static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
 {
     const struct particles *p = &e->part;
@@ -58,8 +58,8 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Returns the number of consecutive lattice sites of m with particles along `axis` in the direction `way` (1 or -1),
- * from the neighbour of the site from[dim] on, at most RUNS_MOST. from: indices of the site along the axes; *mirrored:
+/* Counts consecutive lattice sites of m with particles along `axis` in the direction `way` (1 or -1), beginning with
+ * the neighbour of the site from[dim] (indices along the axes). Returns their number, at most RUNS_MOST. *mirrored:
  * receives whether the sites end at a plane of symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
@@ -137,12 +137,12 @@ double count_layers_across_thin_parts(const struct run *e, int body_index, doubl
  * layers, in static bending with the models ospd and mospd, and decreases as 1/layers. */
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
-/* Returns the relative error of the deflection in bending of a body of material points if all points of a cell have one
- * dilatation [%]: such cells resist the bending of a thin body less than cells of linear functions. layers: particle
- * layers across the body; poisson: Poisson's ratio. The error is a/N^2 + b/N^4 for N layers, an odd number counting as
- * the next even one, with a = 170 and b = 760 + 6100 (nu - 0.3), or b = 760 for smaller Poisson's ratios nu. It is an
- * empirical fit to load steps of cantilevers in plane strain, of length 80, height 8 and 2 to 24 layers with nu = 0.3,
- * 0.45 and 0.49, within a sixth of the error; bars of square section bend less. */
+/* Returns the relative error of the deflection in bending of a body of material points [%], if all points of a cell
+ * have one dilatation: such cells resist the bending of a thin body less than cells of linear functions. layers:
+ * particle layers across the body, N; poisson: Poisson's ratio nu. The error is a/N^2 + b/N^4, where an odd N counts as
+ * the next even one, with a = 170 and b = 760 + 6100 (nu - 0.3), or b = 760 for nu below 0.3. It is an empirical fit,
+ * within a sixth of the error, to load steps of cantilevers in plane strain, of length 80, height 8 and 2 to 24 layers
+ * with nu = 0.3, 0.45 and 0.49. Bars of square section bend less. */
 static double soft_cells(double poisson, double layers)
 {
     const double even = 2 * ceil(0.5 * layers), square = even * even;

@@ -147,10 +147,10 @@ static bool has_distance(const struct scene *s, int body)
     return has;
 }
 
-/* Adds one exposed face of particle i to the sums in *context, a struct faced: the area of the face, the area projected
- * on the surface of the body's shape [m^2], and the projected area times the signed distance of the face from this
- * surface [m^3]. The face is normal to `axis`, outwards in the direction `side` (1 or -1), and has the area `area`
- * [m^2]. It is called by pressure_visit_faces for each face. */
+/* Adds one exposed face of particle i to three sums in *context, a struct faced: the area of the face, the area
+ * projected on the surface of the body's shape [m^2], and the projected area times the signed distance of the face from
+ * this surface [m^3]. The face is normal to `axis`, outwards in the direction `side` (1 or -1). area: area of the face
+ * [m^2]. pressure_visit_faces calls it for each face. */
 static void face_beside_shape(void *context, int32_t i, int axis, int side, real area)
 {
     struct faced *f = context;
@@ -194,8 +194,8 @@ static void say_pressed(const struct run *e, int which)
                off < 0 ? "below" : "above");
 }
 
-/* Computes the exact area of the face normal to axis b->face [m^2] of a body of scene s that is a box along the axes,
- * within the region of boundary b, and stores it in *area. Returns false if the body is no such box, or if no part of
+/* Computes *area, the exact area of a face of a body of scene s within the region of boundary b [m^2]: the face normal
+ * to axis b->face of a body that is a box along the axes. Returns false if the body is no such box, or if no part of
  * the face is in the region. */
 static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
 {
@@ -359,8 +359,8 @@ static bool is_held_along(const struct loads *loads, int d)
     return held;
 }
 
-/* Computes the net force along the axes with is_free[axis], at time t [s], of all loads on the particles p except those
- * proportional to mass such as gravity, and stores it in force[DIM_MAX] [N]. Returns the sum of the magnitudes of the
+/* Computes force[DIM_MAX], the net force of all loads on the particles p at time t [s], except those proportional to
+ * mass such as gravity [N]. Components along axes without is_free[axis] are 0. Returns the sum of the magnitudes of the
  * forces of the single loads [N]. */
 static real net_force(const struct loads *loads, const struct particles *p, const bool *is_free, real t, real *force)
 {

@@ -352,8 +352,8 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     uneven_list_add_narrow_part(list, &u, false);
 }
 
-/* Sets k->seen to 1 for the lattice cell number `cell` and all cells that are connected to it through cells with the
- * same number of particle rows k->rows, so that their neck is examined only once. */
+/* Marks a neck as examined: sets k->seen to 1 for the lattice cell number `cell` and all cells that are connected to it
+ * through cells with the same number of particle rows, k->rows. */
 static void neck_mark(struct necks *k, int64_t cell)
 {
     int64_t top = 0;

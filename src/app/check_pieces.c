@@ -17,10 +17,10 @@ static void mark_driven(const struct bond_source *source, const struct particles
         if (f->of[i] >= 0 && part->flag[i] & FLAG_DRIVEN) driven[f->of[i]] = true;
 }
 
-/* Prints the number of fragments f of body number `body`, the position of the second heaviest, whether a fragment lacks
- * a support if scene s is static, and whether contact keeps fragments that move apart. Prints nothing for a body in one
- * piece. driven[f->n]: true for fragments with a support. Particles without any bond are not fragments; a warning
- * reports them. */
+/* Prints about the fragments f of body number `body`: their number, the position of the second heaviest one, whether a
+ * fragment lacks a support if scene s is static, and whether fragments that touch pass through each other because
+ * contact within a body is off. Prints nothing for a body in one piece. driven[f->n]: true for fragments with a
+ * support. Particles without any bond are not fragments; a warning reports them. */
 static void say_body(const struct scene *s, const struct fragments *f, const bool *driven, int body)
 {
     int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;

@@ -15,8 +15,8 @@
 /* Returns true if the components of boundary b are given as numbers, none of them as a formula. */
 static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }
 
-/* Adds a hint to *to for each pressure of scene s that is negative, and for each pair of tractions on opposite faces
- * that point in the same direction along their normals. */
+/* Adds a hint to *to for each negative pressure of scene s, and for each pair of tractions on opposite faces that push
+ * the body in one direction along the axis of the faces. */
 static void hint_pushed(const struct scene *s, struct warnings *to)
 {
     for (int k = 0; k < s->boundaries; k++) {

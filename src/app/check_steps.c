@@ -107,8 +107,8 @@ void print_load_step_solver(const struct run *e)
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
 
-/* Writes a remark to `out` that the loads have a peak at time t [s], between two load steps of the scene s, with the
- * time of the peak and the smallest larger number of load steps with which a step ends at this time. */
+/* Writes a remark to `out` that the loads have a peak between two load steps of the scene s. The remark states the time
+ * t of the peak [s], and the smallest larger number of load steps with which a step ends at this time. */
 static void print_missed_peak(const struct scene *s, real t, FILE *out)
 {
     int number = s->steps.number + 1;

@@ -57,9 +57,9 @@ static void say_few_directions(const struct scene *s)
                s->horizon);
 }
 
-/* Prints the horizon of scene s, the horizon below which the softening law of material m reaches its strength, and the
- * horizon below which the lattice does not impede cracks. Except in 1D also prints the energy that cracks dissipate
- * beyond G_c. kappa: (critical stretch/onset stretch of softening)^2. */
+/* Prints three lengths for material m in scene s: the horizon, the horizon below which the stress reaches the strength
+ * of the softening law, and the horizon below which the lattice does not impede cracks. Except in 1D also prints the
+ * energy that cracks dissipate beyond G_c. kappa: (critical stretch/onset stretch of softening)^2. */
 static void say_horizons(const struct scene *s, const struct material *m, real kappa)
 {
     say_horizon(s, m);

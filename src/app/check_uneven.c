@@ -136,9 +136,9 @@ static struct length_unit unit_of_spacing(real spacing)
     return unit[k];
 }
 
-/* Prints to `out` the nearest smaller and the nearest larger spacing that divide the width of the narrow part u of
- * piece p and give this part the right number of lattice rows. Spacings are cut to six digits. If the present spacing
- * divides the width already, prints how the part can be moved to fit the lattice. */
+/* Prints to `out` the nearest smaller and the nearest larger spacing with which the narrow part u of piece p gets the
+ * right number of lattice rows: its width is then a whole number of spacings. Spacings are truncated to six digits. If
+ * the present spacing divides the width already, prints how the part can be moved to fit the lattice. */
 static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
 {
     const struct length_unit unit = unit_of_spacing(p->scene->spacing);

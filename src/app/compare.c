@@ -81,9 +81,9 @@ static double interval(const struct times *t)
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Finds the latest frame (output at one time) of run A for which run B has a frame at the same time, that is, within
- * SAME_TIME times the shorter of the mean intervals between frames of A and B. a, b: frames of A and B. Stores the
- * index of the frame of A in *i and of B in *j. Returns false if there is no such pair. */
+/* Finds the latest frame (output at one time) of run A for which run B has a frame at the same time. Times are the same
+ * if they differ by at most SAME_TIME times the shorter of the mean intervals between frames of A and B. a, b: frames
+ * of A and B. Stores the index of the frame of A in *i and of B in *j. Returns false if there is no such pair. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -228,8 +228,8 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
     print_fields(a, b);
 }
 
-/* Compares the last frames (outputs at one time) that both runs of p have at a common time, particle by particle, and
- * prints the differences, or the reason why frames are not compared. Returns FAILED, with a message, if frames cannot
+/* Compares the runs p particle by particle, in the last frames (outputs at one time) that both have at a common time.
+ * Prints the differences, or the reason why frames are not compared. Returns FAILED, with a message, if frames cannot
  * be read. */
 static status compare_frames(struct pair *p)
 {

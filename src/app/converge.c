@@ -27,7 +27,7 @@ struct converge_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-/* Reads the time that the study may take from `text`, the value of --budget, such as "10 min", into w->budget [s], and
+/* Reads the time that the study may take from `text`, the value of --budget, such as "10 min", into w->budget [s]. Also
  * sets w->finer, so that finer spacings use this time. Returns REFUSED unless it is a positive time. */
 static status budget_read(struct convergence_request *w, const char *text)
 {

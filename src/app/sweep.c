@@ -119,9 +119,9 @@ static void sweep_print(const struct study *s)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the results of all finished runs of study s, writes its table sweep.csv, draws its pictures and prints, if only
- * the random seed varies, the means of the results over its values. a: arguments of the sweep, with its keys. Returns
- * the first status that is not OK, else OK. */
+/* Reads the results of all finished runs of study s, writes its table sweep.csv and draws its pictures. If only the
+ * random seed varies, also prints the means of the results over the seeds. a: arguments of the sweep, with its keys.
+ * Returns the first status that is not OK, else OK. */
 static status sweep_collect(const struct study *s, const struct sweep_arguments *a)
 {
     struct study_table table;

@@ -48,10 +48,10 @@ status status_prepend_location(const char *location, status s)
 const char *status_message(void) { return message; }
 
 /* Returns the number of bytes, 1 to 3, of the character at c if a terminal would act on this character instead of
- * showing it; 0 for a character that is shown. left: number of bytes from c on, at least 1. Characters on which a
- * terminal acts are control characters (bytes below a blank, 127, and U+0080 to U+009F, in UTF-8 C2 80 to C2 9F), those
- * that change the direction of writing and those that end lines (U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069,
- * in UTF-8 E2 80 8E, and so on). */
+ * showing it; 0 for a character that is shown. left: number of bytes from c on, at least 1. A terminal acts on three
+ * groups of characters. Control characters are bytes below a blank, 127, and U+0080 to U+009F (in UTF-8 C2 80 to C2
+ * 9F). Characters that change the direction of writing or end lines are U+200E, U+200F, U+2028 to U+202E and U+2066 to
+ * U+2069 (in UTF-8 E2 80 8E, and so on). */
 static int harmful_bytes(const unsigned char *c, size_t left)
 {
     if (*c < ' ' || *c == 127) return 1;

@@ -19,10 +19,10 @@ static struct {
 
 static pthread_t maker; /* the thread that makes files and children */
 
-/* Handles the signal `number`, which ends the process: ends the child processes and waits for them, since they could
- * otherwise create their files again, removes the temporary files, and ends the process by the same signal. Only the
- * thread `maker` creates files and children. If the signal reaches another thread, it is forwarded to `maker`, which
- * would otherwise go on creating them. Calls only functions that are safe in a signal handler. */
+/* Handles the signal `number`, which ends the process. First ends the child processes and waits for them, since they
+ * could otherwise create their files again. Then removes the temporary files, and ends the process by the same signal.
+ * Only the thread `maker` creates files and children. If the signal reaches another thread, it is forwarded to `maker`,
+ * which would otherwise go on creating them. Calls only functions that are safe in a signal handler. */
 static void on_end(int number)
 {
     if (!pthread_equal(pthread_self(), maker)) {
@@ -40,8 +40,9 @@ static void on_end(int number)
 
 static const int ends[] = {SIGINT, SIGTERM, SIGHUP}; /* signals that end the process */
 
-/* At the first call, notes the calling thread as the one that creates files and child processes (`maker`), and installs
- * the handler on_end for every signal that would end the process by default. Later calls do nothing. */
+/* Prepares the cleaning up after signals at the first call; later calls do nothing. Records the calling thread as
+ * `maker`, the one that creates files and child processes, and installs the handler on_end for every signal that would
+ * end the process by default. */
 static void leavings_watch(void)
 {
     static bool watched;

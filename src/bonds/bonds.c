@@ -13,8 +13,8 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
-/* Returns true if particle i of p has a row (list of bonds) in the previous bonds `old` with bonds to all particles
- * within the cutoff, as rows of peridynamic particles have. Rows of material points have bonds to peridynamic
+/* Returns true if particle i of p has a complete row (list of bonds) in the previous bonds `old`, with bonds to all
+ * particles within the cutoff, as peridynamic particles have. Rows of material points have bonds to peridynamic
  * neighbours only. For a mirror image, the row of the particle that it mirrors is tested. s: list of the mirror images.
  */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
@@ -278,9 +278,8 @@ static void rows_pass(const struct rows_pass *pass)
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
 }
 
-/* Copies the blocks of eight rows (the bonds of eight particles) that are equal to previous ones from the previous
- * bonds (pass->maker.old) to the new ones (pass->b), and sets the member n of the latter to the number of directed
- * bonds of all blocks. */
+/* Copies those blocks of eight rows (the bonds of eight particles) that have not changed from the previous bonds,
+ * pass->maker.old, to the new ones, pass->b. Then sets pass->b->n, the number of directed bonds of all blocks. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;

@@ -36,10 +36,10 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts in c->n the intact bonds of column k (the k-th bonds) of block g of eight rows of b (the bonds of eight
- * particles of p) to mirror images across clamped planes (planes at which all motion is prevented). If c->entry is not
- * NULL, also stores index, both particles, inverse length and weight of each of these bonds. is[images]: 1 for images
- * across clamped planes. */
+/* Counts in c->n the intact bonds to mirror images across clamped planes (planes at which all motion is prevented) in
+ * column k, the k-th bonds, of block g of eight rows of b (the bonds of eight particles). If c->entry is not NULL, also
+ * stores index, both particles, inverse length and weight of each of these bonds. p: particles; is[images]: 1 for
+ * images across clamped planes. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -55,10 +55,10 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Counts in c->n the intact bonds of all blocks of eight rows (the bonds of eight particles of p) of b to mirror images
- * across clamped planes (planes at which all motion is prevented), and stores them if c->entry is not NULL. Images have
- * indices behind those of the body, so that one comparison excludes most columns (each with eight bonds). is[images]: 1
- * for images across clamped planes. */
+/* Counts in c->n the intact bonds of b to mirror images across clamped planes (planes at which all motion is
+ * prevented), and stores these bonds if c->entry is not NULL. Images have indices behind those of the particles, so
+ * that one comparison excludes most columns (each with eight bonds). p: particles; is[images]: 1 for images across
+ * clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;
@@ -91,11 +91,11 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Lists in c->end the reactions of bonds between a particle of p and a mirror image across a clamped plane (at which
- * all motion is prevented), sorted by the particle on which they act. In state-based models the particle already has
- * its half of the bond force; the other half is one reaction, on the particle that the image mirrors. In bond-based
- * models the particle has both halves; two reactions move one half from there to the particle that the image mirrors.
- * The bonds must be in c (bonds_note). s: list of the images. */
+/* Lists in c->end the reactions of bonds across clamped planes (at which all motion is prevented), sorted by the
+ * particle on which they act. Such a bond leads from a particle of p to a mirror image. In state-based models the
+ * particle already has its half of the bond force; the other half is one reaction, on the particle that the image
+ * mirrors. In bond-based models the particle has both halves; two reactions move one half from there to the particle
+ * that the image mirrors. The bonds must be in c (bonds_note). s: list of the images. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

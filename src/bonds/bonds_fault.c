@@ -18,9 +18,9 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* Checks block g of eight rows (the bonds of eight particles) of b, which stores no columns (the k-th bonds of all
- * eight) but uses a stencil (columns that many blocks share). Returns a constant text that names the first fault; NULL
- * if there is none. */
+/* Checks block g of eight rows of b (the bonds of eight particles), for blocks that use a stencil (columns that many
+ * blocks share) and store no columns of their own. Returns a constant text that names the first fault; NULL if there is
+ * none. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "a block of eight rows stores no columns and has no stencil";

@@ -168,10 +168,10 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Returns the stretch of the bond between the particles of p with the indices `particle` and `other_particle` above
- * which the vector test reports the bond to the exact test [1]: the stretch at which the bond breaks or begins to
- * soften, reduced by TRIGGER_MARGIN; half of it if the strength depends on the strain rate, which is measured from
- * there on. source: has the critical stretches. */
+/* Returns the stretch of a bond above which the vector test reports the bond to the exact test [1]. It is the stretch
+ * at which the bond breaks or begins to soften, reduced by TRIGGER_MARGIN. If the strength depends on the strain rate,
+ * it is half of that, because the rate is measured from there on. particle, other_particle: indices of both particles
+ * in p; source: has the critical stretches. */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle)
 {
@@ -181,9 +181,9 @@ real bond_stretch_that_triggers_exact_test(const struct bond_source *source, con
     return limit->softening && limit->softening[pair].rate ? RATE_FROM * onset : onset;
 }
 
-/* Computes inverse lengths and weights of the bonds from particle i of p to the row->n neighbours in row->nbr, and
- * row->trigger, the smallest stretch at which one of these bonds must be tested for breaking or softening [1]. A bond
- * that a pre-crack cuts gets weight 0 and a negative inverse length. s: data from which bonds are made; pairs:
+/* Computes inverse lengths and weights of the bonds from particle i of p to the row->n neighbours in row->nbr. Also
+ * computes row->trigger, the smallest stretch at which one of these bonds must be tested for breaking or softening [1].
+ * A bond that a pre-crack cuts gets weight 0 and a negative inverse length. s: data from which bonds are made; pairs:
  * stiffness by pair of materials, divided by that of material 0. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
@@ -234,8 +234,8 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
-/* Copies the neighbours of a particle to `row` from the previous bonds `old`, in which the particle had row old_row,
- * which has not changed. Sets row->n. */
+/* Copies the neighbours of a particle to `row` and sets row->n, their number. They are those of row old_row of the
+ * previous bonds `old`, the row of this particle, which has not changed. */
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
@@ -247,8 +247,8 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
     }
 }
 
-/* Copies lengths, weights and plastic state of the bonds of a particle to `row` from the previous bonds `old`, in which
- * the particle had row old_row, which has not changed. */
+/* Copies lengths, weights and plastic state of the bonds of a particle to `row`. They are those of row old_row of the
+ * previous bonds `old`, the row of this particle, which has not changed. */
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];

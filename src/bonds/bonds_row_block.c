@@ -82,9 +82,9 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
 }
 
 /* Returns true if column k (the k-th bonds) of a block of eight rows (the bonds of eight particles) must contain the
- * bond number `used` of row l (0 to 7), the first bond of this row that has no column yet. by_offset: true if all bonds
- * of column k have the index distance room->offset[k] (neighbour minus particle), false if a column takes any bond.
- * particle[8]: particles of the rows. */
+ * next bond of row l (0 to 7): number `used` of the row, the first one that has no column yet. by_offset: true if all
+ * bonds of column k have the index distance room->offset[k] (neighbour minus particle), false if a column takes any
+ * bond. particle[8]: particles of the rows. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {

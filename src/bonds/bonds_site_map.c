@@ -73,9 +73,8 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
 }
 
 /* Enters all particles and mirror images of p in the array l->at of the map of lattice sites: their index plus 1 (0: no
- * particle). Returns false if the map cannot be used, because a particle or image is off the lattice or shares its site
- * with another, because there are several bodies, or because the particles are not numbered in the order of their
- * sites. */
+ * particle). Returns false if the map cannot be used: a particle or image is off the lattice or shares its site with
+ * another one, p has several bodies, or the particles are not numbered in the order of their sites. */
 static bool sites_fill(struct site_map *l, const struct particles *p)
 {
     bool regular = true;

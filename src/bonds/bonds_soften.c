@@ -97,9 +97,9 @@ void bond_row_set_softening_state(struct row *row, const struct row_maker *maker
     }
 }
 
-/* Copies the softening of a bond from the previous bonds `old`, in state-based models together with its weight, to the
- * bond of b from the particle of row `row` to particle nbr. q: index of the bond in the arrays of `old`. Does nothing
- * if b has no such bond. */
+/* Copies the softening of a bond from the previous bonds `old` to the bond of b from the particle of row `row` to
+ * particle nbr, in state-based models together with its weight. q: index of the bond in the arrays of `old`. Does
+ * nothing if b has no such bond. */
 static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struct bonds *old, int64_t q)
 {
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {

@@ -38,8 +38,7 @@ void stencil_cache_free(struct stencil_cache *t)
 }
 
 /* Returns true if two sets of eight consecutive particles have neighbours at the same index distances (neighbour minus
- * particle), and each particle of one set lacks the same neighbours as the corresponding particle of the other. a, b:
- * bonds of both sets. */
+ * particle), and corresponding particles of both sets lack the same neighbours. a, b: bonds of both sets. */
 static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
 {
     return a->n == b->n && arrays_equal(a->offset, b->offset, a->n, sizeof *a->offset) &&

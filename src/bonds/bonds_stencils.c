@@ -97,8 +97,8 @@ static bool stencils_equal(const struct stencil *a, const struct stencil *b)
            arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
-/* Returns a hash of the stencil p (columns that many blocks of eight rows share), from 0 to HASHES - 1, over its index
- * distances and its first weight per column (Fowler, Noll and Vo). */
+/* Returns a hash of the stencil p (columns of bonds that many blocks of eight rows share), from 0 to HASHES - 1
+ * (Fowler, Noll and Vo). It is computed from the index distance and the first weight of each column. */
 static int hash_of(const struct stencil *p)
 {
     const uint64_t prime = UINT64_C(0x100000001b3);
@@ -154,8 +154,9 @@ bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t 
 
 /* ---- bond by bond ------------------------------------------------------------------------------------------------ */
 
-/* Reads neighbours, inverse lengths and weights of column k of a block of eight rows of b (the k-th bonds of eight
- * particles) into *copy, from the stencil if the block stores no columns. row_block: index of the block. */
+/* Reads column k (the k-th bonds of eight particles) of a block of eight rows of b into *copy: neighbours, inverse
+ * lengths and weights. They are taken from the stencil if the block stores no columns. row_block: index of the block.
+ */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t k)
 {
     const int64_t column = b->column[row_block] + k;
@@ -173,10 +174,10 @@ void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *
         copy->nbr[l] = copy->first + l, copy->inverse_length[l] = copy->w[l] == 0 ? 0 : of->inverse_length;
 }
 
-/* Returns true if bonds b of block number row_block of eight rows may lead to mirror images of p; false only if none
- * does. Images follow all particles, and the columns of a stencil (one bond of each of the eight particles) ascend by
- * their neighbours, up to the padding of less than eight lanes: no column leads to an image if the last one ends two
- * blocks before the images. */
+/* Returns true if block number row_block of eight rows of b (the bonds of eight particles) may have bonds to mirror
+ * images of p; false only if it has none. Images have indices behind those of all particles. The columns of a stencil
+ * (each with one bond of each of the eight particles) ascend by their neighbours, up to the padding of less than eight
+ * lanes. So no column leads to an image if the last one ends two blocks before the images. */
 bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = bond_row_block_column_count(b, row_block);
@@ -209,8 +210,8 @@ void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number,
     bond_column_update_common_properties(b, column_number);
 }
 
-/* Writes the columns (k-th bonds of all rows) of block `row_block` of eight rows (the bonds of eight particles), which
- * so far only its stencil defines, to the column arrays of b. */
+/* Stores the columns (k-th bonds of all rows) of block `row_block` of eight rows (the bonds of eight particles) in the
+ * arrays of b. So far the stencil of the block alone defined them. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

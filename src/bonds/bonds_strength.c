@@ -120,10 +120,10 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     }
 }
 
-/* Computes sum[8], the moment matrices of the bonds of each particle of block g of eight rows (the bonds of eight
- * particles, struct moments), from which the strains of the particles follow. The block must have a stencil: its bonds
- * are intact and have not begun to soften, and all bonds of a column (the k-th bonds of the eight) have one index
- * distance (neighbour minus particle). e: bonds and particles; dim: number of dimensions, known at compile time. */
+/* Computes sum[8], the moment matrices (struct moments) of the bonds of each particle of block g of eight rows (the
+ * bonds of eight particles), from which the strains of the particles follow. The block must have a stencil. Its bonds
+ * are then intact and have not begun to soften, and the k-th bonds of the eight particles have one index distance
+ * (neighbour minus particle). e: bonds and particles; dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -229,8 +229,8 @@ static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distanc
     }
 }
 
-/* Computes the mean of the strains of row `row` (bonds of one particle) and of the rows of all neighbours to which its
- * intact bonds lead, from e->strain[0] into e->strain[1]. */
+/* Computes the mean of the strains, e->strain[0], of row `row` (bonds of one particle) and of the rows of all
+ * neighbours to which its intact bonds lead. Stores the mean in e->strain[1]. */
 static void row_average(struct evaluation *e, int64_t row)
 {
     const int dim = e->p->dim, count = symmetric_component_count(dim);
@@ -319,10 +319,10 @@ static bool row_can_start(const struct evaluation *e, int64_t row)
     return false;
 }
 
-/* Computes the strains of those rows of block g of eight rows (the bonds of eight particles) whose material has a
- * strength surface (failure criterion in stress) and in which a bond can still begin to soften. For those whose stress
- * is at least the fraction `least` of the stress on the surface [1], sets e->distance to 1 and e->share to this ratio.
- * Returns true if there is such a row. */
+/* Computes the strains of those particles of block g of eight rows (the bonds of eight particles) whose material has a
+ * strength surface (failure criterion in stress) and that have a bond which can still begin to soften. If the stress of
+ * a particle is at least the fraction `least` [1] of the stress on the surface, sets its e->distance to 1 and its
+ * e->share to this ratio. Returns true if there is such a particle. */
 static bool row_block_find(struct evaluation *e, int64_t g, real least)
 {
     const struct bonds *b = e->b;
@@ -340,9 +340,10 @@ static bool row_block_find(struct evaluation *e, int64_t g, real least)
     return any;
 }
 
-/* Sets e->distance to 1 and e->share for all rows in which a bond can still begin to soften and whose stress is at
- * least the fraction `least` of that on the strength surface (failure criterion in stress) [1]. The stress follows from
- * the row's own strain, not averaged over neighbours. Returns true if there is such a row. */
+/* Finds the rows (bonds of one particle) in which a bond can still begin to soften and whose stress is at least the
+ * fraction `least` [1] of the stress on the strength surface (failure criterion in stress). For these rows, sets
+ * e->distance to 1 and e->share to the ratio of both stresses. The stress follows from the particle's own strain, not
+ * averaged over neighbours. Returns true if there is such a row. */
 static bool find_candidates(struct evaluation *e, real least)
 {
     bool any = false;
@@ -352,10 +353,10 @@ static bool find_candidates(struct evaluation *e, real least)
     return any;
 }
 
-/* For all rows with e->distance 1, reduces e->share to the ratio of the stress of their averaged strain to that on the
- * strength surface (failure criterion in stress), if this is smaller. Strains are averaged over the neighbourhoods as
- * many times as the material requires, at most e->means times. Strains of all rows at most e->means bonds away are
- * computed for these averages. Call it after find_candidates. */
+/* Reduces e->share for all rows (bonds of one particle) with e->distance 1 to the ratio of the averaged stress to the
+ * stress on the strength surface (failure criterion in stress), if this is smaller. The averaged stress follows from
+ * strains that are averaged over the neighbourhoods as many times as the material requires, at most e->means times. For
+ * these averages the strains of all rows at most e->means bonds away are computed. Call it after find_candidates. */
 static void evaluate_surfaces(struct evaluation *e)
 {
     const struct bonds *b = e->b;
@@ -416,9 +417,9 @@ static real start_of(const struct evaluation *e, int32_t j)
 }
 
 /* Returns the softening state of a bond of particle i whose softening begins because the stress has reached a strength
- * surface. least: lower limit of the onset from start_of [1]. The onset is the larger of the present stretch of the
- * bond and s, where s is the smaller of `least` and of the stretch at which the bond would begin to soften by itself.
- * e: materials and critical stretches. */
+ * surface. The onset is the present stretch of the bond, but at least the smaller of `least` and the stretch at which
+ * the bond would begin to soften without the surface. least: lower limit of the onset from start_of [1]; e: materials
+ * and critical stretches. */
 static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
 {
     const struct particles *p = e->p;
@@ -434,9 +435,10 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
     return (struct bond_softness){most, (float)onset, (float)end, 0};
 }
 
-/* Starts the softening of the bonds of block g of eight rows (the bonds of eight particles) of b that are intact, have
- * not begun to soften, and lead from or to a particle on its strength surface (failure criterion in stress). Material
- * points of p with such bonds are marked for conversion. e: particles that have reached their strength surface. */
+/* Starts the softening of bonds in block g of eight rows of b (the bonds of eight particles) that lead from or to a
+ * particle on its strength surface (failure criterion in stress). Bonds that are broken or soften already are left
+ * unchanged. Material points of p with such bonds are marked for conversion. e: particles that have reached their
+ * strength surface. */
 static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -467,9 +469,9 @@ real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct 
     return most;
 }
 
-/* Marks by 1 in touched[row_blocks] the block of eight rows (the bonds of eight particles) of row `row`, whose particle
- * is on its strength surface, and those of all neighbours to which its bonds lead. e: the bonds. Several threads may
- * mark one block. */
+/* Marks in touched[row_blocks] by 1 the block of eight rows (the bonds of eight particles) of row `row`, whose particle
+ * is on its strength surface, and the blocks of all neighbours to which the bonds of this row lead. e: the bonds.
+ * Several threads may mark one block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

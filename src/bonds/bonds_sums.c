@@ -185,8 +185,8 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles (of p) in block g of eight
- * rows of b (the bonds of eight particles) [1/s^2] from its stored bonds. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 [1/s^2] of the particles of p in block g of
+ * eight rows (the bonds of eight particles). It follows from the bonds of the block that are stored in b. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];

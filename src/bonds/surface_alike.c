@@ -202,8 +202,8 @@ static int64_t root_of(int64_t *parent, int64_t k)
     return k;
 }
 
-/* Joins the trees of the elements `one` and `other` in the union-find forest `parent`; an element with parent -1 is in
- * no tree yet, and becomes one of its own before. */
+/* Joins the trees of the elements `one` and `other` in the union-find forest `parent`; an element with parent -1, which
+ * is in no tree yet, first becomes a tree of its own. */
 static void groups_join(int64_t *parent, int64_t one, int64_t other)
 {
     if (parent[one] < 0) parent[one] = one;

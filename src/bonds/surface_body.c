@@ -202,8 +202,8 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Sets near[i] to 1 if i is a particle of the body of b, not a mirror image. near[particles]: marks. Several threads
- * may set the same entry. */
+/* Sets near[i] to 1, which marks a particle near a face, if i is a particle of b->p and not a mirror image.
+ * near[particles]: marks. Several threads may set the same entry. */
 static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
 {
     if (i >= b->p->n) return;

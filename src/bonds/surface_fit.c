@@ -82,8 +82,8 @@ struct moments {
     real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };
 
-/* Returns component abcd of the fourth moment M of a full neighbourhood (the sum of w r nnnn over its bonds with weight
- * w, length r and direction n), divided by M_1111 [1]; from m. a, b, c, d: axes, from 0. */
+/* Returns component abcd of the fourth moment M of a full neighbourhood, divided by M_1111 [1]. M is the sum of w r
+ * nnnn over the bonds, with weight w, length r and direction n. m: has M; a, b, c, d: axes, from 0. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
@@ -114,8 +114,8 @@ static void strains_make(struct moments *m)
                     }
 }
 
-/* Computes in m the moments of the bond at each lattice offset of o, the third w nnn and the fourth w r nnnn (direction
- * n, weight w, length r), and the fourth moment M of a full neighbourhood, all divided by M_1111. Then computes the
+/* Computes in m, all divided by M_1111: for the bond at each lattice offset of o the third moment w nnn and the fourth
+ * moment w r nnnn (direction n, weight w, length r), and the fourth moment M of a full neighbourhood. Then computes the
  * basis of strains. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
@@ -219,10 +219,10 @@ struct class_goal {
     real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
 };
 
-/* Adds face area, dipole (difference between the first layers behind a face) and N (x) N (N: unit normal of faces
- * nearby) of a particle, reflected across the axes in `mirrors` (one bit each) and times `share`, to *to, the goal of
- * its class of particles with equal surroundings. f: these values for all particles; dim: number of dimensions; t:
- * index of the particle among those near faces. */
+/* Adds three properties of a particle, times `share`, to *to, the goal of its class of particles with equal
+ * surroundings: face area, dipole (difference between the first layers behind a face) and N (x) N (N: unit normal of
+ * faces nearby). They are reflected across the axes in `mirrors` (one bit each) before. f: these values for all
+ * particles; dim: number of dimensions; t: index of the particle among those near faces. */
 static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
 {
@@ -234,9 +234,10 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
     }
 }
 
-/* Computes goal[classes], 0 before: the means of face area, dipole (difference between the first layers behind a face)
- * and product of face normals N (x) N over the particles of each class (particles with equal surroundings). dim: number
- * of dimensions; b: particles near faces; f: values of each particle; a: classes. */
+/* Computes goal[classes], the means of three properties over the particles of each class (particles with equal
+ * surroundings): face area, dipole (difference between the first layers behind a face) and product of face normals N
+ * (x) N. goal must be 0 before. dim: number of dimensions; b: particles near faces; f: values of each particle; a:
+ * classes. */
 static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {

@@ -126,9 +126,10 @@ static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
 }
 
-/* Computes d->value[classes, offsets]: for each bond of each class (particles with equal surroundings) the scalar
- * product of its moments (tensors formed of its direction) and the part of the vector x[classes, moments] that belongs
- * to the class. changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
+/* Computes d->value[classes, offsets], a number for each bond of each class (particles with equal surroundings): the
+ * scalar product of the moments of the bond (tensors formed of its direction) and the part of the vector x[classes,
+ * moments] that belongs to the class. changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped;
+ * NULL if none is. */
 static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -259,10 +260,10 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of the bond at lattice offset number k in the diagonal block that the preconditioner has for class
- * number `class` (particles with equal surroundings): n/prior, or 0 if the factor of the bond is at a bound or fixed.
- * d: state of the solver; n: number of bonds of the class that share this factor, which are mirror images of each
- * other. The weight is exact for multipliers with the symmetry of the class. */
+/* Returns the weight of the bond at lattice offset number k in the diagonal block of class number `class` (particles
+ * with equal surroundings) of the preconditioner. It is n/prior, where n bonds of the class, mirror images of each
+ * other, have the factor of this bond, or 0 if the factor is at a bound or fixed. d: state of the solver. The weight is
+ * exact for multipliers with the symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
     const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
@@ -298,9 +299,8 @@ static void block_make(const struct descent *d, int32_t class)
     for (int at = 0; at < width * (width + 1) / 2; at++) all[at][class % TOGETHER] = block[at];
 }
 
-/* Returns true if the factor of a bond of class number `class` (particles with equal surroundings) has, in d, reached
- * or left one of its bounds since the last linear system was set up, so that the block of the class must be
- * recomputed. */
+/* Returns true if the block of class number `class` (particles with equal surroundings) in the preconditioner must be
+ * recomputed: a factor of one of its bonds has reached or left a bound since the last linear system of d was set up. */
 static bool class_turned(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -342,8 +342,8 @@ static void system_make(struct descent *d)
     d->systems++;
 }
 
-/* Computes d->weighed = B^-1 d->left, both [classes, moments], where d->left is the residual of the linear system and B
- * its preconditioner, which has the blocks of the classes (particles with equal surroundings) on its diagonal. */
+/* Computes d->weighed = B^-1 d->left, both [classes, moments]. d->left is the residual of the linear system. B is its
+ * preconditioner: a block-diagonal matrix with one block for each class (particles with equal surroundings). */
 static void left_weigh(struct descent *d)
 {
     const int32_t classes = d->fit->alike->classes;
@@ -386,9 +386,9 @@ static void step_solve(struct descent *d, real share)
 }
 
 /* Moves the multipliers of the dual problem along d->step, and updates the factors of bonds and the residual. The
- * residual is the gradient of a convex function. If the slope of this function at the end of the step is positive and
- * more than STEEP times the absolute slope at the start, the step is shortened and tried again, at most SHORTENINGS
- * times. */
+ * residual is the gradient of a convex function. The step is too long if the slope of this function at its end is
+ * positive and more than STEEP times the absolute slope at its start. It is then shortened and tried again, at most
+ * SHORTENINGS times. */
 static void step_take(struct descent *d)
 {
     const real slope = inner(d->n, d->residual, d->step);

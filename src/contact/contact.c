@@ -12,10 +12,10 @@
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
 /* Initialises the contact c of a run; pairs in contact are searched later. between: what may come into contact; law:
- * form, contact distance and friction, other members are ignored. The stiffness of a contact follows from the materials
- * in `source` (data from which bonds are made) times stiffness_factor [1]. body_shapes[bodies]: shape of each body,
- * which gives the height of the surface above its particles; rigid[rigid_body_count]: rigid bodies. `body_shapes` and
- * `rigid` are kept by reference and must outlive c. Release c with contact_free. */
+ * form, contact distance and friction; its other members are ignored. The stiffness of a contact follows from the
+ * materials in `source` (data from which bonds are made) times stiffness_factor [1]. body_shapes[bodies]: shape of each
+ * body, from which the height of its surface above its particles follows; rigid[rigid_body_count]: rigid bodies.
+ * `body_shapes` and `rigid` are kept by reference and must outlive c. Release c with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
                   int rigid_body_count)
@@ -88,15 +88,15 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Returns the critical time step [s] of particles p that are held by bonds and pushed by contact c; INFINITY if contact
- * is not possible. bonds_time_step: critical time step of the bonds alone [s]; materials: array of the materials. The
- * step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact are added.
- * Bonds: such a particle has half of the bonds of an inner one, so that the square of 2/bonds_time_step counts half.
- * Contact: two particles in contact with stiffness k have the squared frequency 2 k/mass. The normal stiffness of all
- * contacts of one particle is 1 k in 1D, 1.5 k in 2D and 2 k in 3D (1, 2 or 3 opposite particles, at angles of at least
- * 60 degrees to the face). With the contact distance of LAMMPS, full neighbourhoods and contact with all 2, 8 or 26
- * neighbours are assumed instead. Rubble has up to eight contacts per particle and needs 0.61 of the bonds' critical
- * step in 2D, which the safety factor 0.5 for breaking bonds covers. */
+/* Returns the critical time step of particles p that are joined by bonds and pushed by contact c [s]; INFINITY if
+ * contact is not possible. bonds_time_step: critical time step of the bonds alone [s]; materials: array of the
+ * materials. The step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact
+ * are added. Bonds: such a particle has half of the bonds of an inner one, so that the square of 2/bonds_time_step
+ * counts half. Contact: two particles in contact with stiffness k have the squared frequency 2 k/mass. The normal
+ * stiffness of all contacts of one particle is 1 k in 1D, 1.5 k in 2D and 2 k in 3D (1, 2 or 3 opposite particles, at
+ * angles of at least 60 degrees to the face). With the contact distance of LAMMPS, full neighbourhoods and contact with
+ * all 2, 8 or 26 neighbours are assumed instead. Rubble has up to eight contacts per particle and needs 0.61 of the
+ * bonds' critical step in 2D; the safety factor 0.5 for breaking bonds is below that. */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,
                                 real bonds_time_step)
 {

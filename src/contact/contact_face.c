@@ -52,7 +52,7 @@ void contact_density_profile_make(struct contact_profile *table, int dim)
 }
 
 /* Returns the height of a point above the layer of particles of a face [spacings], from the density of the face at this
- * point (number of particles nearby, weighted by a kernel). profile: table of heights over densities, interpolated by
+ * point (number of particles nearby, weighted by a kernel). profile: table of heights by densities, interpolated by
  * cubics; linear for densities above its range and constant below. *slope: receives the derivative of the height by the
  * density. */
 static real table_depth(const struct contact_profile *profile, real density, real *slope)
@@ -95,9 +95,9 @@ struct face_field {
     real density, mean;
 };
 
-/* Computes the density of the faces around the particle of row `row` of the contact list c (number of particles of its
- * pairs, weighted by a kernel of the distance), and the weighted mean of the rises of these particles. The rise of a
- * particle is the height of the body's surface above the particle minus 1/2 spacing. place[dim][particles]: present or
+/* Computes two sums over the particles of the pairs of row `row` of the contact list c, weighted by a kernel of the
+ * distance: the density of the faces around the particle of the row, and the mean of the rises. (The rise of a particle
+ * is the height of the body's surface above the particle minus 1/2 spacing.) place[dim][particles]: present or
  * reference positions of the particles p [m]. */
 static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
                                        int64_t row)

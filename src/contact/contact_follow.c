@@ -80,9 +80,9 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
-/* Marks the particles on which contact forces may act as loaded in the loads l, and the blocks of eight rows of their
- * bonds (rows of eight particles stored together) in b as active. They are then moved after the contact forces are
- * known. c: contact, whose rows have been marked; p: particles. */
+/* Prepares the particles on which contact forces may act to be moved after these forces are known: marks them as loaded
+ * in the loads l, and marks the blocks of b that have their bonds (eight rows, the bonds of eight particles) as active.
+ * c: contact, whose rows have been marked; p: particles. */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

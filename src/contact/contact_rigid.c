@@ -162,9 +162,9 @@ real contact_patch_bounding_box_diagonal(const struct contact *c, const struct p
     return sqrt(width2);
 }
 
-/* Updates the energy error that time integration has made in the contact of rigid body number `body` with particle q of
- * the list of particles near it (c->near, indices in p), and the small force that compensates the error. Must be called
- * once per time step. */
+/* Updates the correction of energy in the contact of rigid body number `body` with particle q of the list of particles
+ * near it, c->near (indices in p): the energy error that time integration has made so far, and the small force that
+ * compensates it. Must be called once per time step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];

@@ -74,9 +74,9 @@ static real contact_spacing(const struct contact_law *law, const struct particle
 }
 
 /* Returns the rise at particle i of p: the height of the surface of the body's shape (law->shape) above the particle,
- * minus 1/2 [spacings], at least -RISE_MOST. It is 0 on a lattice that fits the shape, and is set to 0 for particles
- * deep inside the shape, which are at faces that cracks have made, and for bodies without a shape. size: spacing of the
- * particle [m]. */
+ * minus 1/2 [spacings], at least -RISE_MOST. It is 0 on a lattice that fits the shape. It is set to 0 for bodies
+ * without a shape, and for particles deep inside the shape, which are at faces of cracks. size: spacing of the particle
+ * [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];
@@ -106,8 +106,8 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
     }
 }
 
-/* Lists in c->particle the peridynamic particles of p near a face, in ascending order, then their mirror images, and
- * stores the present positions of all of them in c->at. A particle is near a face if the volume of its bonded
+/* Lists in c->particle the peridynamic particles of p near a face, in ascending order, and then their mirror images.
+ * Stores the present positions of all of them in c->at. A particle is near a face if the volume of its bonded
  * neighbours in b is less than a share of that of the complete neighbourhood f. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
@@ -181,8 +181,8 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     }
 }
 
-/* Converts c->first[row + 1], for all rows of the contact list c, from the number of pairs of row `row` to the end of
- * these pairs in the array c->other, and allocates this array. */
+/* Converts c->first[row + 1], for all rows of the contact list c, from the number of pairs of row `row` to the index in
+ * c->other behind the last of these pairs, and allocates c->other. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -308,9 +308,9 @@ static real largest_displacement(const struct contact *c, const struct particles
     return sqrt(far2);
 }
 
-/* Returns true if a particle of the contact list c or a rigid body has moved by half the margin of the list or more
- * since the last search, so that the list may lack pairs that come into contact. Uses c->moved, the largest
- * displacement of a particle. */
+/* Returns true if the contact list c may lack pairs that come into contact, because a particle of the list or a rigid
+ * body has moved by half the margin of the list or more since the last search. Uses c->moved, the largest displacement
+ * of a particle. */
 static bool has_come_far(const struct contact *c)
 {
     const real far = 0.5 * contact_list_margin(c);

@@ -67,7 +67,7 @@ static int64_t mark_row(struct contact *c, const struct particles *p, int64_t ro
 }
 
 /* Sets the forces that compensate energy errors of time integration (contact_balance.c) to 0 in all contacts of c,
- * those with rigid bodies included, because an equilibrium must not contain them. */
+ * those with rigid bodies included. An equilibrium must not contain such forces. */
 static void balances_rest(struct contact *c)
 {
     for (int64_t row = 0; row < c->rows && c->balance; row++) c->balance[row].drag = 0;

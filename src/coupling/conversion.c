@@ -148,9 +148,9 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
 }
 
 /* Updates positions and velocities of the converted particles `changed` (indices in p) and of all particles within the
- * cutoff (largest bond length) of these, before bonds between them are made. Each particle is updated once, so that
- * threads write different particles. sync: function that updates listed particles, or NULL if none needs it; source:
- * cutoff and mirror images; map: map from lattice sites to particles, or NULL to search for neighbours. */
+ * cutoff (largest bond length) of these. Must be called before bonds between them are made. Each particle is updated
+ * once, so that threads write different particles. sync: function that updates listed particles, or NULL if none needs
+ * it; source: cutoff and mirror images; map: map from lattice sites to particles, or NULL to search for neighbours. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

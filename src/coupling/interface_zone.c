@@ -50,9 +50,9 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the particles i with mark[i] = `as`, in ascending order, to r->particle, the members of the interface zone
- * (material points near peridynamic particles, and neighbours). slot[i]: receives the index of particle i among the
- * members; n: number of particles, length of mark and slot. */
+/* Appends the particles i with mark[i] = `as`, in ascending order, to r->particle, the list of members of the interface
+ * zone (material points near peridynamic particles, and neighbours). slot[i]: receives the index of particle i in the
+ * list; n: number of particles, length of mark and slot. */
 static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
@@ -74,11 +74,11 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the nearest neighbours of member k (a particle of p) of the interface zone r (material points near peridynamic
- * particles, and neighbours) with which damping acts. At least one of the two must be a material point of the zone, and
- * no pre-crack of s may separate them. mark, slot: as computed by members_make; to: receives the indices of these
- * neighbours in the list of members, or NULL to count them only; near: working memory. Returns the number of these
- * neighbours. */
+/* Finds the nearest neighbours with which damping acts on member k of the interface zone r (material points near
+ * peridynamic particles, and neighbours). At least one of the two must be a material point of the zone, and no
+ * pre-crack of s may separate them. p: particles, of which the members are some; mark, slot: as computed by
+ * members_make; to: receives the indices of these neighbours in the list of members, or NULL to count them only; near:
+ * working memory. Returns the number of these neighbours. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {

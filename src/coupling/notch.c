@@ -127,9 +127,8 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
 }
 
 /* Counts the particles of p that lose bonds by a crack, without those in the peridynamic zones around its edges. zone:
- * the crack and these zones; s: cells of the neighbour search. Returns the number of these particles (member
- * `particles`) and the number of those of them that are not points of a mesh, for which the crack cannot be a slit (a
- * gap of the mesh) (member `elsewhere`). */
+ * the crack and these zones; s: cells of the neighbour search. Returns in `particles` their number, and in `elsewhere`
+ * the number of those that are not points of a mesh, so that the crack cannot be a slit (a gap of the mesh) there. */
 static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;

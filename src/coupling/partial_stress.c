@@ -211,9 +211,9 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
     return largest > 0;
 }
 
-/* Returns the number of values that partial_stress stores for a point: those of the matrix M (share of the point's
- * stress that bonds carry), and for state-based models (s->modulus) also those of the tensor L (derivative of the mean
- * strain of the point's bonds by the strain of its cell). */
+/* Returns the number of values that partial_stress stores for a point. These are the entries of the matrix M (share of
+ * the point's stress that bonds carry) and, in state-based models (s->modulus), the components of the tensor L
+ * (derivative of the mean strain of the point's bonds by the strain of its cell). */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_component_count(dim);
@@ -303,12 +303,11 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 }
 
 /* Finds the material points of p whose partial stress must be recomputed because particles near them have been
- * converted to peridynamic ones or back, and stores these points in r. The partial stress of a point near bonds is the
- * part of its stress that remains without the part that the bonds b across its lattice cell carry. changed[n]: indices
- * of the converted particles, or NULL for all peridynamic ones. Also stores the rows (a row: the bonds of one particle)
- * whose bonds may cross the lattice cells of these points, unless `table` (stiffness that a bond of each lattice
- * direction adds to a cell) is valid for all particles, so that no rows are needed. s: cutoff of the bonds and cells
- * for the search of neighbours. Release r with renewal_free. */
+ * converted to peridynamic ones or back, and stores these points in r. The partial stress of a point is its stress
+ * without the part that the bonds b across its lattice cell carry. Also stores in r the rows (the bonds of one particle
+ * each) that may cross the cells of these points, unless `table` (stiffness that a bond of each lattice direction adds
+ * to a cell) is valid for all particles. changed[n]: indices of the converted particles, or NULL for all peridynamic
+ * ones; s: cutoff of the bonds and cells for the search of neighbours. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)

@@ -95,10 +95,9 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 
 /* ---- construction ------------------------------------------------------------------------------------------------ */
 
-/* Numbers all possible bond vectors on the lattice, up to the length `cutoff` [m], and stores their numbers in
- * t->vector, by the site to which a vector leads from the centre of the table; -1 for sites without a vector. Lists
- * these sites and the centre in t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST +
- * 1. */
+/* Numbers all possible bond vectors on the lattice, up to the length `cutoff` [m]. Stores the numbers in t->vector, by
+ * the site to which a vector leads from the centre of the table; -1 for sites without a vector. Lists these sites and
+ * the centre in t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -189,9 +188,9 @@ static void crossings_make(struct partial_table *t)
 }
 
 /* Computes t->tensor: the stiffness T (see partial_tensor_add_bond_contribution) that a single bond from the centre of
- * a cell gives to this cell if the whole bond is inside. There is one T for each direction of bonds and each part of
- * the bond's response to strain (struct response), with this part equal to 1 and the others to 0. s: states whether the
- * bonds rotate with the material. */
+ * a cell adds to this cell if the bond is inside it over its full length. There is one T for each direction of bonds
+ * and each part of the bond's response to strain (struct response), with this part equal to 1 and the others to 0. s:
+ * states whether the bonds rotate with the material. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);

@@ -250,11 +250,12 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* Computes the stress in the cell of particle i of p from all bonds that cross it, sigma = (1/V) sum l F (x) y, and the
- * derivative of this stress by a uniform strain, T = (1/V) sum k r l e e e e, in *to [Pa]. V: volume of the cell; l:
- * fraction of the bond inside the cell; F, y: force and present vector of the bond; k, r, e: its stiffness, reference
- * length and direction. In a uniform strain sigma equals the virial stress of the bonds of particle i, but it averages
- * a wave over only half the distance. source: law of the bonds and cells of the search; near: working memory. */
+/* Computes in *to the stress in the cell of particle i of p from all bonds that cross the cell, sigma = (1/V) sum l F
+ * (x) y, and the derivative of this stress by a uniform strain, T = (1/V) sum k r l e e e e [Pa]. V: volume of the
+ * cell; l: fraction of the bond inside the cell; F, y: force and present vector of the bond; k, r, e: its stiffness,
+ * reference length and direction. In a uniform strain sigma equals the virial stress of the bonds of particle i, but it
+ * averages a wave over only half the distance. source: law of the bonds and cells of the search; near: working memory.
+ */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {

@@ -33,9 +33,9 @@ static void closed_add(struct closed *to, int64_t i)
     if (to->n++ == 0) to->first = i;
 }
 
-/* Returns true if a void of v (gap in a body) is between particle i of p and another particle of the same body among
- * its neighbours `near`, so that the sides of the void face each other. Mirror images do not count: the gap between a
- * body and a plane of symmetry is no void of the body. */
+/* Returns true if a void of v (gap in a body) is between particle i of p and one of its neighbours `near` that belongs
+ * to the same body, so that the sides of the void face each other. Mirror images do not count: the gap between a body
+ * and a plane of symmetry is no void of the body. */
 static bool void_is_within_body(const struct voids *v, const struct particles *p, int64_t i,
                                 const struct neighbour_list *near)
 {

@@ -46,9 +46,9 @@ static int widest_spread(const struct boxed *list, int n, const struct bounds *b
     return widest;
 }
 
-/* Builds node number `at` of the tree t from the boxes list[n], and recursively its children, each from half of the
- * list, sorted by the middles along the axis of widest spread. *nodes: number of nodes so far, increased; box: all
- * boxes, which list[k].item refers to; dim: number of dimensions. */
+/* Builds node number `at` of the tree t from the boxes list[n], and recursively its two children. The list is sorted by
+ * the middles of the boxes along the axis of widest spread, and each child gets one half. *nodes: number of nodes so
+ * far, increased; box: all boxes, which list[k].item refers to; dim: number of dimensions. */
 static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct boxed *list, int n,
                         const struct bounds *box, int dim)
 {
@@ -87,8 +87,8 @@ void box_tree_free(struct box_tree *t)
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Appends node number `node` of the tree q->tree to the list of nodes that the search q still has to visit, with a
- * lower bound of the distance of its box from the search point q->X [m]. */
+/* Appends node number `node` of the tree q->tree to the list of nodes that the search q still has to visit, and stores
+ * a lower bound of the distance of its box from the search point q->X [m]. */
 static void box_wait(struct box_search *q, int32_t node)
 {
     const struct bounds *box = &q->tree->node[node].box;

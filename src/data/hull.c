@@ -49,9 +49,9 @@ static bool face_degenerate(const struct hull *s, const int32_t *face)
     return face[0] == face[1] || (s->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
 }
 
-/* Cancels faces of the surface s that coincide: of several faces with the same corners one remains, in the orientation
- * that is more frequent, or none if both orientations are equally frequent, as where two elements meet. Removes faces
- * with two equal corners. Counts in s->dropped the removed faces, except pairs of opposite orientation. */
+/* Cancels faces of the surface s that coincide. Of several faces with the same corners one remains, in the orientation
+ * that is more frequent; none remains if both orientations are equally frequent, as where two elements meet. Removes
+ * faces with two equal corners. Counts in s->dropped the removed faces, except pairs of opposite orientation. */
 static void faces_cancel(struct hull *s)
 {
     struct piece *piece = NEW("hull.pieces", s->faces, struct piece);
@@ -96,9 +96,8 @@ static int64_t sides_make(const struct hull *s, struct piece *side)
     return n;
 }
 
-/* Counts in s->open_edges the edges (in 2D end points) of the surface s that adjacent faces do not traverse equally
- * often in both directions, so that the surface has a hole there. Stores the middle of the first such edge in
- * s->open_at [m]. */
+/* Finds holes of the surface s: counts in s->open_edges the edges (in 2D end points) that adjacent faces do not
+ * traverse equally often in both directions, and stores the middle of the first such edge in s->open_at [m]. */
 static void find_open(struct hull *s)
 {
     struct piece *side = NEW("hull.pieces", s->faces * s->dim, struct piece);

@@ -55,9 +55,9 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < s->dim; d++) n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
 }
 
-/* Divides node number `at` of the tree of surface s at the median face along the longest edge of its box, and
- * recursively its children, down to nodes of at most LEAF faces. leaf[]: faces of the whole surface, which are sorted
- * into the order of the tree. */
+/* Divides node number `at` of the tree of surface s into two at the median face along the longest edge of its box, and
+ * its children in the same way, down to nodes of at most LEAF faces. leaf[]: faces of the whole surface, which are
+ * sorted into the order of the tree. */
 static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
 {
     static int (*const order[])(const void *, const void *) = {order_x, order_y, order_z};
@@ -111,8 +111,9 @@ struct angle_sum {
     int turns;
 };
 
-/* Adds the angle of the complex number x + i y, which need not be normalised, to *sum. The angle of 0 is 0. The code
- * has no branches, which would be slow for signs that alternate. */
+/* Adds the angle of the complex number x + i y, which need not be normalised, to *sum (a product of such numbers, with
+ * the number of full turns). The angle of 0 is 0. The code has no branches, which would be slow for signs that
+ * alternate. */
 static inline void angle_sum_add(struct angle_sum *sum, real x, real y)
 {
     const real a = sum->x, b = sum->y, u = a * x - b * y, v = a * y + b * x, size = fabs(u) + fabs(v);
@@ -145,9 +146,9 @@ static void face_winding(const struct hull *s, const int32_t *face, const real *
     angle_sum_add(sum, below, triple);
 }
 
-/* If X[dim] is farther from the centre of node n (a set of faces of surface s) than FAR times the radius of the node,
- * adds to *sum the winding number of its faces at X, replaced by their dipole (Barill et al. 2018, first order), and
- * returns true. Else adds nothing and returns false. */
+/* Adds to *sum the winding number at X[dim] of the faces of node n (a set of faces of surface s), replaced by their
+ * dipole (Barill et al. 2018, first order), and returns true. Only if X is farther from the centre of the node than FAR
+ * times its radius; otherwise adds nothing and returns false. */
 static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
 {
     real r2 = 0, radius2 = 0, along = 0;
@@ -291,8 +292,8 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
     return found;
 }
 
-/* Lists in face[NEAR_MOST] the numbers of the faces of surface s at most `reach` [m] from X[dim]. Returns how many
- * there are; -1 if there are more than NEAR_MOST. */
+/* Lists in face[NEAR_MOST] the numbers of the faces of surface s at most `reach` [m] from X[dim]. Returns the number of
+ * these faces; -1 if it is more than NEAR_MOST. */
 static int faces_within(const struct hull *s, const real *X, real reach, int32_t *face)
 {
     int32_t wait[DEEPEST];

@@ -23,10 +23,10 @@ real material_micro_modulus_of_discrete_family(const struct material *m, enum sp
     return factor[space_dim(space)] * m->bulk / family_sum;
 }
 
-/* Returns the micro-modulus c of bonds (force per stretch and squared volume) [N/m^6] of material m at which bonds and
- * continuum have equal energy densities under a uniform expansion, with the integral over the horizon in place of a sum
- * over neighbours. horizon: length of the longest bonds [m]; space: line, plane or solid; section: cross-section in 1D
- * [m^2], thickness in 2D [m], not used in 3D. */
+/* Returns the micro-modulus c of bonds (force per stretch and squared volume) [N/m^6] of material m. It follows from
+ * equal energy densities of bonds and continuum under a uniform expansion, where an integral over the horizon replaces
+ * the sum over neighbours. horizon: length of the longest bonds [m]; space: line, plane or solid; section:
+ * cross-section in 1D [m^2], thickness in 2D [m], not used in 3D. */
 real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {

@@ -85,8 +85,9 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* Checks at compile time that struct particles has as many pointers as the table has arrays, so that an array that is
- * added to the structure is not forgotten in the table. Each component of a vector or tensor has its own pointer. */
+/* Checks at compile time that the table has all arrays of struct particles, so that an added array is not forgotten:
+ * the structure must have as many pointers as the table has arrays. Each component of a vector or tensor has its own
+ * pointer. */
 _Static_assert(sizeof(struct particles) ==
                    offsetof(struct particles, X) + (5 * DIM_MAX + 54 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");

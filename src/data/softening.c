@@ -89,17 +89,17 @@ struct directions {
     const struct softening_model *model;
 };
 
-/* Returns the force of a softening bond at the stretch s, divided by its stiffness, its weight and s_0 [1], where s is
- * in units of s_0, the stretch at which softening begins. The force equals s up to s = 1, then follows the softening
- * curve of a, and is 0 where the curve has ended. */
+/* Returns the force of a softening bond at the stretch s, divided by its stiffness, its weight and s_0 [1]. s is in
+ * units of s_0, the stretch at which softening begins. The force equals s up to s = 1, then follows the softening curve
+ * of a, and is 0 where the curve has ended. */
 static real bond_tension(const struct directions *a, real s)
 {
     if (s <= 1) return s;
     return a->reach > 0 ? softening_curve_value(a->curve, (s - 1) / a->reach) : 0;
 }
 
-/* Returns the secant stiffness of a softening bond at the stretch s, divided by its initial stiffness [1], where s is
- * in units of s_0, the stretch at which softening begins. a: softening curve. */
+/* Returns the secant stiffness of a softening bond at the stretch s, divided by its initial stiffness [1]. s is in
+ * units of s_0, the stretch at which softening begins. a: softening curve. */
 static real bond_share(const struct directions *a, real s) { return s <= 1 ? 1 : bond_tension(a, s) / s; }
 
 /* Returns cos^2 of the angle between the axis of tension and direction number k, 0 to DIRECTIONS - 1, of the quadrature

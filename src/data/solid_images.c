@@ -120,9 +120,9 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
 }
 
 /* Returns the largest amount by which the level of solid s at a point can be below the distance of the point from the
- * bounding box of s [m]. (The level of a solid is <= 0 inside, see solid_level_set_value.) It is 0 for most solids, the
- * size of a voxel for voxel images, whose levels refer to voxel centres, and INFINITY for a surface with holes, for
- * which points far from it can count as inside. */
+ * bounding box of s [m]. (The level of a solid is <= 0 inside, see solid_level_set_value.) It is 0 for most solids. It
+ * is the size of a voxel for voxel images, because their levels refer to voxel centres. It is INFINITY for a surface
+ * with holes, because points far from such a surface can count as inside. */
 static real box_slack(const struct solid *s, int dim)
 {
     real slack = 0;
@@ -133,8 +133,8 @@ static real box_slack(const struct solid *s, int dim)
 }
 
 /* Computes *box, the bounding box of the copy of solid s with placement i (rotation and shift), or of all its copies if
- * i is NULL, enlarged by more than round-off and by box_slack, so that no point with a level <= 0 is outside. dim:
- * number of dimensions. */
+ * i is NULL. The box is enlarged by more than round-off and by box_slack, so that no point with a level <= 0 is
+ * outside. dim: number of dimensions. */
 static void placement_box(const struct solid *s, const struct placement *i, int dim, struct bounds *box)
 {
     const real slack = box_slack(s, s->kind == SOLID_EXTRUSION ? 2 : dim);

@@ -350,10 +350,10 @@ static void sort_few(int32_t *particle, uint16_t *inside, int32_t n)
 }
 
 /* Writes the points of block b (a box of cells) of o, by ascending cell and then by ascending index, to
- * o->next_particle from entry `to` on, and their cells to o->next_inside. They are merged from two lists of that order:
- * the points that have stayed in their cells, o->particle, and those that have come from other cells,
- * s->bucket[arrived[b]] to s->bucket[arrived[b + 1] - 1], whose cells s->sorted holds. Returns the number of cells with
- * points. */
+ * o->next_particle from entry `to` on, and their cells to o->next_inside. Merges two lists of that order: the points
+ * that have stayed in their cells (o->particle), and those that have come from other cells, which are
+ * s->bucket[arrived[b]] to s->bucket[arrived[b + 1] - 1] with their cells in s->sorted. Returns the number of cells
+ * with points. */
 static int32_t merge_block(struct transfer_order *o, const struct sorting *s, const int32_t *arrived, int b, int32_t to)
 {
     const int32_t from = o->block_start[b], end = o->block_start[b + 1], last = arrived[b + 1];
@@ -371,8 +371,8 @@ static int32_t merge_block(struct transfer_order *o, const struct sorting *s, co
     return cells;
 }
 
-/* Replaces the sequence of the points of o by that of o->next_particle, in which the blocks (boxes of cells) begin at
- * start[b], and clears the marks of points that have left their cells. */
+/* Replaces the list of the points of o by o->next_particle, in which block b (a box of cells) begins at start[b], and
+ * clears the marks of points that have left their cells. */
 static void take_next(struct transfer_order *o, const int32_t *start)
 {
     int32_t *const particle = o->particle;

@@ -72,8 +72,9 @@ static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
     return all;
 }
 
-/* Computes in f [m^2] the squared distance of each voxel of the padded grid (the image v with one more voxel on each
- * side) from the nearest voxel with f = 0, axis by axis. On entry f is 0 or infinite. */
+/* Replaces f, a value for each voxel of the padded grid (the image v with one more voxel on each side), by the squared
+ * distance of the voxel from the nearest voxel with f = 0 [m^2]. On entry f is 0 or infinite. The distances are
+ * computed axis by axis. */
 static void grid_distances(const struct voxels *v, float *f)
 {
     int64_t n[DIM_MAX], stride = 1, all = padded(v, n);

@@ -8,8 +8,8 @@
 #include "step/report.h"
 #include "step/step.h"
 
-/* Returns true if scene s requires a reference run, which is made with material points alone: it has a PULSE probe and
- * its method is not material points alone. */
+/* Returns true if scene s requires a reference run, in which all particles are material points: it has a probe of kind
+ * PULSE (reflected and transmitted part of a wave packet at an interface) and a method other than mpm. */
 static bool wanted(const struct scene *s)
 {
     for (int k = 0; k < s->probes; k++)

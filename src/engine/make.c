@@ -73,11 +73,11 @@ static void make_softening(const struct scene *s, struct material_tables *tables
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
 }
 
-/* Computes the yield stretch s_y = sigma_y/E and the hardening H_b/k_e = H/E of bonds for each pair of materials of
- * scene s, with yield stress sigma_y, Young's modulus E and plastic modulus H of that material which yields first.
- * (H_b: hardening modulus, k_e: elastic stiffness of a bond.) A bar of one material then has the uniaxial stress-strain
- * curve of that material. The tables [materials][materials] are allocated in *tables; *source refers to them. Does
- * nothing if no material yields. */
+/* Computes two properties of bonds for each pair of materials of scene s: the yield stretch s_y = sigma_y/E, and the
+ * hardening H_b/k_e = H/E (hardening modulus of a bond divided by its elastic stiffness). sigma_y, E and H are yield
+ * stress, Young's modulus and plastic modulus of that material of the pair which yields first. A bar of one material
+ * then has the uniaxial stress-strain curve of that material. The tables [materials][materials] are allocated in
+ * *tables; *source refers to them. Does nothing if no material yields. */
 static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -122,9 +122,8 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
     return s->conversion.alpha * most;
 }
 
-/* Creates the table of elastic constants of the materials of scene s that the kernels use, tables->elastic[materials],
- * and the tables of stretches at which bonds of these materials break, soften and yield, to which *source then
- * refers. */
+/* Creates tables->elastic[materials], the elastic constants of the materials of scene s for the kernels, and the tables
+ * of stretches at which bonds between two materials break, soften and yield, to which *source then refers. */
 static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->elastic = NEW("engine.elastic", s->materials, struct elastic);
@@ -210,9 +209,9 @@ static status make_bonds(struct run *e, struct predecessor *before)
 
 #define DAMPING_SHARE_MOST (1.0 / 16) /* largest share that is stable, see interface_zone.h */
 
-/* Returns the fraction of the relative velocity across the interface between peridynamic particles and material points
- * that is damped in a step [1], at most DAMPING_SHARE_MOST. s: scene, with the strength of the damping; c: wave speed
- * [m/s]; dt: time step [s]; h: spacing of the grid [m]. */
+/* Returns the share of damping in a step [1]: the fraction of the relative velocity across the interface between
+ * peridynamic particles and material points that is removed, at most DAMPING_SHARE_MOST. s: scene, with the strength of
+ * the damping; c: wave speed [m/s]; dt: time step [s]; h: spacing of the grid [m]. */
 static real interface_damping_share(const struct scene *s, real c, real dt, real h)
 {
     return real_min(s->interface_damping * c * dt / h, DAMPING_SHARE_MOST);

@@ -110,10 +110,10 @@ static int64_t particles_near(const struct particles *p, const real *X, real rea
     return near;
 }
 
-/* Adds a warning to *to about pre-crack number k, from 0, of scene s, which cannot grow, if supports prescribe the
- * motion of all particles within `reach` [m] of its ends, or if an end is far outside of all bodies. longest: longest
- * edge of the box around all particles [m]; prescribed[p->n]: bit d is set if component d of a particle is
- * prescribed. */
+/* Adds a warning to *to about pre-crack number k, from 0, of scene s, which cannot grow, for one of two reasons:
+ * supports prescribe the motion of all particles within `reach` [m] of its ends, or an end is far outside of all
+ * bodies. longest: longest edge of the box around all particles [m]; prescribed[p->n]: bit d is set if component d of a
+ * particle is prescribed. */
 static void warn_of_fixed_crack(const struct scene *s, const struct particles *p, int k, real reach, real longest,
                                 const uint8_t *prescribed, struct warnings *to)
 {
@@ -139,9 +139,9 @@ static void warn_of_fixed_crack(const struct scene *s, const struct particles *p
             k + 1, (long long)near);
 }
 
-/* Adds warnings to *to about the first pre-cracks of scene s that cannot grow because supports (in `loads`) prescribe
- * the motion of the particles p, or that cut a body and end far outside of it. tips: crack tips at the start; reach:
- * length of the longest bonds [m]. */
+/* Adds warnings to *to about the first pre-cracks of scene s that cannot grow because supports prescribe the motion of
+ * the particles p around them, or that cut a body and end far outside of it. loads: with the supports; tips: crack tips
+ * at the start; reach: length of the longest bonds [m]. */
 static void warn_of_fixed_cracks(const struct scene *s, const struct particles *p, const struct loads *loads,
                                  const struct crack_tips *tips, real reach, struct warnings *to)
 {

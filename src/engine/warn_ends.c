@@ -70,9 +70,9 @@ static bool region_has_inner_nodes(const struct scene *s, const struct load *l, 
     return any;
 }
 
-/* Adds a warning to *to that the support `boundary` acts on the body named `body` as if the length of the body were
- * `length` + `off` [spacings] instead of `length`, with the resulting errors of the stiffness, which varies as 1/length
- * for a bar in tension and as 1/length^3 in bending. a: the supported end. */
+/* Adds a warning to *to about the support `boundary` of the body named `body`, at the end a: the body behaves as if its
+ * length were `length` + `off` [spacings] instead of `length`. The warning states the resulting errors of the
+ * stiffness, which varies as 1/length for a bar in tension and as 1/length^3 in bending. */
 static void warn_of_end(const struct supported *a, const char *boundary, const char *body, real length, int off,
                         struct warnings *to)
 {

@@ -104,9 +104,8 @@ static real force_and_idle_part(const struct scene *s, const struct particles *p
     return all;
 }
 
-/* Adds a warning to *to for each traction, pressure and body force in `loads`, the loads of scene s, if the larger part
- * of its force along an axis acts on particles of p whose motion along this axis a support prescribes, so that this
- * part has no effect. */
+/* Adds a warning to *to for each traction, pressure and body force in `loads` of which the larger part along some axis
+ * has no effect, because it acts on particles of p whose motion along this axis a support prescribes. s: scene. */
 static void warn_of_idle_forces(const struct scene *s, const struct loads *loads, const struct particles *p,
                                 struct warnings *to)
 {

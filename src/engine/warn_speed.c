@@ -29,8 +29,8 @@ struct driver {
     real limit;
 };
 
-/* Returns true if nothing in scene s prevents the bodies on whose particles the load d->load acts from moving with this
- * load: no mirror across its components, no absorbing face, no damping, no contact with other bodies, and no other load
+/* Returns true if nothing in scene s prevents the bodies on which the load d->load acts from moving with this load.
+ * Obstacles are a mirror across its components, an absorbing face, damping, contact with other bodies, and another load
  * that drives the same components with a velocity that differs by more than d->limit. all: all loads of the run; p:
  * particles. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
@@ -76,7 +76,7 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     return most / slowest;
 }
 
-/* Adds a warning to *to about the load d->load, which acts on bodies that move freely, if its velocity changes by more
+/* Adds a warning to *to if the velocity of the load d->load, which acts on bodies that move freely, changes by more
  * than d->limit within the time in which a wave crosses these bodies. Slower changes hardly strain them. s, p: scene
  * and particles. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
@@ -92,9 +92,9 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
                             d->load->boundary->name, change, within, d->limit);
 }
 
-/* Adds warnings to *warnings about boundaries of scene s, whose loads are `loads`, that move particles of p, or change
- * their velocity at t = 0, by more than the speed at which bonds next to them break. A face moved at speed v strains
- * the material behind it by v/c at once, c being the wave speed. */
+/* Adds warnings to *warnings about boundaries of scene s whose prescribed speed, or change of the velocity at t = 0,
+ * exceeds the speed at which bonds beside the boundary break. loads: the loads of these boundaries; p: particles. A
+ * face moved at speed v strains the material behind it by v/c at once, c being the wave speed. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *warnings)
 {

@@ -46,7 +46,7 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns colour c to particle k in the list a->t of particles at cut bonds, and records in a->pair the kind, bonded or
+/* Assigns colour c to particle k in the list a->t of particles at cut bonds. Records in a->pair the kind, bonded or
  * cut, of the pairs of c with the colours of its neighbours. Colours become particle types, by which LAMMPS excludes
  * bonds. Returns false if a pair of colours would need both kinds. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)

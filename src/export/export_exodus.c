@@ -156,8 +156,8 @@ struct shared {
 };
 
 /* Defines the arrays of the element blocks of the Exodus file x, one block for each material that has particles. d:
- * dimensions that arrays share; over[materials]: receives the index of the dimension of each block, whose length is the
- * number of elements in the block. */
+ * dimensions that several arrays have in common; over[materials]: receives the index of the dimension of each block,
+ * whose length is the number of elements in the block. */
 static void blocks_define(struct exodus_export *x, const struct shared *d, int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -190,9 +190,9 @@ static void sets_define(struct exodus_export *x, const struct shared *d)
     }
 }
 
-/* Defines the arrays with names and values of the variables of the Exodus file x. The arrays over time are the last
- * ones, in the order in which records are written. d: dimensions that arrays share; over[materials]: index of the
- * dimension of each element block, as stored by blocks_define. */
+/* Defines the arrays with names and values of the variables of the Exodus file x. The arrays that have an entry for
+ * each time are the last ones, in the order in which records are written. d: dimensions that several arrays have in
+ * common; over[materials]: index of the dimension of each element block, as stored by blocks_define. */
 static void variables_define(struct exodus_export *x, const struct shared *d, const int *over)
 {
     struct netcdf_writer *w = &x->w;

@@ -124,9 +124,9 @@ static bool is_displaced(const struct particles *p)
     return false;
 }
 
-/* Lists in x->column the per-particle columns of plate.data that the export x needs: one for each component of a force
- * that varies over the particles of its load and, if particles are displaced at the start (x->displaced is set), one
- * for each component of displacement. */
+/* Lists in x->column the per-particle columns of the file plate.data that the export x needs. There is one for each
+ * component of a force that varies over the particles of its load. If particles are displaced at the start
+ * (x->displaced is set), there is also one for each component of displacement. */
 static void columns_make(struct exported *x)
 {
     const struct loads *l = &x->e->loads;
@@ -195,8 +195,8 @@ static void put(FILE *to, real value)
     fprintf(to, value < 0 ? "(%.17g)" : "%.17g", value);
 }
 
-/* Writes a formula to the LAMMPS script `to`. text: template, in which each % is replaced by the next element of
- * number[] and each letter t by the name `t` of the time variable, other characters are copied. */
+/* Writes the formula `text` to the LAMMPS script `to`: each % becomes the next element of number[], each letter t
+ * becomes `t`, the name of the time variable, and other characters are copied. */
 static void put_formula(FILE *to, const char *text, const char *t, const real *number)
 {
     for (; *text; text++)

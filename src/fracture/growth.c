@@ -28,11 +28,11 @@ void growing_crack_free(struct growing_crack *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* Updates g->target_speed, the speed that the tip of crack g should have so that K = k(v) K_c (crack-tip equation of
- * motion), by one secant step towards its solution v, smoothed in time. K: measured stress-intensity factor
- * g->intensity; k(v): factor by which a speed v reduces the stress-intensity factor of a crack at rest; K_c: toughness.
- * control: elastic constants and time of the new stress-intensity factors; settling: time constant of the smoothing
- * [s]. */
+/* Updates g->target_speed, the speed that the tip of crack g should have. It is the solution v of the crack-tip
+ * equation of motion K = k(v) K_c; this function makes one secant step towards v and smooths the result in time. K:
+ * measured stress-intensity factor g->intensity; k(v): factor by which a speed v reduces the stress-intensity factor of
+ * a crack at rest; K_c: toughness. control: elastic constants and time of the new stress-intensity factors; settling:
+ * time constant of the smoothing [s]. */
 static void target_speed_find(struct growing_crack *g, const struct growth_control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -124,8 +124,8 @@ static void fading_add(struct growing_crack *g, int32_t i, int32_t j, real w, re
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Appends the intact bonds of particle i of p that cross `path`, the last increment of the tip, to g->fading, the bonds
- * behind the tip whose weights decrease as crack g grows. Bonds that are already in the list are skipped. */
+/* Appends to g->fading, the bonds behind the tip whose weights decrease as crack g grows, the intact bonds (in b) of
+ * particle i of p that cross `path`, the last increment of the tip. Skips bonds that are already in the list. */
 static void cross_row(struct growing_crack *g, const struct bonds *b, const struct particles *p,
                       const struct crack *path, int32_t i)
 {
@@ -170,9 +170,9 @@ static int claim(const struct growing_crack *g, struct particles *p, const struc
     return claimed;
 }
 
-/* Appends the bonds of b between particles of p that the tip of crack g has crossed on the straight path from from[2]
- * [m] to its present position to g->fading, the bonds whose weights decrease as the crack grows. Both directed bonds of
- * a pair of particles are appended, and also bonds across the images of the path in planes of symmetry (s->mirror). */
+/* Appends bonds of b to g->fading, the list of bonds whose weights decrease as crack g grows: those between particles
+ * of p that the tip has crossed on the straight path from from[2] [m] to its present position. Both directed bonds of a
+ * pair of particles are appended, and also bonds across the images of the path in planes of symmetry (s->mirror). */
 static void cross(struct growing_crack *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
@@ -205,9 +205,9 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Resets the weights of the bonds of b in g->fading, which decrease gradually behind the tip, to those of the previous
- * step, so that `fade` can reduce them again and count the lost energy. Bonds that load has broken since then are
- * removed from the list. */
+/* Resets the weights of the bonds of b in g->fading (bonds behind the tip whose weights decrease gradually) to those of
+ * the previous step. `fade` then reduces them again and adds up the lost energy. Bonds that load has broken since then
+ * are removed from the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;

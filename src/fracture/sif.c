@@ -29,9 +29,9 @@ void sif_contour_weight(enum sif_weight form, const struct contour *c, real dist
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the first integrand of the interaction integral at a point, which the gradient of the weight function q
- * multiplies, per area and for a unit gradient along n[2] [Pa]. It is the mutual energy flux of the actual motion a and
- * the auxiliary motion b. density: mass density of the material [kg/m^3]. */
+/* Returns the first integrand of the interaction integral at a point, per area and for a unit gradient along n[2] of
+ * the weight function q, by which it is multiplied [Pa]. It is the mutual energy flux of the actual motion a and the
+ * auxiliary motion b. density: mass density of the material [kg/m^3]. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;

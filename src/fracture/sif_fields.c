@@ -77,8 +77,8 @@ static void slownesses(const struct crack_medium *m, real v, real a[2])
     a[1] = sqrt(1 - square(v / m->shear_speed));
 }
 
-/* Returns the Rayleigh function D(v) = 4 a_d a_s - (1 + a_s^2)^2 [1] of the material m at the tip speed v [m/s], with
- * a_d = sqrt(1 - v^2/c_d^2), a_s = sqrt(1 - v^2/c_s^2) and the speeds c_d of dilatational and c_s of shear waves. D is
+/* Returns the Rayleigh function D(v) = 4 a_d a_s - (1 + a_s^2)^2 [1] of the material m at the tip speed v [m/s]. a_d =
+ * sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 - v^2/c_s^2) contain the speeds c_d of dilatational and c_s of shear waves. D is
  * 0 at the Rayleigh speed. */
 static real crack_rayleigh_function(const struct crack_medium *m, real v)
 {
@@ -87,10 +87,11 @@ static real crack_rayleigh_function(const struct crack_medium *m, real v)
     return 4 * a[0] * a[1] - square(1 + a[1] * a[1]);
 }
 
-/* Computes weight[i][w], the coefficients in the displacements u_0 along the crack and u_1 perpendicular to it around a
- * tip of speed v [m/s]: u_i is the real part (i = 0 in mode I, i = 1 in mode II) or the imaginary part (else) of sum_w
- * weight[i][w] sqrt(z_w), with the complex number z_w = x_1 + a_w x_2 sqrt(-1). w: 0 dilatational, 1 shear waves; m:
- * material; a[2]: the factors a_w = sqrt(1 - v^2/c_w^2) with the wave speeds c_w. */
+/* Computes weight[i][w], the coefficients of the displacements u_i around a tip of speed v [m/s] (i = 0: along the
+ * crack, 1: perpendicular to it; w = 0: dilatational, 1: shear waves). u_i is the real or the imaginary part of sum_w
+ * weight[i][w] sqrt(z_w), with the complex number z_w = x_1 + a_w x_2 sqrt(-1): the real part for i = 0 in mode I and
+ * for i = 1 in mode II, else the imaginary part. m: material; a[2]: the factors a_w = sqrt(1 - v^2/c_w^2) with the wave
+ * speeds c_w. */
 static void wave_weights(const struct crack_medium *m, enum crack_mode mode, real v, const real a[2], real weight[2][2])
 {
     const real size = sqrt(2 / pi) / (m->shear * crack_rayleigh_function(m, v)), b = 1 + a[1] * a[1];

@@ -139,10 +139,10 @@ static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *
 
 /* ---- peridynamic differential operator --------------------------------------------------------------------------- */
 
-/* Computes the gradient weights g_ij V_j = omega K_i^-1 xi_ij V_j [1/m] of particle i of p by the peridynamic
- * differential operator, with K_i = sum omega xi xi^T V_j and omega = delta/r (Madenci, Barut & Futch 2016), in the
- * stencil s, whose neighbours must be set. Neighbours behind cracks are removed from s. rule: delta and cracks.
- * s->order: receives 1, or 0 if K_i is singular. */
+/* Computes the gradient weights of particle i of p by the peridynamic differential operator (Madenci, Barut & Futch
+ * 2016): g_ij V_j = omega K_i^-1 xi_ij V_j [1/m], with K_i = sum omega xi xi^T V_j and omega = delta/r. The weights are
+ * stored in the stencil s, whose neighbours must be set; neighbours behind cracks are removed from s. rule: delta and
+ * cracks. s->order: receives 1, or 0 if K_i is singular. */
 static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                          int64_t i)
 {

@@ -15,7 +15,7 @@ enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 #define SINGULAR 1e-12 /* least pivot divided by the diagonal entry [1] */
 
 /* Computes the displacements, times 2 G, of term n of the Williams series (expansion of the field at a crack tip) with
- * a unit coefficient [1], along the crack and perpendicular to it: mode_1[2] for mode I, mode_2[2] for mode II. G:
+ * a unit coefficient [1]: mode_1[2] for mode I, mode_2[2] for mode II, each along the crack and perpendicular to it. G:
  * shear modulus; r: distance from the tip divided by the outer radius of the fit [1]; theta: angle from the crack
  * direction [rad]; kappa: Kolosov's constant [1]. */
 static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real mode_2[2])

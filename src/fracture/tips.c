@@ -82,7 +82,7 @@ static void flood_label(struct flood *f, int32_t i, int tip)
     f->queue[f->queued++] = i;
 }
 
-/* Returns the number of the crack of f into which crack number `tip` has been merged in this sample (present set of tip
+/* Returns the number of the crack of f of which crack number `tip` has become a part in this sample (present set of tip
  * positions), or `tip` itself if it has not been merged. */
 static int tips_root_of(const struct flood *f, int tip)
 {
@@ -100,9 +100,9 @@ static bool is_behind(const struct flood *f, const struct crack_tip *crack, int3
            crack->growth - TIP_TOUCH * f->t->spacing;
 }
 
-/* Returns true if the cracks a and b of f, which touch at the particles i of a and j of b, are two that run side by
- * side, as those that leave a hole in the same direction: up to the previous sample both have grown by more than GROWN
- * spacings, and they touch behind both tips. */
+/* Returns true if the cracks a and b of f run side by side, as two that leave a hole in the same direction. They touch
+ * at the particles i of a and j of b. They run side by side if up to the previous sample (set of tip positions) both
+ * have grown by more than GROWN spacings, and they touch behind both tips. */
 static bool are_side_by_side(const struct flood *f, const struct crack_tip *a, const struct crack_tip *b, int32_t i,
                              int32_t j)
 {

@@ -71,8 +71,8 @@ static void extent_find(struct ahead *a, int32_t i, int tip)
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
 
-/* If particle i is the farthest from the start of crack number `tip`, or at most one spacing less far, counts it in
- * a->n[tip] and stores its reference position in a->place[tip], unless that is NULL. a->reach must be complete
+/* Counts particle i in a->n[tip] if it is the farthest one from the start of crack number `tip`, or at most one spacing
+ * nearer, and stores its reference position in a->place[tip], unless that is NULL. a->reach must be complete
  * (extent_find). */
 static void farthest_collect(struct ahead *a, int32_t i, int tip)
 {

@@ -47,7 +47,8 @@ static status generated_add(struct deck *d, int64_t n)
         d->s, "sets list more nodes or elements than the file has, so it is damaged; write the deck again");
 }
 
-/* Adds a node or element, by its index, to set number `number` of deck d, before the members that are still labels. */
+/* Adds the node or element with the index `index` in the mesh to set number `number` of deck d. The first set->resolved
+ * members of a set are such indices; the members behind them are labels, which become indices when their part ends. */
 static void set_add_index(struct deck *d, int number, int64_t index)
 {
     element_mesh_add_to_set(d->m, number, index);
@@ -56,8 +57,9 @@ static void set_add_index(struct deck *d, int number, int64_t index)
     set->member[set->resolved++] = (int32_t)index;
 }
 
-/* Adds the node or element with the number `label` of deck d to set number `set`. part: the part that has it, which has
- * ended, and a label that it does not have is left out; NULL: the current one. */
+/* Adds the node or element with the number `label` in the file to set number `set` of deck d. part: a part that has
+ * been read completely; its node or element is added by index, and a label that it does not have is left out. NULL: the
+ * part that is being read; the label is added and becomes an index when the part ends. */
 static void set_add_label(struct deck *d, int set, const struct scope *part, int64_t label)
 {
     if (!part) {
@@ -69,8 +71,8 @@ static void set_add_label(struct deck *d, int set, const struct scope *part, int
 }
 
 /* Reads a line of deck d after GENERATE: first label, last label and step. Adds the labels first, first + step, .. last
- * of `part`, as set_add_label does, to set number `set`. Returns REFUSED, with a message, if the step is not positive,
- * last is below first, or there are too many members. */
+ * to set number `set` (set_add_label, which describes `part`). Returns REFUSED, with a message, if the step is not
+ * positive, last is below first, or there are too many members. */
 static status generate_line(struct deck *d, int set, const struct scope *part)
 {
     int32_t bound[3] = {0, 0, 1};
@@ -97,8 +99,8 @@ static int set_index(const struct deck *d, const struct scope *part, const char 
 }
 
 /* Adds what the text `field` of a data line names to set number `set` of deck d: the members of a set, as Name or
- * Instance.Name, or the node or element Instance.Number. part: of the keyword's instance, NULL: none. Returns REFUSED,
- * with a message, if there is no such set, or if there are too many members. */
+ * Instance.Name, or the node or element Instance.Number. part: part of the instance that the keyword names; NULL: none.
+ * Returns REFUSED, with a message, if there is no such set, or if there are too many members. */
 static status set_join(struct deck *d, int set, const struct scope *part, const char *field)
 {
     const bool of_nodes = d->m->set[set].of_nodes;
@@ -142,8 +144,8 @@ void abaqus_resolve_sets(struct deck *d, const struct scope *scope)
     }
 }
 
-/* Adds the nodes of element number k of the mesh of deck d to set number `set` with `add`: of an element of the current
- * part their labels, of other elements their indices. k < 0: none. */
+/* Adds the nodes of element number k of the mesh of deck d to set number `set`, each by a call add(d, set, node), where
+ * `node` is a label if the part of the element is still being read, else an index. Does nothing for k < 0. */
 static void nodes_of_element_add(struct deck *d, int set, int64_t k, void (*add)(struct deck *, int, int64_t))
 {
     const struct element *e = k < 0 ? NULL : &d->m->element[k];

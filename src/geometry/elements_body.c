@@ -278,8 +278,8 @@ static void take_sets(struct surface_builder *b, const int32_t *node_of, struct 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
 /* Finds *body_dim, the dimension of the elements of m that make up the body in a space of `dim` dimensions: dim, or 2
- * in 3D if the mesh has surface elements only, or 0 if all elements are points, as of a list of particles: these make
- * up no body, but have sets. path: file of the mesh, for messages. Returns REFUSED, with a message, if the mesh has
+ * in 3D if the mesh has surface elements only, or 0 if all elements are points, as in a list of particles, which has
+ * sets but fills no body. path: file of the mesh, for messages. Returns REFUSED, with a message, if the mesh has
  * elements, but none of these kinds, or has solid elements in 2D. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {

@@ -315,8 +315,8 @@ static void quad_point(const struct element_mesh *m, const struct patch *p, real
     }
 }
 
-/* Computes the point X of the patch p, a quadrilateral, at the reference coordinates x, y in [-1, 1], from its eight
- * nodes in the mesh m and, if it has one, the node at its centre. */
+/* Computes the point X of the quadrilateral patch p at the reference coordinates x, y in [-1, 1]. It is interpolated
+ * from the eight nodes of the patch in the mesh m and, if the patch has one, the node at its centre. */
 static void quad_point_whole(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     real middle[DIM_MAX];

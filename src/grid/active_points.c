@@ -62,9 +62,10 @@ static int64_t active_points_reach_of(const struct grid *g, enum shape shape, en
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Sets r->active_cell to 1 for the cells of g with a point of p that moves or is loaded (by l or bonds b), and for
- * cells whose lowest node has a prescribed velocity other than 0, else to 0. now: sorted points to be examined, since
- * points outside this list are still at rest; has_gradient: true if points have velocity gradients (APIC). */
+/* Sets r->active_cell to 1 for the active cells of g, else to 0. A cell is active if a point of p in it moves or is
+ * loaded (by l or bonds b), or if its lowest node has a prescribed velocity other than 0. now: sorted points to be
+ * examined, since points outside this list are still at rest; has_gradient: true if points have velocity gradients
+ * (APIC). */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {

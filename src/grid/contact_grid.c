@@ -125,10 +125,10 @@ static void normals_find(struct grid_contact *c, const struct shared *s, int dim
 
 /* ---- gaps -------------------------------------------------------------------------------------------------------- */
 
-/* Updates the gap at contact nodes of c by material point i of p. For each listed node that the shape function of the
- * point reaches: raises node->reach[0] to the coordinate of the point along the normal of the node if the point belongs
- * to the first body (side 0), or lowers node->reach[1] to it for the second body (side 1). g: grid of the body; s: box
- * of the nodes that points of both bodies may reach; slot[s->n]: position in the list of each node of the box, -1: not
+/* Updates the gap at contact nodes of c by material point i of p, at each listed node that the shape function of the
+ * point reaches. If the point belongs to the first body (side 0), raises node->reach[0] to the coordinate of the point
+ * along the normal of the node; if to the second (side 1), lowers node->reach[1] to it. g: grid of the body; s: box of
+ * the nodes that points of both bodies may reach; slot[s->n]: position in the list of each node of the box, -1: not
  * listed. */
 static void point_reach(struct grid_contact *c, const struct shared *s, const struct grid *g, const struct particles *p,
                         int32_t i, int side, const int32_t *slot)

@@ -114,9 +114,9 @@ static int64_t dashpot_of(const struct absorbing *a, int32_t i)
     return found ? found - a->particle : -1;
 }
 
-/* Sets the dashpot coefficients of the particles of p that bonds move to 0 in components that a support or a clamped
- * mirror of l prescribes, so that the reaction of the support contains no dashpot force. On grids, dashpots_hold does
- * this for nodes of prescribed velocity. */
+/* Sets the dashpot coefficients of particles of p that bonds move to 0, in the components that a support or a clamped
+ * mirror of l prescribes. The reaction of the support then contains no dashpot force. On grids, dashpots_hold does this
+ * for nodes of prescribed velocity. */
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {

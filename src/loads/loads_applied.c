@@ -18,9 +18,9 @@ static bool same_particles(const struct load *a, const struct load *b)
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Saves memory: if component d of load number b has an array of shares (area, volume or mass of each particle, by which
- * the value of the load is multiplied) equal to that of an earlier component, or of an earlier load of l on the same
- * particles, frees the array of component d and refers to the earlier one. dim: number of components. */
+/* Saves memory: frees the array of shares of component d of load number b if an earlier component of the load, or an
+ * earlier load of l on the same particles, has an equal array, and refers to that array instead. (A share is the area,
+ * volume or mass of a particle, by which the value of the load is multiplied.) dim: number of components. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];

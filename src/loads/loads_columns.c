@@ -297,9 +297,9 @@ static int64_t loads_columns_shown(const struct columns *c, int64_t column, cons
     return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
-/* Returns the index in c->order of the first particle (of p) of body c->body in column `column` (a line of particles
- * normal to the face of b) that is at least BENEATH particle widths behind the particle with index k in c->order.
- * Returns -1 if there is none before the column ends or has a hole of more than GAP widths. */
+/* Returns the index in c->order of the first particle of column `column` (a line of particles normal to the face of b)
+ * that belongs to body c->body and is at least BENEATH particle widths behind particle c->order[k]. Returns -1 if there
+ * is none before the column ends or has a hole of more than GAP widths. p: particles. */
 static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
                        const struct particles *p)
 {
@@ -311,13 +311,13 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* Adds the area of column `column` of c, a line of particles behind the face, to the areas f of its exposed particle
- * [m^2], the first one from outside. A tangential traction acts on the face, half a spacing outside this particle, and
- * its moment would be wrong by this distance. (The shear stress in a plate of n particles per side would be 1 + 1.3/n
- * times too large.) So for tangential components the exposed particle gets 3/2 of the area and the next one in the
- * column -1/2, which preserves force and moment. If there is no next particle or `two` is false, the first one gets
- * all. selected[p->n]: 1 for particles in the region of b; area: of the column [m^2], or 0 to use the volume of the
- * exposed particle divided by its width. */
+/* Adds the area of column `column` of c, a line of particles behind the face, to the areas f of its exposed particle,
+ * the outermost one [m^2]. A tangential traction acts on the face, half a spacing outside this particle, and its moment
+ * would be wrong by this distance. (The shear stress in a plate of n particles per side would be 1 + 1.3/n times too
+ * large.) So for tangential components the exposed particle gets 3/2 of the area and the next one in the column -1/2,
+ * which preserves force and moment. If there is no next particle or `two` is false, the first one gets all.
+ * selected[p->n]: 1 for particles in the region of b; area: of the column [m^2], or 0 to use the volume of the exposed
+ * particle divided by its width. */
 static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {

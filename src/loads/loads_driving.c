@@ -68,7 +68,7 @@ status boundary_check_displacement_known(const struct boundary *b)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the motion that boundary b prescribes in the step of size dt from t - dt/2 to t + dt/2 [s], prepared for
+/* Returns the motion that boundary b prescribes in a step: the step from t - dt/2 to t + dt/2 [s]. It is prepared for
  * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt)
 {

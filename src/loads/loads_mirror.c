@@ -6,10 +6,11 @@
 #include "loads/mirrors.h"
 #include "base/memory.h"
 
-/* Returns the step to which the coordinates along `axis` of particles of p with mirror images are rounded [m], so that
- * reflection at a plane of symmetry causes no round-off. Then the force of particle i on the image of j cancels that of
- * j on the image of i to the last bit; otherwise round-off would move slow bodies. Returns 0 (no rounding) if all such
- * planes are at 0. boundary[n]: boundaries of the scene; reach: length of the longest bonds [m]. */
+/* Returns the step [m] to multiples of which the coordinates along `axis` are rounded, for particles of p with mirror
+ * images, so that reflection at a plane of symmetry causes no round-off. Then the force of particle i on the image of j
+ * cancels that of j on the image of i to the last bit; otherwise round-off would move slow bodies. Returns 0 (no
+ * rounding) if all such planes are at 0. boundary[n]: boundaries of the scene; reach: length of the longest bonds [m].
+ */
 static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
 {
     real farthest = 0;

@@ -77,8 +77,8 @@ struct pressed {
     struct surface_faces *faces; /* list for a pressure that follows the surface; NULL: none */
 };
 
-/* Adds the free face of particle i that is normal to `axis`, outwards in the direction `side` (-1 or 1), to the area
- * vector of the particle, and appends it to the list of faces if there is a list. context: area vectors and list
+/* Adds a free face of particle i to the area vector of the particle, and appends it to the list of faces if there is a
+ * list. The face is normal to `axis`, outwards in the direction `side` (1 or -1). context: area vectors and list
  * (struct pressed); area: area of the face [m^2]. */
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
 {

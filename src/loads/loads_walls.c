@@ -38,10 +38,10 @@ bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
-/* Replaces k[dim], the indices of a node of g beyond the mirror plane of `load`, by the indices of its mirror image,
- * and reverses the signs in *f of components that the mirror reverses. Does nothing if the node is not beyond the
- * plane. Returns false if the image is not in the box of nodes, or at no node because the plane is neither on a node
- * nor midway between two; else true. spacing: lattice spacing, to which tolerances refer [m]. */
+/* Reflects a node of g at the mirror plane of `load` if the node is beyond the plane: replaces k[dim], its indices, by
+ * those of its mirror image, and reverses the signs in *f of components that the mirror reverses. Returns false if the
+ * image is not in the box of nodes, or at no node because the plane is neither on a node nor midway between two; else
+ * true. spacing: lattice spacing, to which tolerances refer [m]. */
 static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;

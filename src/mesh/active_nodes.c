@@ -31,10 +31,10 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks of nodes (eight along x) of `mesh` that contain the second nodes which slits (gaps between
- * cells) have made at the positions of nodes of block `near`, since motion spreads to them. moves: true if nodes of
- * `near` move; if `near` itself contains second nodes, the blocks of the nodes at their positions are then activated,
- * too. */
+/* Activates the blocks of nodes (eight along x) of `mesh` to which motion spreads from block `near` across slits, gaps
+ * between cells at which a node has a second node at the same position. These are the blocks with second nodes of nodes
+ * of `near`. If `moves` is true (nodes of `near` move) and `near` itself has second nodes, the blocks of the nodes at
+ * their positions are activated, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -105,9 +105,9 @@ void active_nodes_activate_all_blocks(struct mesh *mesh)
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
 }
 
-/* Recomputes which blocks of nodes (eight along x) of the mesh are active: those with a node that moves or carries a
- * force, those with a node of prescribed velocity that loads l move, the neighbours of these blocks, and those around
- * exposed points (points whose motion is needed in every step). */
+/* Recomputes which blocks of nodes (eight along x) of the mesh are active. These are blocks with a node that moves or
+ * carries a force, blocks with a node whose velocity the loads l prescribe as other than 0, the neighbours of both, and
+ * blocks around exposed points (points whose motion is needed in every step). */
 static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;

@@ -244,8 +244,8 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
-/* Updates the positions of the exposed points of p (points with bonds or loads, whose motion is needed in every step)
- * from the mesh nodes of r, and the strain at points with state-based bonds to peridynamic particles. */
+/* Updates from the mesh nodes of r the positions of the exposed points of p (points with bonds or loads, whose motion
+ * is needed in every step), and the strains at points with state-based bonds to peridynamic particles. */
 void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);

@@ -43,8 +43,8 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Computes weight[2^dim], the dimensionless weights by which the corners of the coarse cell a contribute to a value at
- * the position a->t in the cell, by linear interpolation. */
+/* Computes weight[2^dim], the weights of the corners of the coarse cell a by which a nodal value is interpolated
+ * linearly to the position a->t in the cell [1]. */
 static void coarse_corner_weights(const struct cell_around *a, int dim, real *weight)
 {
     for (int c = 0; c < 1 << dim; c++) {

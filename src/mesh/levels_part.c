@@ -176,9 +176,9 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
     memory_free(own);
 }
 
-/* Returns flags [fine->grid.n] of the mesh cells of `frame` whose stress exceeds `share` (dimensionless) times the
- * stress at which points convert, and of cells around them; NULL if no cell is stressed so much. all: true to test all
- * cells, false for coarse cells only. Release the flags with memory_free. */
+/* Returns flags [fine->grid.n] that are 1 for the mesh cells of `frame` with a stress above `share` [1] times the
+ * stress at which points convert, and for cells around them. Returns NULL if no cell has such a stress. all: true to
+ * test all cells, false for coarse cells only. Release the flags with memory_free. */
 static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -307,9 +307,9 @@ static bool any_stressed(const struct mesh_levels *l)
     return any;
 }
 
-/* Computes limit[I], the largest coarsening levels (0: finest) that the cells of r may have after the next change.
- * Cells may always become finer. They may become coarser only in calls with `checks` true, after CALM_CHECKS
- * consecutive such calls in which nothing (cracks and stresses of p, loads) required level 0 nearby. */
+/* Computes limit[I], the largest coarsening level (0: finest) that each cell I of r may have after the next change.
+ * Cells may always become finer. They may become coarser only in calls with `checks` true, and only after CALM_CHECKS
+ * consecutive such calls in which neither cracks and stresses of p nor loads required level 0 nearby. */
 static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {

@@ -111,9 +111,9 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kind of cell I of the mesh. A whole cell has all its points (of p), which are of one material and without
- * partial stresses (the share of stress left to bonds), and all its corners are nodes of the grid. A partial cell has
- * points, but lacks one of these properties; an empty cell has no points. s: partial stresses. */
+/* Returns the kind of cell I of the mesh. A whole cell has all its points, of one material and without partial stresses
+ * (the share of stress left to bonds), and all its corners are nodes of the grid. A partial cell has points, but lacks
+ * one of these properties; an empty cell has no points. p: particles; s: partial stresses. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -170,9 +170,9 @@ static uint8_t material_of(const struct mesh *mesh, const struct particles *p, i
     return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
 }
 
-/* Lists the runs of the mesh, which are rows of consecutive whole cells of one material, and its partial cells, which
- * lack points or have several materials, partial stresses or doubled nodes. Runs are listed band by band (layers of
- * cells that one thread processes). p: particles; NULL for a mesh without points. */
+/* Lists the runs and the partial cells of the mesh. A run is a row of consecutive whole cells of one material. Partial
+ * cells lack points, or have several materials, partial stresses or doubled nodes. Runs are listed band by band (layers
+ * of cells that one thread processes). p: particles; NULL for a mesh without points. */
 static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
@@ -192,9 +192,10 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Determines the kinds of cells of the mesh from their points (of p), and rebuilds the list of runs (rows of cells with
- * all points, of one material) and the list of other cells with points (partial cells) with their stiffness. s: elastic
- * constants and partial stresses; dirty[grid.n]: not 0 for the cells whose kind may have changed; NULL: all cells. */
+/* Determines the kind of each cell of the mesh from its points. Then rebuilds the list of runs (rows of whole cells,
+ * which have all points, of one material) and the list of partial cells (other cells with points) with their stiffness.
+ * p: particles; s: elastic constants and partial stresses; dirty[grid.n]: not 0 for the cells whose kind may have
+ * changed; NULL: all cells. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
@@ -291,8 +292,8 @@ static bool node_filled(const struct mesh *mesh, int64_t I)
     return filled;
 }
 
-/* Marks in mesh->absent the cells of the mesh whose particles were not created (h->absent), and lists all other cells
- * and their nodes in mesh->filled_cell and mesh->filled_node. */
+/* Marks in mesh->absent the cells of the mesh whose particles were not created (h->absent). Lists all other cells in
+ * mesh->filled_cell and the nodes of these in mesh->filled_node. */
 static void mesh_absent_make(struct mesh *mesh, const struct cells_without_particles *h)
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);

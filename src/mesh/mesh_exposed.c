@@ -33,8 +33,8 @@ static void images_expose(struct exposure *e, const struct mesh *mesh, const str
         if (nbr[l] >= p->n) point_expose(e, mesh, image_source_particle(p, image, nbr[l]));
 }
 
-/* Returns true if a bond in column k (one bond of each particle) of block g of eight rows of b (the bonds of eight
- * particles of p, stored together) may have a mirror image as its neighbour. */
+/* Returns true if a mirror image of particles p may be among the neighbours in column k (the k-th bonds) of block g of
+ * eight rows of b (the bonds of eight particles). */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
     const int64_t first = column_first_consecutive_neighbour(b, g, k);
@@ -64,9 +64,9 @@ static unsigned lanes_in_mesh(const struct mesh *mesh, const struct bonds *b, in
     return bits;
 }
 
-/* Marks in *e the points of the mesh that have intact bonds in block g of eight rows of b (the bonds of eight particles
- * of p, stored together), and the particles whose mirror images are neighbours there: their motion is needed in every
- * step. Peridynamic particles are no points of the mesh, so that most blocks need not be read. l: loads, with the list
+/* Marks in *e the points of the mesh whose motion is needed in every step because of block g of eight rows of b (the
+ * bonds of eight particles of p): points with intact bonds in the block, and points whose mirror images are neighbours
+ * there. Peridynamic particles are no points of the mesh, so that most blocks need not be read. l: loads, with the list
  * of images. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)

@@ -68,8 +68,9 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
 }
 
-/* Sets the displacement of the nodes I of the mesh with light[I], which had no mass before, to the mean displacement of
- * the n inserted points list[k] of p around them, weighted by mass times shape function. */
+/* Sets the displacement of those nodes I of the mesh that had no mass before, light[I], to the mean displacement of the
+ * inserted points around the node, weighted by mass times shape function. list[n]: indices of the inserted points in p.
+ */
 static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p, const uint8_t *light,
                                     const int32_t *list, int64_t n)
 {

@@ -147,7 +147,7 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
 /* Strain of the points of a cell by its modes: [point][symmetric component][mode] [1]; shear strains are angles. */
 typedef real point_strains[CORNERS_MAX][SYM_MAX][MODES_MAX];
 
-/* Computes B, the strains of the points of cell I for unit amplitudes of its deformation modes, where all points of a
+/* Computes B, the strains of the points of cell I for unit amplitudes of its deformation modes. All points of a
  * material in the cell have their mean dilatation (mesh_law.h). c: mesh and particles. Returns false, without values,
  * if no material of the cell has a mean dilatation. */
 static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strains B)
@@ -226,7 +226,7 @@ static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *
 /* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
 /* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in the partial cells
- * of the mesh, which have a stiffness matrix of their own. */
+ * of the mesh (cells with a stiffness matrix of their own). */
 static void ends_free(struct mesh *mesh)
 {
     memory_free(mesh->ends);
@@ -364,9 +364,9 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
-/* Returns the address of the first number of partial cell `cell` (with missing or unequal points) in the array `from`,
- * which has `each` numbers for every such cell, such as stiffnesses, interleaved for LANES cells. Returns NULL if
- * `from` is NULL. */
+/* Returns the address of the first number of partial cell `cell` (with missing or unequal points) in the array `from`.
+ * The array has `each` numbers for every partial cell, such as stiffnesses; those of LANES cells are interleaved.
+ * Returns NULL if `from` is NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
@@ -393,10 +393,10 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Returns a list with the index of each partial cell of the mesh (a cell with a stiffness matrix of its own) in `old`,
- * the list before a change of cells, from which its stiffness is copied. The index is -1 if the stiffness must be
- * computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the lanes that fill the last
- * group of LANES cells. Release the list with memory_free. */
+/* Returns a list with an entry for each partial cell of the mesh (a cell with a stiffness matrix of its own): the index
+ * of the same cell in `old`, the list before a change of cells, from which its stiffness is copied. The entry is -1 if
+ * the stiffness must be computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the lanes
+ * that fill the last group of LANES cells. Release the list with memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = BARE("mesh.from", mesh_partial_cell_group_count(mesh) * LANES, int64_t);

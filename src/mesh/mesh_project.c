@@ -23,8 +23,8 @@ struct projection {
     real *row; /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
-/* Returns the sum of m_p N_I value_p over the points p of cell `cell` of the mesh m->mesh, with their masses m_p and
- * the shape function N_I of node I, which is corner c of the cell. value[particles]: a value for each particle; dim:
+/* Returns the sum of m_p N_I value_p over the points p of cell `cell` of the mesh m->mesh. m_p: mass of a point; N_I:
+ * shape function of node I, which is corner c of the cell; value[particles]: a value for each particle; dim:
  * dimensions, a compile-time constant. */
 static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int c, const real *value, const int dim)
 {
@@ -253,9 +253,9 @@ static real mesh_project_largest_of(const real *a, int64_t n)
     return most;
 }
 
-/* Computes the nodal values x[nodes] that fit value[particles], the values at the points, by conjugate gradients on the
- * consistent mass matrix of m with the lumped matrix as preconditioner. Starts from the lumped projection if all nodes
- * are unknown, else from x. */
+/* Computes x[nodes], nodal values that fit value[particles], the values at the points. Solves with the consistent mass
+ * matrix of m by conjugate gradients, with the lumped matrix as preconditioner. Starts from the lumped projection if
+ * all nodes are unknown, else from x. */
 static void project(const struct projection *m, const real *value, real *x)
 {
     const int64_t n = m->mesh->grid.n;
