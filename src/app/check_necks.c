@@ -147,7 +147,7 @@ static bool chord_measure(const struct necks *k, const real *X, struct chord *ch
     return true;
 }
 
-/* Largest number of chords on either side of chord 0. */
+/* Largest number of chords (widths of a piece on parallel lines) on either side of chord 0. */
 enum { CHORDS_MOST = SAMPLES * (LONGEST + 8 * NARROW) };
 
 /* Parallel chords across a neck, from chord `first` to chord `last`, at a distance of 1/SAMPLES spacing. Chord 0 is on

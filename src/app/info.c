@@ -51,7 +51,8 @@ static void print_build(void)
            release, yaml_get_version_string(), hwloc >> 16, hwloc >> 8 & 0xff);
 }
 
-/* Prints the sets of kernels of this build, one per line, beginning with the one in use. */
+/* Prints the sets of kernels of this build (the machine instructions for which the loops are compiled), one per line,
+ * beginning with the one in use. */
 static void print_kernels(void)
 {
     printf("%-18s %s: %s\n", "kernels", simd_current_kernels()->name, simd_current_kernels()->meaning);

@@ -151,7 +151,7 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 
 /* Makes b use the column arrays of the previous bonds `old`. Both use them until bonds_clear_pointers_to_moved_arrays
  * removes them from `old`. kept[g]: block of eight rows of `old` (the bonds of eight particles) whose columns block g
- * of b uses further, or -1. */
+ * of b continues to use, or -1. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;

@@ -120,7 +120,7 @@ static void search_make(struct search *search, const struct near_faces *b, const
     regular_bonds_allocate_for_lattice(&search->regular, map);
 }
 
-/* Releases the working memory of a neighbour search. */
+/* Releases the working memory of `search`, a neighbour search. */
 static void search_free(struct search *search)
 {
     regular_bonds_free(&search->regular);

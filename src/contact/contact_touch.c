@@ -116,7 +116,8 @@ void contact_discard_equilibrium_selection(struct contact *c)
 
 /* ---- terms ------------------------------------------------------------------------------------------------------- */
 
-/* Function that is called for each active contact, its context, and the contact that is passed to it. */
+/* Data of a loop over all active contacts: the function that is called for each of them, its context, and the contact
+ * that is passed to it. */
 struct visit {
     const struct contact *c;
     const struct particles *p;

@@ -22,7 +22,7 @@ bool region_has_voxel_image(const struct region *r)
     return image;
 }
 
-/* Returns true if the solid s is known to be convex, by its kind and because it is not copied. */
+/* Returns true if the solid s is known to be convex: its kind is convex, and it does not have several copies. */
 static bool solid_convex(const struct solid *s)
 {
     switch (s->kind) {

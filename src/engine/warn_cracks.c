@@ -8,7 +8,8 @@
 #define FAR_OUTSIDE 0.1 /* distance of an end of a crack from all particles that is reported [longest edges] */
 enum { ALONG = 32 };    /* positions along a segment, or along each of two sides of a triangle, of a crack */
 
-/* Returns true if at least one of the bonds b is broken, at the start by pre-cracks. */
+/* Returns true if at least one of the bonds b is broken. Called at the start of a run, when only pre-cracks have broken
+ * bonds. */
 static bool bonds_are_cut(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++)

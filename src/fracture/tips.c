@@ -295,10 +295,11 @@ static void flood_all(struct flood *f)
 
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Updates position, growth and times of `tip` from r, the extent of its crack at time `time` [s]. A growth below the
- * previous one does not change them. t: all cracks, for the spacing; took_in: true if another crack has been merged
- * into this one. A jump in growth is then added to tip->joined, so that it does not count for the speed, and the crack
- * has a new number. */
+/* Updates position, growth and times of `tip` from r, the extent of its crack at time `time` [s]. If the extent is
+ * below the previous growth, position and growth stay as they are. t: all cracks, for the spacing; took_in: true if
+ * another crack has been merged into this one in this sample. If the growth then jumps by more than JOIN_JUMP spacings,
+ * the jump is added to tip->joined, so that it does not count for the speed, and the crack gets a new number,
+ * ++t->begun. */
 static void tip_move(struct crack_tip *tip, const struct tip_reach *r, struct crack_tips *t, real time, bool took_in)
 {
     real gain = r->farthest - tip->growth;

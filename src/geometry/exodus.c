@@ -301,8 +301,9 @@ static status element_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads nodes, blocks and sets of the file x into the mesh. Side sets are read before node sets, so that a side set
- * gets the name if both have the same one; it contains more information. Returns REFUSED for an invalid file. */
+/* Reads nodes, blocks and sets of the file x into the mesh. Side sets are read before node sets: if a side set and a
+ * node set have the same name, the side set gets it, since it contains more information. Returns REFUSED for an invalid
+ * file. */
 static status mesh_read(struct exodus *x)
 {
     const struct exodus_file *f = &x->file;

@@ -81,7 +81,8 @@ static void active_points_mark(struct active_points *r, const struct transfer_or
         if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
 }
 
-/* Extends the arrays of marks of cells in r if grid g has more nodes than these. New marks are 0. */
+/* Replaces the arrays of marks of cells in r by longer ones if grid g has more nodes than these have entries. All marks
+ * of the new arrays are 0. */
 static void make_room(struct active_points *r, const struct grid *g)
 {
     if (r->nodes >= g->n) return;

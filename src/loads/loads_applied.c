@@ -220,10 +220,10 @@ void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real
         }
 }
 
-/* Returns the dimensionless factor of a load with which its work over the position update about time t [s] is computed.
- * The work must equal the change of the energy m v- . v+/2, thus the mean of the forces of the velocity updates before
- * and after it, times the displacement. Each of these is the mean of the time function f over its interval, so that the
- * factor is f(t)/2 + (f(t - dt) + f(t + dt))/4. dt: time step [s]. */
+/* Returns the dimensionless factor of a load with which its work in the position update about time t [s] is computed.
+ * The work must equal the change of the energy m v- . v+/2: the displacement times the mean of two forces, those of the
+ * velocity updates before and after it. The force of a velocity update is the mean of the time function f at both ends
+ * of its interval, so that the factor is f(t)/2 + (f(t - dt) + f(t + dt))/4. dt: time step [s]. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_value(f, t) +

@@ -183,7 +183,7 @@ static bool constrained_is_current(const struct constrained_set *s, const struct
     return true;
 }
 
-/* Returns true if particle i of p is a material point of grid g, not of a mesh. */
+/* Returns true if particle i of p is a material point whose motion is that of grid g, not of a mesh. */
 static bool point_is_on(const struct grid *g, const struct particles *p, int32_t i)
 {
     return particle_moves_with_nodes(p, i) && !(p->flag[i] & FLAG_MESHED) &&
