@@ -122,9 +122,9 @@ static void print_missed_peak(const struct scene *s, real t, FILE *out)
             t, s->steps.number, number);
 }
 
-/* Writes a remark to `out` if loads of run e act before the first load step. Writes another one if loads decrease,
- * although the load steps are controlled in a manner that requires growing loads. Under control by load, writes one on
- * the peak of the loads that is farthest above the nearest load steps. */
+/* Writes a remark to `out` if loads of run e act before the first load step. Writes another one if loads decrease
+ * although the control of the load steps requires growing loads. In load control, also writes one on a peak of the
+ * loads between two load steps, the one that is farthest above the loads of the nearest steps. */
 static void advise_growth(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;

@@ -33,8 +33,8 @@ static struct memory_limit memory;
 static char processor[128];
 
 /* Stores in `memory` the memory of the machine [byte], or the smallest limit of this process if that is lower, with a
- * text that says which. topology: topology of the machine from hwloc, which states its memory; NULL: only the operating
- * system is asked. */
+ * text that states which of both it is. topology: topology of the machine from hwloc, which states its memory; NULL:
+ * only the operating system is asked. */
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;

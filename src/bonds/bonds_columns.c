@@ -53,8 +53,8 @@ static int64_t hole_take(struct holes_by_size *s, int32_t columns)
     return at;
 }
 
-/* Removes the holes (ranges of unused columns, each with eight bonds) of which no column is left from the array s->all,
- * and frees the lists of holes by size. */
+/* Frees the lists of holes by size in s, and removes used-up holes from the array s->all: those of which no column is
+ * left. (A hole is a range of unused columns, each with eight bonds.) */
 static void holes_close(struct holes_by_size *s)
 {
     int64_t n = 0;

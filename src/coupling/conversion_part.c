@@ -91,8 +91,8 @@ int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_b
 }
 
 /* Stores in c->bonded[p->n] which particles of p are material points with intact bonds to peridynamic particles: 1 for
- * these, 0 for others. Frees c->bonded and sets it to NULL if b has no rows of bonds. Does nothing unless velocities
- * are transferred by FLIP, which alone needs it, or without points on the grid. */
+ * these, 0 for others. Frees c->bonded and sets it to NULL if b has no rows of bonds. Does nothing if velocities are
+ * not transferred by FLIP, which alone needs these marks, or if no points are on the grid. */
 static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
     if (b->rows == 0) { /* all particles have reverted: no material point has bonds */

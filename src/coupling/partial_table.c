@@ -79,8 +79,9 @@ static int64_t place_from(const struct partial_table *t, const int *at)
     return place;
 }
 
-/* Returns the number of a lattice site in table t, from 0, if the centre of the table is at another site; -1 if the
- * site is outside the table. from[dim], to[dim]: positions of the centre and of the site [m]. */
+/* Returns the number of a lattice site in table t, from 0; -1 if the site is outside the table. The table is a cube of
+ * sites around a centre. from[dim]: position of the site at which the centre is placed [m]; to[dim]: position of the
+ * site whose number is returned [m]. */
 static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
 {
     int64_t place = 0;

@@ -113,10 +113,9 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* Sets mark[i] for all particles i, depending on whether a particle j with other[j] = 1 is within the cutoff (largest
- * bond length). If `meeting` is true, mark[i] becomes 1 for those with wanted[i] = 1 that have such a particle j; if
- * false, for those with wanted[i] = 1 that have none. mark[i] becomes 0 for all others. rule: has the cutoff. Arrays:
- * [p->n]. */
+/* Sets mark[i] to 1 for particles with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
+ * (largest bond length) if `meeting` is true, or that have none if it is false. Sets mark[i] to 0 for all other
+ * particles. rule: has the cutoff. Arrays: [p->n]. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {

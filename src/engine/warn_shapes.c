@@ -32,9 +32,9 @@ static real boxes_common(const struct solid *solid, int dim, real *low, real *hi
     return sqrt(apart2);
 }
 
-/* Tests POINTS_OF_SOLID evenly distributed points (Halton 1960) of the box with the corners low[dim] and high[dim] [m].
- * Returns true if one of them is in the solid and, if `inside` is true, in the region `before`, or, if `inside` is
- * false, outside that region. */
+/* Returns true if one of POINTS_OF_SOLID test points is in the solid and in the region `before` (if `inside` is true),
+ * or in the solid and outside that region (if false). The points are evenly distributed (Halton 1960) in the box with
+ * the corners low[dim] and high[dim] [m]. */
 static bool point_found(const struct solid *solid, const struct region *before, int dim, bool inside, const real *low,
                         const real *high)
 {

@@ -331,7 +331,8 @@ static real regression(const struct crack_tips *t, int k, int64_t first, int64_t
     return spread > 0 ? both / spread : NAN;
 }
 
-/* Returns the index of the first sample of t at or after `time` [s], or of the last sample if all are earlier. */
+/* Returns the index of the first sample of t (tip positions at one time) at or after `time` [s], or of the last sample
+ * if all are earlier. */
 static int64_t sample_at(const struct crack_tips *t, real time)
 {
     int64_t s = 0;

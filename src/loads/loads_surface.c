@@ -420,7 +420,7 @@ void load_surface_free(struct surface *s)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if an edge of a face is longer than s->longest: its ends, in x[corners], are in different fragments. */
+/* Returns true if an edge of a face with corners x[corners] exceeds s->longest: its ends are in different fragments. */
 static bool is_torn(const struct surface *s, const real *const *x, int corners)
 {
     bool torn = false;

@@ -237,8 +237,8 @@ static void product_block(const void *context, int64_t first, int64_t end, real 
     for (int64_t I = first; I < end && !q->weight; I++) sum[0] += q->a[I] * q->b[I];
 }
 
-/* Returns the sum of a[k] b[k] weight[k] over n nodes; weight NULL: all weights are 1. The sum does not depend on the
- * number of threads. */
+/* Returns the sum of a[k] b[k] weight[k] over n nodes k. All weights are 1 if `weight` is NULL. The sum does not depend
+ * on the number of threads. */
 static real product(const real *a, const real *b, const real *weight, int64_t n)
 {
     real sum;
