@@ -32,10 +32,11 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
-/* Changes the stiffness K[n][n] of cell I of the mesh for displacements of its corners [N/m] such that all points (of
- * p) of `material` have one dilatation, the mean of theirs (mesh_law.h): K - sum V k t (x) t + N V k T (x) T. t:
- * derivative of the trace of the strain at a point by the displacements; T: mean of t over the N points; V: volume of a
- * point; k: mean_dilatation_stiffness. m: elastic constants of the material. */
+/* Changes the stiffness K[n][n] of cell I of the mesh for displacements of its corners [N/m] such that all N points of
+ * `material` in the cell have one dilatation, the mean of their dilatations, against volumetric locking (mesh_law.h):
+ * subtracts V k t (x) t for each of these points and adds N V k T (x) T. t[n]: derivative of the trace of the strain
+ * at a point by the displacements; T[n]: mean of t over the N points; V: volume of a point; k:
+ * mean_dilatation_stiffness. m: elastic constants of the material; p: particles, which include the points. */
 static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
                                uint8_t material, real *K)
 {
@@ -57,8 +58,8 @@ static void average_dilatation(const struct mesh *mesh, const struct elastic *m,
         for (int a = 0; a < n; a++) K[b * n + a] += by * sum[a] * sum[b] / points;
 }
 
-/* Returns true if point q (0 .. 2^dim - 1) of cell I of the mesh, of `material`, is the first point of the cell with
- * this material. p: particles. */
+/* Returns true if no point of cell I before point q (0 .. 2^dim - 1) has the given material, so that a loop over the
+ * points treats each material of the cell once. p: particles, whose materials are compared. */
 static bool first_of_material(const struct mesh *mesh, const struct particles *p, int64_t I, int q, uint8_t material)
 {
     for (int k = 0; k < q; k++) {

@@ -47,8 +47,9 @@ struct frame_job {
  * do not change from frame to frame are in the particles file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
-/* Copies from `source` the rows of those fields of the frame of `job` that are stored in the frame itself, not in the
- * particles file, to job->o->frame_copy. This memory is used again for the next frame. */
+/* Copies from `source` the rows of those fields of a frame (output file of one time) that are stored in the frame
+ * itself, not in the particles file, to job->o->frame_copy. This memory is used again for the next frame. job:
+ * description of the frame to be written. */
 static void job_copy_fields(struct frame_job *job, const struct frame_source *source)
 {
     struct output *o = job->o;
@@ -68,8 +69,8 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
     }
 }
 
-/* Removes the field of contact forces from the frame of a job if all of them are 0, and marks the frame as one without
- * contact. */
+/* Removes the field of contact forces from the frame (output file of one time) of `job` if all contact forces are 0,
+ * and marks the frame as one without contact. */
 static void job_drop_contact(struct frame_job *job)
 {
     const float *force = (const void *)job->field[FIELD_CONTACT];
@@ -102,9 +103,10 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
     job->particles.compress = job->compress;
 }
 
-/* Returns the job of writing a frame of a series (of the whole run or of one region) to the output o at time t [s] and
- * time step number `step`, and copies the fields of the particles of `source` into it, so that the run can go on while
- * it is written. scene_text: text of the scene, for the particles file. The caller owns the job. */
+/* Returns the job of writing a frame (output file of one time) of a series to the output o at time t [s] and time step
+ * number `step`, and copies the fields of the particles of `source` into it, so that the run can go on while it is
+ * written. series: frames of the whole run or of one region; scene_text: text of the input file (scene), for the
+ * particles file. The caller owns the job. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
@@ -286,8 +288,9 @@ static void frame_count(struct frame_series *s, const struct frame_job *job)
         (struct frame_entry){.time = job->t, .rows = job->n, .fields = job->fields, .particles = s->particles.number};
 }
 
-/* Starts a thread that writes the frame of a job; if no thread is available, writes the frame at once. The thread
- * blocks all signals except those of its own faults, so that the stepping thread receives them. */
+/* Starts a thread that writes the frame (output file of one time) that `job` describes; if no thread is available,
+ * writes the frame at once. The thread blocks all signals except SIGSEGV and SIGBUS, the signals of its own faults, so
+ * that the stepping thread receives them. */
 static void output_frames_job_start(struct frame_job *job)
 {
     sigset_t all, before;
@@ -339,8 +342,9 @@ struct particles_seen {
 };
 
 /* Checks particles file number `number` of the series of frames s in the folder of a run, and stores name, fault and
- * hash of the file in *seen. Does nothing if it is the file that was checked last. The checkpoint has the hash of the
- * last particles file of the series. If this file has another hash, it belongs to another run and counts as lost. */
+ * hash of the file in *seen. Does nothing if *seen already describes this file. The state restored from the checkpoint
+ * has the hash of the last particles file of the series. If this file has another hash, it belongs to another run and
+ * counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
@@ -387,9 +391,10 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
     return snprintf(text, capacity, "and %s, to which it links, belong to different runs", particles->name) > 0;
 }
 
-/* Marks the frames of the series s of the output o that are lost (damaged or missing) and adds their number to *lost.
- * If *lost was 0, describes the first of them in text[capacity]. Frames that were marked at an earlier restart and
- * exist again lose their mark. A particles file that is lost is not used for further frames. */
+/* Marks the frames (output files) of the series s of the output o that are lost (damaged or missing) and adds their
+ * number to *lost. If *lost was 0, describes the first of them in text[capacity]. Frames that were marked at an
+ * earlier restart and exist again are no longer marked. A particles file that is lost is not used for further frames.
+ */
 static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t capacity)
 {
     struct particles_seen seen = {.number = -1};

@@ -182,6 +182,7 @@ void map_colour_bar_draw(FILE *gnuplot, const struct layout *l, const struct map
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
+/* Appends an entry to the key (legend): a sample of `colour` with the text `name`, which is truncated if too long. */
 static void map_key_add(struct map_key *key, struct colour colour, const char *name)
 {
     struct category *of = &key->of[key->n++];

@@ -27,9 +27,10 @@ static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger
 bool map_has_colour_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
 
 /* Returns a layout for the maps m in which only the margins of the panels are set: above for the title, left for the
- * axis, and right for the colour bar or the key, with the distance of columns. The lower margin is set by strip_set.
- * under: the colour bar, or the key of a map of named values, is below the panels; before: layout with the size of the
- * panels, on which the widths of numbers and of the bar depend, or NULL if it is not known yet. */
+ * axis, and right for the colour bar or the key (legend), and the gap between columns of panels. The lower margin is
+ * set by strip_set. under: true if the colour bar, or the key of a map of named values, is below the panels; before:
+ * layout with the size of the panels, on which the widths of numbers and of the bar depend, or NULL if it is not known
+ * yet. */
 static struct layout margins_of(const struct maps_shown *m, bool under, const struct layout *before)
 {
     const int panels = before ? before->rows * before->panel_height + (before->rows - 1) * GAP_Y : 0;
@@ -63,8 +64,8 @@ static struct layout margins_of(const struct maps_shown *m, bool under, const st
     return l;
 }
 
-/* Computes in l the number of entries in a row of the key below the panels, for a picture of the given width [pixel],
- * and from it the margin below the panels, in which the axis labels, the colour bar and the key are. */
+/* Computes in l the number of entries in a row of the key (legend) below the panels, for a picture of the given width
+ * [pixel], and from it the margin below the panels, in which the axis labels, the colour bar and the key are. */
 static void strip_set(struct layout *l, int width)
 {
     l->key_columns = (int)fmax((width - KEY_LEFT) / fmax(l->entry, 1), 1);

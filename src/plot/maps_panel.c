@@ -49,7 +49,7 @@ double tic_numbers_width(double low, double high, double tics, const char *forma
     return (picture_is_too_narrow_for_key() ? 7.4 : 9) * longest;
 }
 
-/* Returns the number of tics between `low` and `high`: of multiples of `tics`, the distance between tics. */
+/* Returns the number of tics (labelled marks of an axis) from `low` to `high`, placed at all multiples of `tics`. */
 static double tics_within(double low, double high, double tics) { return floor(high / tics) - ceil(low / tics) + 1; }
 
 double tic_distance_on_horizontal_axis(double low, double high, double axis_width)

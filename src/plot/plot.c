@@ -149,9 +149,9 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Draws for request r the profiles of a bar with the closed-form solution of the EXACT probe called `probe`. Leaves out
- * the frame at t = 0 if there are others among `frames`. Returns FAILED, with a message, if a profile cannot be read or
- * gnuplot fails. */
+/* Draws for request r the profiles of a bar together with its closed-form solution, which the probe of kind EXACT
+ * called `probe` has written. Leaves out the frame (output) at t = 0 if there are others among `frames`. Returns
+ * FAILED, with a message, if a profile cannot be read or gnuplot fails. */
 static status plot_draw_bar(const struct plot_request *r, const struct run_frames *frames, const char *probe)
 {
     char title[TITLE_LENGTH];
@@ -161,8 +161,9 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
                                        probe, frames->show + skipped, frames->shown - skipped);
 }
 
-/* Draws for request r profiles of a bar at the selected frames: with the closed-form solution if the run has an EXACT
- * probe, else from the particles. Returns FAILED, with a message, if a frame cannot be read or gnuplot fails. */
+/* Draws for request r profiles of a bar at the selected frames (output times): with the closed-form solution if the
+ * run has a probe of kind EXACT, which compares the bar with it, else from the particles. Returns FAILED, with a
+ * message, if a frame cannot be read or gnuplot fails. */
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];

@@ -26,8 +26,9 @@ static const struct {
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Reads the profile of the EXACT probe called `probe` at frame `number` of the run in `folder` into *h. Returns FAILED,
- * with a message, if there is none. Release *h with history_free. */
+/* Reads into *h the profile, a CSV table of the bar and its closed-form solution, that the EXACT probe called `probe`
+ * wrote with frame (output) `number` of the run in `folder`. Returns FAILED, with a message, if the file is missing or
+ * cannot be read. Release *h with history_free. */
 static status profile_read(struct history *h, const char *folder, const char *probe, int number)
 {
     char path[PATH_LENGTH];
@@ -52,8 +53,8 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
     return has;
 }
 
-/* Finds the first EXACT probe, in alphabetical order, of which a profile is in the folder of a run, and stores its name
- * in `probe_name`. Returns false if there is none. */
+/* Finds the first probe of kind EXACT (comparison of a bar with a closed-form solution), in alphabetical order, of
+ * which a profile is in the folder of a run, and stores its name in `probe_name`. Returns false if there is none. */
 bool run_find_exact_probe(const char *folder, char probe_name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];

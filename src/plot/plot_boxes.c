@@ -32,9 +32,11 @@ struct cube {
     double beyond[MIRRORS_SHOWN_MOST];     /* coordinate of each plane less that of the centre [m] */
 };
 
-/* Limits the range *enters .. *leaves of depths [m] of a line of sight within the cube b to the part before all planes
- * of symmetry, as seen from its centre. at[2]: distances of the line from the centre, along eye->right and eye->up [m].
- * Returns the axis of the plane through which the line leaves towards the viewer, else `face`. */
+/* Shortens the range *enters .. *leaves of depths [m] in which a line of sight is inside the cube b to the part on the
+ * centre's side of every plane of symmetry. at[2]: distances of the line from the centre, along eye->right and eye->up
+ * [m]. face: axis of the face through which the line leaves the cube. Returns the axis of the plane through which the
+ * shortened line leaves towards the viewer, or `face` if it still leaves through that face. A line without such a part
+ * gets *leaves < *enters. */
 static int clip_line_at_mirrors(const struct camera *eye, const struct cube *b, const double *at, double *enters,
                                 double *leaves, int face)
 {

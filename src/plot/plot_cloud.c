@@ -248,8 +248,8 @@ static void cloud_allocate(struct plotted_particles *c, const struct output_fram
     if (projection->value) c->value = NEW("plot.value", f->n, float);
 }
 
-/* Sets the axes of the map in c of frame f: x and y in 2D, the axes in the plane of the slice, or the directions of the
- * camera, that `projection` requests in 3D. */
+/* Sets the axes of the map in c, the drawn particles of frame f (output of one time): x and y in 2D; in 3D, as
+ * `projection` requests, the axes in the plane of the slice or the directions of the camera. */
 static void cloud_axes(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
     c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along_axis(2, 1);

@@ -205,7 +205,8 @@ static void choose_energies(struct energies *e, const struct history *h)
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
-/* Writes the gnuplot expression of energy number k of e, a column of the data less its shift. */
+/* Writes to gnuplot's stream `to` the expression for energy number k (from 0) of e: column k + 2 of its data, less the
+ * initial energy shift[k] if this is subtracted in the picture. */
 static void write_energy(FILE *to, const struct energies *e, int k)
 {
     fprintf(to, "$%d", k + 2);

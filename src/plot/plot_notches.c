@@ -44,9 +44,9 @@ static bool is_beside(const struct faces *f, const struct plotted_particles *c, 
     return fabs(off) <= reach && s >= -0.5 * f->section && s <= f->length + 0.5 * f->section;
 }
 
-/* Moves the drawn line of the pre-crack f to the middle of the gap between the particles of c on its two sides, which
- * is where the crack opens. A pre-crack along the lattice may be anywhere between two rows; one across the lattice
- * hardly moves. */
+/* Moves the drawn line of the pre-crack f sideways to the middle of the gap between the particles of c on its two
+ * sides, which is where the crack opens. A pre-crack along the lattice may be anywhere between two rows of particles;
+ * one across the lattice hardly moves. */
 static void faces_move_between_particles(struct faces *f, const struct plotted_particles *c)
 {
     double edge[2] = {INFINITY, INFINITY}; /* distance of the nearest edge on each side [m] */
@@ -122,7 +122,7 @@ static void faces_complete(const struct faces *f, double x[2][2], bool is[2], do
     }
 }
 
-/* Returns the length [pixel] to which LINE_HALF and GAP_SEEN refer, in an image of width x height [pixel]. */
+/* Returns the length [pixel] of which LINE_HALF and GAP_SEEN are fractions, in an image of width x height [pixel]. */
 static double line_scale(int width, int height) { return fmin(width, FLAT * height); }
 
 /* Returns half the width [pixel] of a line in an image of the given size [pixel]. */

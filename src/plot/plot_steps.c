@@ -319,9 +319,9 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Writes the largest sampled force of the curve a, and the displacement there, to text[capacity], for the key, with the
- * direction of this component: summary.json has the length of the vector. h: history with the values; newton, metre:
- * units of force and displacement. */
+/* Writes to text[capacity], for the key (legend), the largest sampled force of the curve a and the displacement at
+ * that sample. The text names the axis of this component, since summary.json has the magnitude of the force vector
+ * instead. h: history with the values; newton, metre: units of force and displacement. */
 static void write_peak(char *text, size_t capacity, const struct history *h, const struct reaction *a,
                        struct unit newton, struct unit metre)
 {

@@ -69,8 +69,8 @@ void probes_update_every_step(struct probes *s, const struct observed_run *o)
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
 
-/* Stores in value[0 .. dim - 1] the position of the crack tip of run o that the TIP probe q follows [m], and in
- * value[dim] its growth [m]. Without a tip the position is NAN and the growth 0. */
+/* Stores in value[0 .. dim - 1] the position of the crack tip of run o that the probe q (kind TIP) follows [m], and in
+ * value[dim] how far the crack has grown there [m]. Without a tip the position is NAN and the growth 0. */
 static void sample_tip(const struct probe *q, const struct observed_run *o, real *value)
 {
     const struct crack_tip *tip = probe_find_followed_crack_tip(q, o->tips);

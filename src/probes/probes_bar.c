@@ -184,8 +184,8 @@ struct column bar_probe_value_column(enum exact_form closed_form, int value_numb
 }
 
 /* Computes the errors of the bar b in run o against the closed form and stores them at their indices (enum figure) in
- * value[FIGURES]: L1 (mean |error|) and L2 (root mean square) of stress, E x strain and velocity, and L2 of
- * displacement. */
+ * value[FIGURES]: L1 (mean |error|) and L2 (root mean square) of stress, of Young's modulus times strain, and of
+ * velocity, and L2 of displacement. */
 static void errors(const struct bar *b, const struct observed_run *o, real *value)
 {
     real sum[7] = {0};

@@ -178,7 +178,7 @@ static real default_outer_radius(const struct sif_tracked *w, const struct probe
 }
 
 /* Sets the integration contours of the SIF probe w of run o: contour[0], from which the results are computed, then
- * those with which it is compared. The latter have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of
+ * further ones for comparison, which have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of
  * contour[0]. Sets w->reach to the largest outer radius. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {

@@ -49,8 +49,9 @@ static void probes_spall_columns_free(struct columns *c)
     memory_free(c->next);
 }
 
-/* Counts a bond between particles in columns a and b (slices along x): adds 1 to count[] at the lower and subtracts
- * 1 at the higher column, so that prefix sums of count[] are the numbers of bonds across the planes between columns. */
+/* Counts a bond between particles in the slices a and b of the body (along x, numbered from 0): adds 1 to count[] at
+ * the lower and subtracts 1 at the higher slice, so that prefix sums of count[] are the numbers of bonds across the
+ * planes between slices. */
 static void count_across(int32_t *count, int64_t a, int64_t b)
 {
     count[a < b ? a : b]++;

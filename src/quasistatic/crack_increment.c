@@ -101,11 +101,12 @@ static int64_t breaks_most(const struct scene *s, real front)
 
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
-/* Breaks the bonds of one crack increment of run e at the present pseudo-time, with an equilibrium after each batch of
- * bonds, and appends these bonds to e->statics->next. *a: receives the energy that the bonds cost [J] and the energy
- * that the body releases, divided by the square of the load size (norm of prescribed displacements or forces). In 3D
- * the part of the section that SIF-driven crack fronts have left intact breaks in larger batches, because no load
- * depends on the path there. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Makes one crack increment of run e (a short growth of the crack) as a trial at the present pseudo-time: breaks the
+ * bonds with the largest stretch ratios in batches, finds the equilibrium after each batch, and appends the bonds to
+ * e->statics->next. a->cost: receives the energy that the bonds cost [J]; a->release: the energy that the body
+ * releases, divided by the square of the load size (norm of prescribed displacements or forces). In 3D, bonds that the
+ * fronts of SIF-driven cracks (directed by stress-intensity factors) have not reached break in larger batches, because
+ * no load depends on the path there. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
@@ -169,17 +170,18 @@ static status increment_find_now(struct run *e, real stressed)
     return tried;
 }
 
-/* Returns the smallest stretch ratio (stretch of a bond divided by its critical stretch) at which an increment is
- * looked for under the present loads: a lower limit once an increment has been made (s->behind). */
+/* Returns the smallest stretch ratio (stretch of a bond divided by its critical stretch) at which the next crack
+ * increment is searched for under the present loads: STRESSED_FURTHER, the lower limit, once an increment has been
+ * made (s->behind), else STRESSED. */
 static real stretch_ratio_of_trial(const struct statics *s) { return s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED; }
 
 /* Determines the next crack increment of run e at the load size (norm of prescribed displacements or forces) at which
- * it is due, by the secant method. Needed where the strain is not proportional to the load size, as supports or rigid
- * bodies move before anything is in contact; the energy release grows with the square of the strain. Bonds may be
- * stretched less there than a trial under the present loads requires. Then restores the present equilibrium or, if
- * material points have been converted, finds the equilibrium of the initial pseudo-time again. If the load size is so
- * small that no bond would break, the increment is that of the present loads. Returns FAILED, with a message, if an
- * equilibrium is not found. */
+ * it will be made, by the secant method. Needed where the strain is not proportional to the load size, as supports or
+ * rigid bodies move before anything is in contact: the energy release grows with the square of the strain. The bonds
+ * may be stretched less at that load size than a trial under the present loads requires. Afterwards restores the
+ * present equilibrium or, if material points have been converted, finds the equilibrium of the initial pseudo-time
+ * again. If the load size is so small that no bond would break, the increment is that of the present loads. Returns
+ * FAILED, with a message, if an equilibrium is not found. */
 static status increment_find_at_due(struct run *e)
 {
     struct statics *s = e->statics;

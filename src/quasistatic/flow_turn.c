@@ -37,10 +37,10 @@ static void deviator(real *x)
     for (int c = 0; c < 3; c++) x[c] -= mean;
 }
 
-/* Returns Hooke's stress zz [Pa] of a sheet (plane stress) for its whole strain, which includes the change of thickness
- * by plastic flow. It is 0 in an elastic sheet; without it, a bar that flows to and fro seems to turn its direction of
- * flow. poisson: Poisson's ratio [1]; corrections: sum of the normal components of the plastic stress correction
- * [Pa]. */
+/* Returns the stress zz [Pa] that Hooke's law gives for the total strain of a sheet in plane stress, including its
+ * change of thickness by plastic flow. It is 0 in an elastic sheet. Without this stress the direction of flow would
+ * seem to turn in a bar that yields in tension and compression alternately. poisson: Poisson's ratio; corrections: sum
+ * of the normal components xx and yy of the plastic stress correction [Pa]. */
 static real elastic_stress_of_plastic_thickness(real poisson, real corrections)
 {
     return -(1 - 2 * poisson) / (1 + poisson) * corrections;

@@ -39,9 +39,9 @@ enum { APPROACHES_MOST = 12 }; /* largest number of loads that are tried before 
 
 /* Returns the load size (norm of prescribed displacements [m] or of applied forces [N]) at which the next crack
  * increment is made if loads can only grow. For the first increment (no bond of diagnostics->bonds_broken yet) it is
- * s->due, at which the pre-crack is in balance with the loads. For a later one it is the larger of s->due and the load
- * size at which the body releases the energy that this increment alone costs; loads then oscillate about those of a
- * crack that grows continuously. */
+ * s->due, the load size at which the pre-crack is in balance with the loads. For a later one it is the larger of
+ * s->due and the load size at which the body releases the energy that this increment alone costs; loads then oscillate
+ * about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
     return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load_size(&s->ahead)) : s->due;
@@ -90,10 +90,10 @@ static status approach_loads(struct run *e, real t)
     return crack_increment_find(e);
 }
 
-/* Makes the next crack increment of run e while loads can only grow, and determines the increment after it. The
- * increment is made at the larger of the load size (norm of prescribed displacements [m] or of applied forces [N]) at
- * which it is due and *size, the load size of the previous increment. *size receives this load size. Updates the
- * largest forces of the rigid bodies there. from, t: range of the pseudo-time [s]. Returns FAILED, with a message, if
+/* Makes the next crack increment of run e while loads can only grow, and determines the increment after it. The load
+ * size (norm of prescribed displacements [m] or of applied forces [N]) of the increment is the larger of
+ * increment_load and *size, the load size of the previous increment; *size receives it. Updates the probes and the
+ * largest forces on the rigid bodies there. from, t: range of the pseudo-time [s]. Returns FAILED, with a message, if
  * an equilibrium is not found. */
 static status increment_under_loads(struct run *e, real *size, real from, real t)
 {
@@ -116,9 +116,9 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     return crack_increment_find(e);
 }
 
-/* Makes a load step of run e under load control: increases the loads to those of pseudo-time t [s], and makes all crack
- * increments that are due at smaller loads. The pseudo-time never decreases. Returns FAILED, with a message, if an
- * equilibrium is not found. */
+/* Makes a load step of run e under load control: increases the loads to those of pseudo-time t [s], and makes all
+ * crack increments whose load sizes are smaller. The pseudo-time never decreases. Returns FAILED, with a message, if
+ * an equilibrium is not found. */
 static status step_by_load(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -137,8 +137,9 @@ static status step_by_load(struct run *e, real t)
 }
 
 /* Makes a load step of run e under energy control, where loads may fall: makes one crack increment, then finds the
- * equilibrium at the pseudo-time at which the next increment is due. If no increment is due within the pseudo-time
- * `most` [s] from now, the step ends there. Returns FAILED, with a message, if an equilibrium is not found. */
+ * equilibrium at the pseudo-time at which the loads suffice for the next increment. If this is more than `most` [s]
+ * from now, the step ends after `most`, without a further increment. Returns FAILED, with a message, if an equilibrium
+ * is not found. */
 static status step_by_energy(struct run *e, real most)
 {
     struct statics *s = e->statics;
@@ -155,10 +156,10 @@ static status step_by_energy(struct run *e, real most)
     return OK;
 }
 
-/* Returns true if the next crack increment comes before the opening between the gauge particles of p reaches `wanted`
- * [m]. Assumes that the opening grows in proportion to the loads. s: state of the load steps; size: present load size
- * (norm of prescribed displacements [m] or of applied forces [N]); due: load size of the increment, in the same
- * unit. */
+/* Returns true if the load size (norm of prescribed displacements [m] or of applied forces [N]) of the next crack
+ * increment is reached before the opening, the change of distance between two gauge particles of p, reaches `wanted`
+ * [m]. Assumes that the opening grows in proportion to the loads. s: state of the load steps; size: present load size;
+ * due: load size of the increment. */
 static bool increment_before_opening(const struct particles *p, const struct statics *s, real size, real due,
                                      real wanted)
 {
@@ -174,9 +175,9 @@ static real time_of_opening(const struct particles *p, const struct statics *s, 
     return now > 0 ? s->t * wanted / now : otherwise;
 }
 
-/* Makes a load step of run e under control of the opening: increases the opening between the gauge particles by one
- * step, and makes all crack increments that are due until then. Returns FAILED, with a message, if an equilibrium is
- * not found. */
+/* Makes a load step of run e under control of the opening: increases the opening (change of distance between two gauge
+ * particles) by one step, and makes all crack increments for which the loads suffice until then. Returns FAILED, with
+ * a message, if an equilibrium is not found. */
 static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
@@ -270,8 +271,9 @@ static status check_loads_grow(const struct scene *s, real quarter, real half, r
         s->duration);
 }
 
-/* Returns the remedy for load steps of scene s with a body in the current frame: method pd where bonds can have the
- * materials, else one body or explicit steps. */
+/* Returns the remedy, as text for a message, for load steps of a scene s with material points that cannot use the mesh
+ * of the undeformed body (reference frame): method pd if bonds can have the materials, else one body or explicit
+ * steps. */
 static const char *remedy_without_reference_frame(const struct scene *s)
 {
     bool bonds = true;

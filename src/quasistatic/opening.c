@@ -63,10 +63,11 @@ struct opening_search {
     int last;       /* end of the bracket that was replaced last, 0 or 1 */
 };
 
-/* Adds a result to the search r for a body that yields: the equilibrium at pseudo-time t [s] has an opening that
- * exceeds the wanted opening by `differ` [m]. Returns the next pseudo-time to try [s]: by the secant method, limited to
- * 0 .. 2 t, and within a bracket by its Illinois variant, which halves the difference of an end that was kept twice.
- * Returns t if the opening has not changed since the last call. */
+/* Adds a result to the search r for the pseudo-time at which the opening of a yielding body equals the wanted one: in
+ * the equilibrium at pseudo-time t [s] the opening exceeds the wanted one by `differ` [m], which is negative if it is
+ * smaller. Returns the next pseudo-time to try [s]: by the secant method, limited to 0 .. 2 t, or within a bracket by
+ * its Illinois variant, which halves the difference of an end that was kept twice. Returns t if the opening has not
+ * changed since the last call. */
 static real opening_search_next(struct opening_search *r, real t, real differ)
 {
     const int end = differ > 0;
@@ -87,10 +88,11 @@ static real opening_search_next(struct opening_search *r, real t, real differ)
 /* Returns true if the opening `at` equals the opening `wanted` (both [m]) within the relative error `error`. */
 static bool opening_is_near(real at, real wanted, real error) { return fabs(at - wanted) <= error * fabs(wanted); }
 
-/* Finds the equilibrium of run e, whose body yields, at which the opening between the gauge particles equals `wanted`
- * [m]. Each attempt starts from the state at the call, since plastic strains depend on the path; that state is restored
- * after an attempt that fails. t: first pseudo-time tried [s]. *at: receives the opening of the last attempt [m], which
- * the caller compares. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Finds the equilibrium of run e, whose body yields, at which the opening (change of distance between two gauge
+ * particles) equals `wanted` [m]. Each attempt starts from the state at the call, since plastic strains depend on the
+ * path; that state is restored after an attempt that fails. t: first pseudo-time tried [s]. *at: receives the opening
+ * of the last attempt [m], which the caller compares. Returns FAILED, with a message, if an equilibrium is not found.
+ */
 static status find_opening_of_yielding_body(struct run *e, real wanted, real t, real *at)
 {
     const struct statics *s = e->statics;

@@ -65,9 +65,9 @@ static real reactions_norm(const struct loads *loads, int dim)
     return sqrt(sum);
 }
 
-/* Updates damping and residual of the solver of run e. The damping is the critical one, 2 omega, of the lowest mode.
- * This mode resembles the displacement u, so that omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the strain energy U.
- * *done: set to true at equilibrium, else to false. */
+/* Updates damping and residual of the dynamic relaxation of run e. The damping rate is the critical one, 2 omega, of
+ * the lowest mode. This mode resembles the displacement u, so that omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with
+ * the strain energy U. *done: set to true at equilibrium, else to false. */
 static void estimate(struct run *e, bool *done)
 {
     struct static_solver *s = e->solver;

@@ -57,8 +57,8 @@ static void boundaries_restore(struct boundary *boundary, const struct scene *sc
     array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
-/* If `hold` is true, fixes all rigid bodies of the scene; if it is false, makes those with a prescribed velocity move
- * with it again. rigid: the rigid bodies, in the order of the scene. */
+/* Fixes all rigid bodies of the scene if `hold` is true; else lets those with a prescribed velocity move with it
+ * again. rigid: the rigid bodies, in the order of the scene. */
 static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
     for (int k = 0; k < scene->rigids; k++) {
@@ -86,9 +86,11 @@ static real kinetic_present(const struct particles *part, const struct reference
     return particles_kinetic_energy(part) + reference_frame_kinetic_energy(frame);
 }
 
-/* Makes time steps of run e, first undamped, then damped, until the body is at rest or the longest time of a release
- * has passed. *broken: receives the number of directed bonds (each bond counts twice) that break. Returns FAILED, with
- * a message, if the motion diverges. */
+/* Computes the motion of run e after bonds have broken (dynamic release) in explicit time steps: undamped until no
+ * bond has broken for CROSSINGS_QUIET times the time in which a wave crosses the body, then damped until the body is
+ * nearly at rest. Stops at the latest after CROSSINGS_MOST such times, CROSSINGS_DAMPED of them damped. *broken:
+ * receives the number of directed bonds that break (each bond counts twice). Returns FAILED, with a message, if the
+ * motion diverges. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
     const real crossing = (particles_bounding_box_longest_edge(&e->part) + e->scene->spacing) /

@@ -125,7 +125,7 @@ void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct part
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-/* Returns the tip of l with the largest growth, the first of several with equal growth; NULL if there is no tip. on:
+/* Returns the tip of l with the largest growth, the first of several with equal growth; NULL if none qualifies. on:
  * true to consider only tips that can grow further, false for all tips. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
 {
@@ -170,8 +170,8 @@ static real intersection_share(const struct crack *c, const real *a, const real 
     return !parallel && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
 }
 
-/* Returns true if an end of crack segment c is at most `within` [m] from `tip`, as is the last segment of the path of
- * the tip. */
+/* Returns true if an end of crack segment c is at most `within` [m] from `tip`: the segment is then the pre-crack or
+ * the last part of the path behind the tip, which growth must not be tested against. */
 static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip *tip, real within)
 {
     return sif_plane_point_distance(c->corner[0], tip->position) <= within ||

@@ -157,10 +157,10 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
     return tried;
 }
 
-/* Estimates tip->behind, cost and energy release of the increment that would have led to the present position of a tip,
- * for a tip of run e at the end of a pre-crack, which has not grown. It is extrapolated backwards from the first
- * increment, whose bonds must be broken already, and from a trial of a second one straight ahead. Returns FAILED, with
- * a message, if an equilibrium is not found. */
+/* Estimates tip->behind (cost and energy release of the previous crack increment) for a tip of run e at the end of a
+ * pre-crack, which has not grown yet, as if an increment had led there. It is extrapolated backwards from the first
+ * increment tip->ahead, whose bonds must be broken already, and from a trial of a second one straight ahead. Returns
+ * FAILED, with a message, if an equilibrium is not found. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
     struct sif_crack_tip beyond = *tip;
@@ -201,10 +201,10 @@ static bool list_has(const struct break_list *l, const struct broken_bond *recor
     return false;
 }
 
-/* Selects the tips that grow in the next crack increment: the one that is due at the smallest load size (norm of
- * prescribed displacements or forces), and those that are due at nearly the same. Combines their bonds in s->next, and
- * the costs and energy releases of their increments in s->ahead and s->behind. Computes s->due, the load size of the
- * combined increment. list[k]: bonds of the next segment of tip k. */
+/* Selects the tips that grow in the next crack increment: the tip with the smallest load size (norm of prescribed
+ * displacements or forces) tip->due at which it grows, and those whose load sizes are larger by at most the fraction
+ * TOGETHER. Combines their bonds in s->next, and the costs and energy releases of their increments in s->ahead and
+ * s->behind. Computes s->due, the load size of the combined increment. list[k]: bonds of the next segment of tip k. */
 static void increment_choose(struct statics *s, struct break_list *list)
 {
     struct sif_cracks *l = &s->sif;

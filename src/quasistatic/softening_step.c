@@ -73,12 +73,12 @@ static real factor_at_surface(const struct search *f)
     return ratio > 0 ? AT_SURFACE / ratio : INFINITY;
 }
 
-/* Returns the dimensionless factor on the displacements of the last solution of the search f at which bonds dissipate
- * the energy f->spent, but at most `most` and the factor at which the next particle reaches its strength surface. Sets
- * the largest stretches of the bonds to those at this factor. most: loads at the end of the step divided by the present
- * loads; least: loads of the last equilibrium divided by the present loads. If f->spent is INFINITY (the loads are
- * given), the factor is `most`, and a strength surface does not reduce it below `least`. f->at_end: set to true if the
- * factor is `most`. */
+/* Returns the dimensionless factor on the displacements of the last solution of the search f at which bonds have
+ * dissipated the energy f->spent in this step. The factor is limited to `most` and to the factor at which the next
+ * particle reaches its strength surface. If f->spent is INFINITY (the loads are given), the factor is `most`, which a
+ * strength surface reduces at most to `least`. Sets the largest stretches of the bonds to those at this factor. most:
+ * loads at the end of the step divided by the present loads; least: loads of the last equilibrium divided by the
+ * present loads. f->at_end: set to true if the factor is `most`. */
 static real secants_choose(struct search *f, real most, real least)
 {
     const bool given = !isfinite(f->spent);
@@ -151,9 +151,9 @@ static status search_run(struct run *e, struct search *f)
                                          : "steps.control: energy, which can follow a falling load");
 }
 
-/* Adds to the fracture energy what neighbourhoods of state-based models have lost since the last equilibrium by
- * softening, at positions midway. loads: list of mirror images; before[dim]: positions of the particles at that
- * equilibrium [m]. Does nothing in bond-based models. */
+/* Adds to the fracture energy the energy that neighbourhoods of state-based models have lost by softening since the
+ * last equilibrium, computed at the mean of the positions then and now. loads: list of mirror images; before[dim]:
+ * positions of the particles p at the last equilibrium [m]. Does nothing in bond-based models. */
 static void family_losses_add(struct bonds *b, const struct particles *p, const struct loads *loads,
                               real *const *before)
 {

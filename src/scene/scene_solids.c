@@ -13,6 +13,8 @@ enum { SOLIDS_MOST = 200000 }; /* largest number of solids of a scene */
 
 /* ---- shapes ------------------------------------------------------------------------------------------------------ */
 
+/* Kinds of solids by their names in input files (scenes). dim: number of dimensions in which a name is valid; 0: in
+ * any. */
 static const struct solid_word {
     const char *name;
     enum solid_kind kind;

@@ -18,6 +18,8 @@ static const double ZERO_NEAR = 0.25;
 
 /* ---- text around the panels -------------------------------------------------------------------------------------- */
 
+/* Writes to gnuplot's stream `to` the command for a label `text` at x, y [pixel] from the lower left corner of the
+ * picture p. how: further options of the label, such as its alignment. */
 static void screen_label(FILE *to, const struct study_picture *p, const char *text, double x, double y, const char *how)
 {
     fputs("set label ", to);
@@ -45,6 +47,8 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
 /* ---- panels -------------------------------------------------------------------------------------------------------
  */
 
+/* Starts gnuplot in *g for the picture p, in the file `name` of the folder `pictures` of the study, and writes the
+ * notes of p below its panels. Returns REFUSED or FAILED, with a message, if the folder or gnuplot cannot be used. */
 static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name)
 {
     const struct path folder = path_join(p->study->folder, "pictures");

@@ -16,6 +16,8 @@ static const double PROPORTION = 0.7; /* height of a panel divided by its width 
 
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 
+/* Writes the title of line number `line` (from 0) of the picture p to text[capacity]: the values of the varied keys
+ * that distinguish lines, separated by commas. Truncates a title that is too long. */
 void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line)
 {
     size_t used = 0;
@@ -85,6 +87,7 @@ static bool words_touch(const struct study_picture *p, const struct varied_key *
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the number of rows into which the panels of the picture p are arranged. */
 static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
 
 /* Returns the number of characters of the longest number at the axes of all panels: at the horizontal axes if `across`
