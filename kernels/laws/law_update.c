@@ -237,7 +237,7 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
 }
 
 /* Returns the temperatures of eight points [K] after an increment `more` of plastic strain [1] in a load step, without
- * conduction. p: state at the start of the step. */
+ * conduction of heat. law: flow law; p: state of the points at the start of the step. */
 static ALWAYS_INLINE lanes temperature_after(const struct law *law, const struct law_points *p, lanes more)
 {
     if (!(law->heating > 0)) return p->temperature;
@@ -307,8 +307,9 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
     return work;
 }
 
-/* Returns for eight points the integral of the yield stress over a load step [J/m^3] in which the plastic strain grows
- * by `more` [1]. p: state at the end of the step, with the temperature of its start. */
+/* Returns for eight points the integral of the yield stress over the plastic strain in a load step [J/m^3], in which
+ * the plastic strain grows by `more` [1]. law: flow law; p: state at the end of the step, but with the temperature at
+ * its start. */
 static ALWAYS_INLINE lanes isotropic_work(const struct law *law, const struct law_points *p, lanes more)
 {
     if (law->heating > 0)

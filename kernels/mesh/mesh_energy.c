@@ -45,11 +45,11 @@ real mesh_kinetic(const struct mesh *mesh)
     return sum;
 }
 
-/* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 of a mesh to sum[0] [J/s^2], with nodal forces f and masses
- * m. Multiplied by dt^2 it is the difference between two energies: the mean of the kinetic energies before and after a
- * step, and m v_before . v_after/2, the kinetic part of the energy that leap-frog conserves. Coarse cells with a
- * blended (lumped and consistent) mass matrix contribute by this matrix instead of m (mesh_inertia.h). context: the
- * mesh (struct mesh). Called by reproducible_sums for each block of nodes. */
+/* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 of a mesh to sum[0] [J/s^2], with nodal forces f and
+ * masses m. The caller multiplies it by dt^2, which gives the difference between two energies: the mean of the kinetic
+ * energies before and after a step, and m v_before . v_after/2, the kinetic part of the energy that leap-frog
+ * conserves. Coarse cells with a blended (lumped and consistent) mass matrix contribute by this matrix instead of m
+ * (mesh_inertia.h). context: the mesh (struct mesh). Called by reproducible_sums for each block of nodes. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;

@@ -31,10 +31,10 @@ FLOW(1)
 FLOW(2)
 FLOW(3)
 
-/* Computes by return mapping the stress of eight cells whose points yield, and updates the plastic state of the points
- * in p. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all materials. s: on entry the
- * strain of the cells (s->e, s->mode); receives the stress of the mean strain (s->P) and the forces on the bending
- * modes (s->force). */
+/* Computes by return mapping the stress of eight cells of the mesh whose points yield, and updates the plastic state
+ * of the points in p. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all materials. s:
+ * on entry the strain of the cells (s->e, s->mode); receives the stress of the mean strain (s->P) and the forces on
+ * the bending modes (s->force). */
 static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         const int32_t *cell, struct mesh_cell *s, const int dim)
 {
@@ -60,11 +60,11 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
 }
 
 /* Adds the forces of the cells of `run`, a row of consecutive cells along x, to the nodes of the mesh. Sets
- * run->stressed if the principal stress at a point of an elastic row may exceed the conversion stress. all: elastic
- * constants of all materials; finite: true for finite strain; flows: true for a row whose points yield, for which
- * run->stressed becomes false. Neighbouring cells share nodes: the forces on the upper corners along x of eight cells
- * are shifted by one lane and added to those on the lower corners of the next cells, so that each node is written
- * once. */
+ * run->stressed if the principal stress at a point of an elastic row may exceed the conversion stress, at which
+ * material points become peridynamic particles. all: elastic constants of all materials; finite: true for finite
+ * strain; flows: true for a row whose points yield, for which run->stressed becomes false. Neighbouring cells share
+ * nodes: the forces on the upper corners along x of eight cells are shifted by one lane and added to those on the
+ * lower corners of the next cells, so that each node is written once. */
 static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
                                     const struct elastic *all, const int dim, const bool finite, const bool flows)
 {
@@ -145,9 +145,9 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
 }
 
 /* Marks in mesh->partial_stressed those of a group of eight partial cells in which the principal stress at a point may
- * exceed the conversion stress of the material. A partial cell has missing points, partial stresses, several materials
- * or doubled nodes. m: elastic constants of all materials; group: number of the group, from 0; s: strain of the eight
- * cells. */
+ * exceed the conversion stress of the material, at which points become peridynamic particles. A partial cell has
+ * missing points, partial stresses, several materials or doubled nodes. m: elastic constants of all materials; group:
+ * number of the group, from 0; s: strain of the eight cells. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *s, const int dim)
 {
@@ -163,9 +163,10 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
 }
 
 /* Computes the forces on the corners of a group of eight partial cells [N] into mesh->partial_force, and marks in
- * mesh->partial_stressed the cells in which a stress may exceed the conversion stress. A partial cell has missing
- * points, partial stresses, several materials or doubled nodes. The plastic state of points in p that yield is updated.
- * m: elastic constants of all materials; group: number of the group, from 0; finite: true for finite strain. */
+ * mesh->partial_stressed the cells in which a stress may exceed the conversion stress, at which points become
+ * peridynamic particles. A partial cell has missing points, partial stresses, several materials or doubled nodes. The
+ * plastic state of points in p that yield is updated. m: elastic constants of all materials; group: number of the
+ * group, from 0; finite: true for finite strain. */
 static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         int64_t group, const int dim, const bool finite)
 {

@@ -69,8 +69,8 @@ static void walls_move(struct mesh *mesh, real dt)
     }
 }
 
-/* Sets the force on the active nodes of one row of the mesh to 0 (active: in a part of the mesh that is not at rest).
- * row: number of the row of nodes along x, from 0; force: one force component of all nodes [N]. */
+/* Sets one component of the force on the nodes of one row of the mesh to 0, except in blocks of nodes that are at
+ * rest. row: number of the row of nodes along x, from 0; force: this component at all nodes [N]. */
 static void row_clear(const struct mesh *mesh, int64_t row, real *force)
 {
     const struct mesh_row_blocks blocks = mesh_blocks_of_row(mesh, row);
@@ -86,11 +86,12 @@ void mesh_clear(struct mesh *mesh)
         for (int d = 0; d < mesh->grid.dim; d++) row_clear(mesh, r, mesh->grid.force[d]);
 }
 
-/* Advances velocity and displacement of the active nodes (not at rest) of one row by a leap-frog step, eight nodes at a
- * time. row: number of the row of nodes along x, from 0; dt: time over which velocities move the nodes [s];
- * dt_velocity: time over which forces change the velocities [s]. Entries beyond the last node have neither force nor
- * mass and stay at rest. Returns the square of the largest velocity component [m^2/s^2], or INFINITY if any component
- * is not finite; because maxima ignore NaN, the sum of all components is tested for this. */
+/* Advances velocity and displacement of the nodes of one row of the mesh by a leap-frog step, eight nodes at a time,
+ * except in blocks of nodes that are at rest. row: number of the row of nodes along x, from 0; dt: time over which
+ * velocities move the nodes [s]; dt_velocity: time over which forces change the velocities [s]. Entries beyond the
+ * last node have neither force nor mass and stay at rest. Returns the square of the largest velocity component
+ * [m^2/s^2], or INFINITY if any component is not finite; because maxima ignore NaN, the sum of all components is
+ * tested for this. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0];

@@ -9,7 +9,7 @@
 /* Calls X for 1, 2 and 3 dimensions. The parallel region of a function is inside each of its three instances. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
-/* Returns the number of cells that may have points: all cells of the mesh, or the cells in mesh->filled_cell. */
+/* Returns the number of cells that may have points: those in mesh->filled_cell if mesh->absent, else all cells. */
 static ALWAYS_INLINE int64_t cells_of_points(const struct mesh *mesh)
 {
     return mesh->absent ? mesh->filled_cells : mesh->grid.n;
@@ -23,8 +23,8 @@ static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Sets position and velocity in p of material points of cell I by linear interpolation from the nodes of the cell.
- * places: bit q is set for each point q = 0 .. 2^dim - 1 of the cell that is to be moved. */
+/* Sets position and velocity in p of material points of mesh cell I by linear interpolation from the nodes of the
+ * cell. places: bit q is set for each point q = 0 .. 2^dim - 1 of the cell that is to be moved. */
 static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -187,8 +187,8 @@ void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-/* Adds the forces p->f on material points of cell I to the nodes of the cell, by interpolation weights. places: bit q
- * is set for each point q = 0 .. 2^dim - 1 of the cell whose force is added. */
+/* Adds the forces p->f on material points of cell I to the nodes of this mesh cell, by interpolation weights. places:
+ * bit q is set for each point q = 0 .. 2^dim - 1 of the cell whose force is added. */
 static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -349,7 +349,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Sets FLAG_STRESSED as cell_points_mark(mesh, p, m, I, dim, finite), by a function that is not inlined. */
+/* Sets FLAG_STRESSED of points of cell I as cell_points_mark does, by a function for each dim that is not inlined. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -361,9 +361,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns an upper bound of the principal stresses in eight cells [Pa], closer than that of mesh_force: the maximum
- * over the points of a cell of row sums of the stress and, with a strength surface, of cell_strength_bound. m:
- * constants; s: strain of the cells; there[q]: mask of cells that have point number q; NULL: all have all. */
+/* Returns upper bounds of the principal stresses at the points of eight cells [Pa], closer than those of mesh_force:
+ * the largest row sum of absolute stresses or, with a strength surface, cell_strength_bound. m: elastic constants; s:
+ * strain of the cells; there[q]: mask of the cells that have point number q; NULL: all cells have all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -423,8 +423,8 @@ static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct ela
     return cells_tension(m, &s, NULL, dim);
 }
 
-/* Sets FLAG_STRESSED of the points in `run`, a row of consecutive cells, whose principal stress exceeds their
- * conversion stress; skips cells where its upper bound does not. m: constants [material]; finite: finite strain. */
+/* Sets FLAG_STRESSED in p for points in `run`, a row of consecutive cells, whose principal stress exceeds the stress
+ * of conversion to peridynamics; skips cells where its upper bound does not. m: constants of all materials. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, const int dim, const bool finite)
 {
@@ -436,9 +436,9 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
     }
 }
 
-/* Sets mark[cell] = 1 for the cells of `run` (a row of consecutive cells) in which the principal stress of a point may
- * exceed the conversion stress times `share` [1]. mark: indexed by cell; m: constants [material]; finite: finite
- * strain. */
+/* Sets mark[cell] = 1 for the cells of `run`, a row of consecutive cells, in which the principal stress at a point may
+ * exceed `share` [1] times the stress of conversion to peridynamics. m: elastic constants of all materials; finite:
+ * true for finite strain. */
 static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                          real share, uint8_t *mark, const int dim, const bool finite)
 {
@@ -450,9 +450,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED of points in eight partial cells (points missing or several materials) whose principal stress
- * exceeds the conversion stress. Skips cells where its upper bound places_tension is below, if that holds (one
- * material, no mean dilatation). group: number of the cells; m: constants [material]; finite: finite strain. */
+/* Sets FLAG_STRESSED in p for points in eight partial cells (with missing points or several materials) above the
+ * stress of conversion to peridynamics. Skips cells where the upper bound places_tension, valid for one material
+ * without mean dilatation, is below. group: number of the eight cells, from 0; m: constants of all materials. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {

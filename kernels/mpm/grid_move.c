@@ -119,15 +119,16 @@ static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, rea
 
 enum { HELD = 128 }; /* in g->held: a node that prescribed motion holds */
 
-/* Returns the mass [kg] that node I has in the whole body; the grid has only the part of the body on one side of its
- * planes of symmetry. g->held must contain the planes on which the node lies: bit d for a plane with normal d. */
+/* Returns the mass [kg] that node I has in the whole body. A grid with planes of symmetry has only the part of the body
+ * on one side: the mass doubles for each plane on which the node lies, a set bit d of g->held for normal d. */
 static real whole_mass(const struct grid *g, int64_t I)
 {
     return g->mass[I] * (real)(1 << __builtin_popcount(g->held[I] & (HELD - 1)));
 }
 
-/* Returns the node from which the motion of the light node I is extrapolated: the heaviest adjacent node with more mass
- * than g->light_mass, along the axes if there is one, else along diagonals. Returns -1 if there is none. */
+/* Returns the node from which the motion of the light node I of g (a node with little mass at the edge of a body) is
+ * extrapolated: the heaviest adjacent node with more mass than g->light_mass, along the axes if there is one, else
+ * along diagonals. Returns -1 if there is none. */
 static int64_t leader_of(const struct grid *g, int64_t I)
 {
     int64_t leader = -1;
@@ -193,9 +194,10 @@ static void lend(struct grid *g, int64_t I, int64_t J, real times)
     g->mass[J] += times * g->mass[I];
 }
 
-/* Finds the light nodes of the grid (g->follower), whose acceleration is extrapolated from heavier nodes, and transfers
- * their force and mass to these. transfer: scheme of the grid; with FLIP there are none. smallest_mass: lighter nodes
- * are left out [kg]. Call before velocities are computed. */
+/* Lists the light nodes of the grid in g->follower (nodes with little mass at the edge of a body), whose acceleration
+ * is extrapolated from heavier nodes, and transfers their force and mass to these. transfer: scheme of the grid; with
+ * FLIP there are none. smallest_mass: nodes lighter than this are left out [kg]. Call before velocities are computed.
+ */
 static void followers_in(struct grid *g, enum transfer transfer, real smallest_mass)
 {
     g->followers = 0;
@@ -247,9 +249,9 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
     }
 }
 
-/* Corrects g->absorbed, the energy absorbed by dashpots, for MUSL, where the velocities of the points are mapped to the
- * nodes a second time. In FLIP the points receive the velocities of this second map (g->momentum), not those on which
- * the dashpots acted (g->velocity). */
+/* Corrects g->absorbed, the energy absorbed by dashpots, after the velocities of the points have been mapped to the
+ * nodes a second time (MUSL). With FLIP the points receive the velocities of this second map (g->momentum), not those
+ * on which the dashpots acted (g->velocity). */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)

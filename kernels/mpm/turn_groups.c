@@ -230,10 +230,10 @@ static void spins_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes for each root of t (a group of points that has joined no other group) the gain of angular velocity ("spin")
- * that restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
- * computes the spin with this gain: J spin = g->angular + (J - g->added) gain. g->added is the part of J that was added
- * to a thin group to keep J regular. */
+/* Computes for each root of t (a group of points that has joined no other group) the gain of angular velocity that
+ * restores the lost angular momentum g->sum of its points: J gain = g->sum, with the inertia J = g->inertia. Then
+ * computes the angular velocity with this gain, g->spin: J spin = g->angular + (J - g->added) gain. g->added is the
+ * part of J that was added to a thin group to keep J regular. */
 static void gains_find(struct rotation_groups *t, int dim)
 {
     spins_find(t, dim);

@@ -40,17 +40,17 @@ struct candidate {
     int32_t i, j;
 };
 
-/* Returns the entry of b->soft.due of block g of eight rows (bonds of eight particles stored together): whether one of
- * its bonds is beyond its onset of softening and must be examined (enum softening_due). The load is atomic, since other
- * threads may set DUE_DENIED at the same time. */
+/* Returns b->soft.due[g]: whether a bond of row block g (the bonds of eight particles, stored together) is beyond its
+ * onset of softening and must be examined (enum softening_due). The load is atomic, since other threads may set
+ * DUE_DENIED at the same time. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
-/* Returns true if a bond may begin to soften, and then describes it in *c. bond: entry in the row (bonds of one
- * particle) of particle i in block g of eight rows (the bonds of eight particles); limit: critical stretches and
- * softening. Conditions: the bond has not begun to soften; its stretch is beyond the onset of softening, and was in the
- * last sweep; and the block of its other particle is marked in b->soft.due, too. In the last sweep both blocks were
- * marked: a bond that was not beyond the onset then would begin only where another bond has marked the blocks, so that
- * the result would depend on their directions. */
+/* Returns true if `bond` may begin to soften, and then describes it in *c. The bond is one of those of particle i in
+ * row block g (the bonds of eight particles). Conditions: it has not begun to soften; its stretch is beyond the onset
+ * of softening, and was so at the last computation of forces; and the row block of its other particle is marked in
+ * b->soft.due, too. The second condition makes the result independent of the direction of the bond: otherwise a bond
+ * that had not marked its own blocks would begin only if another bond had marked them. limit: critical stretches and
+ * softening. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -65,16 +65,16 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
             bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, limit->dt) > c->range.onset);
 }
 
-/* Returns the row (bonds of one particle) from which the dilatation at particle j is computed: the row of j, or for a
- * mirror image the row of the particle that it mirrors. Returns -1 if there is no row or if the row has bonds to only
- * some of the neighbours, as the row of a material point does. */
+/* Returns the row of b (bonds of one particle) from which the dilatation at particle j is computed: the row of j, or
+ * for a mirror image the row of the particle that it mirrors. Returns -1 if there is no row or if the row has bonds to
+ * only some of the neighbours, as the row of a material point does. p: particles and images. */
 static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
 {
     const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
     return row >= 0 && b->whole[row] ? row : -1;
 }
 
-/* Marks in b->soft.needed the rows whose dilatation is needed to examine those bonds of block g of eight rows (bonds of
+/* Marks in b->soft.needed the rows whose dilatation is needed to examine those bonds of row block g (the bonds of
  * eight particles) that may begin to soften. Several threads may mark one row. limit: critical stretches and
  * softening. */
 static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
@@ -141,9 +141,9 @@ static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t
     return b->state.rotation[0] ? 2 * m.A / (D * m.B) : 1 + (D + 2) * m.A / (D * m.B);
 }
 
-/* Returns lambda/G (Lame's constants) times the dilatation of the neighbourhood of one row, i.e. of all bonds of one
- * particle [1]. The dilatation is the trace of the strain that fits the stretches of the bonds best, with the remaining
- * stiffness of each bond as its weight. */
+/* Returns (lambda/G) tr eps [1] for the neighbourhood of one particle, with Lame's constants lambda and G. eps is the
+ * strain that fits the stretches of its bonds best, weighted by the remaining stiffness of each bond. row: row of b
+ * with these bonds. */
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -160,10 +160,10 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
     return fit_trace(&fit, p->dim) * lame_ratio(b, p, i);
 }
 
-/* Updates the strain rate b->soft.rate[row] of the bonds of one particle [1/s]: the mean rate at which the largest
- * stretch of these bonds grows from half its onset of softening to the onset. The rate is kept until the stretch is
- * below half the onset again. Between half the onset and the onset, the entry is minus the stretch at the first step
- * beyond half the onset [1]. dt: time step [s]. */
+/* Updates b->soft.rate[row], the strain rate of the bonds of one particle [1/s]: the mean rate at which the largest
+ * stretch of these bonds grows from half its onset of softening to the onset. The rate remains until the stretch falls
+ * below half the onset. While the stretch is between half the onset and the onset, the entry is instead minus the
+ * stretch at the first step beyond half the onset [1]. row: row of the bonds; dt: time step [s]. */
 static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     const real from = b->trigger[row], onset = from / RATE_FROM;
@@ -183,9 +183,9 @@ static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t
     b->soft.rate[row] = real_max(DBL_MIN, time > 0.5 * dt ? grown / time : (most - from) / dt);
 }
 
-/* Updates the strain rates of all rows (bonds of one particle) that were beyond half their onset of softening in the
- * last step, and of those in blocks of eight rows (the bonds of eight particles) that soften or have a bond beyond its
- * onset. dt: time step [s]. */
+/* Updates the strain rates b->soft.rate of two kinds of rows (bonds of one particle): those whose largest stretch was
+ * beyond half the onset of softening in the last step, and those in row blocks (eight rows) that soften or have a bond
+ * beyond its onset. dt: time step [s]. */
 static void measure_rates(struct bonds *b, const struct particles *p, real dt)
 {
     bool any = false;
@@ -198,11 +198,11 @@ static void measure_rates(struct bonds *b, const struct particles *p, real dt)
     b->soft.rates_kept = any;
 }
 
-/* Returns true if the stress across the bond of candidate c (a bond that may begin to soften) is tensile enough for it
- * to soften. limit: softening by pair of materials. The stress follows from the stretch of the bond and from the
- * dilatation at the bond, the mean of the dilatations of its two particles. If the row of one particle has only a part
- * of its bonds, as that of a material point, the dilatation of the other particle is used. Both rows of a bond thus
- * give the same answer. */
+/* Returns true if the stress across candidate c (a bond that may begin to soften) is tensile enough for it to soften.
+ * The stress follows from the stretch of the bond and from the dilatation at the bond, the mean of the dilatations of
+ * its two particles. If one particle has bonds to only some of its neighbours, as a material point has, the dilatation
+ * of the other particle is used. The answer is thus the same from both particles of a bond. limit: softening by pair
+ * of materials. */
 static bool is_pulled(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                       const struct candidate *c)
 {
@@ -214,10 +214,11 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
     return 0.5 * sum + (surface ? PULL_SURFACE : PULL) * c->stretch > 0;
 }
 
-/* Recomputes c->range, the stretches of onset and end of softening of candidate c (a bond that may begin to soften),
- * for the strain rate of the bond: the mean of the rates of its two particles, or the rate of one if the other does not
- * have bonds to all neighbours. limit: critical stretches and softening. Returns true if the stretch of the bond is
- * above the onset at this rate, or if no material has a rate table (c->range is then kept). */
+/* Recomputes c->range, the stretches at which the softening of candidate c (a bond that may begin to soften) begins
+ * and ends, for the strain rate of the bond: the mean of the rates of its two particles, or the rate of one if the
+ * other does not have bonds to all neighbours. limit: critical stretches and softening. Returns true if the stretch of
+ * the bond is above the onset at this rate. Also returns true, without changing c->range, if no material has a table
+ * of rates. */
 static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               struct candidate *c)
 {
@@ -232,9 +233,10 @@ static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, 
     return c->stretch > c->range.onset;
 }
 
-/* Starts the softening of the bond with index q of row `row` (bonds of one particle), described by candidate *c. It
- * loses some energy at once, which the closed form of its dissipation does not include. Half of it is added to the
- * fracture energy of the row, except in load steps and state-based models. dt: time step [s]. */
+/* Starts the softening of the bond with index q in the bond arrays, of row `row` (bonds of one particle), which
+ * candidate *c describes. By beginning late, in steps, it loses at once some energy that the closed form of its
+ * dissipation does not include; half of it is added to the fracture energy of the row, except in load steps and
+ * state-based models. dt: time step [s]. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {
@@ -252,9 +254,10 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
-/* Examines the bonds of block g of eight rows (bonds of eight particles) that are beyond their onset of softening and
- * have not begun to soften. Starts the softening of those across which the stress is tensile enough. Sets DUE_DENIED in
- * b->soft.due[g] if the stress does not allow a bond to soften. limit: critical stretches, softening and time step. */
+/* Examines the bonds of row block g (the bonds of eight particles) that are beyond their onset of softening and have
+ * not begun to soften. Starts the softening of those across which the stress is tensile enough. Sets DUE_DENIED in
+ * b->soft.due[g] if the stress does not allow one of the bonds to soften. limit: critical stretches, softening and
+ * time step. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     bool denied = false;
@@ -275,9 +278,9 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }
 
-/* Returns true if, in the last computation of forces, a bond of a block of eight rows that was not yet marked in
- * b->soft.due went beyond its onset of softening. Then the bonds of all marked blocks must be examined, so that both
- * rows of a bond are examined in one step. A block has the bonds of eight particles. */
+/* Returns true if the last computation of forces has newly marked a row block (the bonds of eight particles) in
+ * b->soft.due because one of its bonds went beyond its onset of softening. All marked blocks must then be examined, so
+ * that a bond is examined from both of its particles in the same step. */
 static bool any_new(const struct bonds *b)
 {
     bool found = false;

@@ -48,9 +48,9 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
 }
 
-/* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Does
- * nothing unless the model is state-based and normalises by the present neighbourhood, the bonds are brittle, and the
- * row has all bonds of the particle (not a part, as of a material point). */
+/* Recomputes the weighted volume of row `row` (all bonds of one particle) after weights of its bonds have changed.
+ * Does nothing unless the model is state-based and normalises by the present neighbourhood, the bonds are brittle, and
+ * the row has bonds to all neighbours, unlike that of a material point. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])
@@ -59,9 +59,9 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Corrects the force p->f on particle i for a bond of particle i that breaks in this step. Subtracts the whole force
- * that the force kernel has added for this bond, and adds `share` times the force that follows from the states of both
- * neighbourhoods before bonds broke. share: fraction of the force that acts in this step [1]. */
+/* Corrects the force p->f on particle i for `bond`, one of its bonds, which breaks in this step. Subtracts the force
+ * that the force kernel has added for this bond in full, and adds `share` times the force that follows from the states
+ * of both neighbourhoods before bonds broke. share: fraction of the force that acts in this step [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -70,8 +70,8 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
-/* Returns half the energy [J] that bond q of row `row` (bonds of one particle) has dissipated in all when it passes the
- * end of its softening in this step. dt: time step [s]. */
+/* Returns half the energy [J] that bond q of row `row` (bonds of one particle) dissipates from its onset of softening
+ * to the end, which it passes in this step. dt: time step [s]. */
 static real half_energy_of_softening_to_end(const struct bonds *b, const struct particles *p, int64_t row, int64_t q,
                                             real dt)
 {
@@ -107,10 +107,10 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
     return ended;
 }
 
-/* Returns the stretch [1] with which the lost energy of bond q, from particle i to j, is computed when the bond breaks
- * in this step: the stretch at which it passed its limit. Where bonds soften, the bond has no force after this step: a
- * leap-frog step from the stretch s_0 to s_1 then loses the energy s_0 s_1/2 times stiffness, weight and length, and
- * the square root of s_0 s_1 is returned. limit: breaking limits and time step. */
+/* Returns the stretch [1] from which the energy that bond q (from particle i to j) loses is computed when it breaks in
+ * this step: the stretch at the moment at which it passed its limit. In scenes with softening bonds, a breaking bond
+ * has no force after this step; a leap-frog step from the stretch s_0 to s_1 then loses s_0 s_1/2 times stiffness,
+ * weight and length, so that sqrt(s_0 s_1) is returned. limit: breaking limits and time step. */
 static real stretch_at_break(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                              int64_t q, int32_t i, int32_t j)
 {
@@ -122,10 +122,9 @@ static real stretch_at_break(const struct bonds *b, const struct particles *p, c
                                 bond_stretch_at_earlier_time(p, inverse, i, j, 0)));
 }
 
-/* Breaks bond q of row `row` (bonds of one particle) and marks it as broken. Replaces its contribution to the force on
- * the row's particle by the share that acts until it breaks within the step (bond_last.h). Adds its elastic energy to
- * the fracture energy of the row, and its plastic work to the plastic work of the row. limit: breaking limits and time
- * step. */
+/* Breaks bond q of row `row` (bonds of one particle) and marks it as broken. Reduces its force on the row's particle
+ * to the share that acts until the bond breaks within the step (bond_last.h). Adds its elastic energy to the fracture
+ * energy of the row, and its plastic work to the plastic work of the row. limit: breaking limits and time step. */
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -187,11 +186,11 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     row_changed(b, row);
 }
 
-/* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. A bond
- * that can soften and has not begun to does not break here, as pressure stretches the bonds across it although nothing
- * pulls at them (bond_begin.c): beyond its onset, its block of eight rows (bonds of eight particles) is marked for
- * examination before the next computation of forces (bond_row_block_request_softening_check). limit: critical stretches
- * and softening. */
+/* Returns true if bond q of row `row` (bonds of one particle), from particle i to j, is stretched beyond the limit at
+ * which it breaks. A bond that can soften but has not begun to never breaks here, since pressure along one axis
+ * stretches the bonds across it although nothing pulls at them (bond_begin.c). If such a bond is beyond its onset of
+ * softening, its row block is marked instead, to be examined before the next computation of forces
+ * (bond_row_block_request_softening_check). limit: critical stretches and softening. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -233,9 +232,9 @@ static real least_limit(const struct bond_limit *limit)
     return least * (1 - LIMIT_MARGIN);
 }
 
-/* Returns in each lane the larger of `largest` and the squared elongation |y|^2/|xi|^2 [1] of the bond of that lane in
- * column s (one bond of each of eight particles). x[dim]: positions of these eight particles [m]. Broken bonds have
- * negative values. */
+/* Returns in each lane the larger of `largest` and the squared elongation |y|^2/|xi|^2 [1] of one bond, with bond
+ * vectors y at present and xi in the reference configuration. s: column of bonds, one of each of eight particles;
+ * x[dim]: positions of these particles [m]. Broken bonds count as negative. */
 static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct particles *p, const lanes *x,
                                                  const struct column s, const int dim)
 {
@@ -248,8 +247,8 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
     return column_max_of_intact_bonds(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
 }
 
-/* Returns for each of the eight rows of block g of eight rows (bonds of eight particles) the largest squared elongation
- * |y|^2/|xi|^2 of its bonds [1]. */
+/* Returns in lane l the largest squared elongation |y|^2/|xi|^2 [1] of the bonds of particle l of row block g, which
+ * has the bonds of eight particles. y, xi: bond vector at present and in the reference configuration. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -261,8 +260,8 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
     return largest;
 }
 
-/* Returns the mask of those rows of block g of eight rows (bonds of eight particles) that have a bond with a stretch
- * above the row's entry of `least` [1], up to round-off. */
+/* Returns a mask with lane l set if particle l of row block g (the bonds of eight particles) has a bond with a stretch
+ * above lane l of `least` [1], up to round-off. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {
@@ -279,9 +278,9 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
     return sqrt(most) * (1 + ROUND_OFF) - 1 + LIMIT_MARGIN;
 }
 
-/* Returns the mask of those rows of block g of eight rows (bonds of eight particles) in which a bond may exceed its
- * breaking limit. Compares the largest stretch of a row with the limit stored for the row where strength is random or
- * bonds soften, else with the smallest critical stretch of all pairs of materials in `limit`. */
+/* Returns a mask with lane l set if a bond of particle l of row block g (the bonds of eight particles) may exceed its
+ * breaking limit. Compares the largest stretch of each particle's bonds with the limit stored for that particle if
+ * strength is random or bonds soften, else with the smallest critical stretch of all pairs of materials in `limit`. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const bool stored = p->strength || b->soft.curve;

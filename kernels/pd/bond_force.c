@@ -27,10 +27,10 @@ struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger;
 };
 
-/* Adds the forces of eight bonds, column s of a block of eight rows (one bond of each of eight particles), to the sums
- * of these particles, sum, updates largest and smallest stretch, and returns the new sums. The force divided by the
- * length is computed from the stretch. As a difference of inverse lengths it would be cheaper, but a body in free fall
- * would have three times the round-off. model: bond law, a compile-time constant. */
+/* Adds the forces of eight bonds to `sum`, the sums of their eight particles, updates the largest and smallest stretch
+ * in it, and returns it. s: column of bonds, one of each of the eight particles; model: bond law, a compile-time
+ * constant. The force is computed from the stretch. As a difference of inverse lengths it would be cheaper, but a body
+ * in free fall would have three times the round-off. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
@@ -55,9 +55,9 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Computes the forces of the bonds on the eight particles of block g of eight rows into p->f, without the repulsive
- * cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit. *pressed: receives true if a bond
- * is compressed into its core, else false. model: bond law, a compile-time constant. */
+/* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
+ * without the repulsive cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit. *pressed:
+ * receives true if a bond is compressed into its core, else false. model: bond law, a compile-time constant. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {
@@ -86,9 +86,9 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));
 }
 
-/* Computes the forces of the bonds on the eight particles of block g of eight rows into p->f, repulsive cores included,
- * and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its
- * two rows. limit: breaking limits; model: bond law, a compile-time constant. */
+/* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
+ * repulsive cores included, and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each
+ * counted once for each of its two rows. limit: breaking limits; model: bond law, a compile-time constant. */
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {

@@ -41,10 +41,10 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     return lanes_choose(w > 0.0, w * bonds_normalised_energy(model, stretch, elastic) * length, lanes_broadcast(0));
 }
 
-/* Returns the elastic energy, divided by the stiffness, of the bonds of the eight particles in block g of eight rows,
- * repulsive cores included. Multiplied by half the stiffness it is the share of these particles in the energy, since
- * each bond belongs to two particles. row_energy[b->rows]: the share of each row (bonds of one particle) is added to it
- * [J]; NULL if not wanted. model: bond law, a compile-time constant. */
+/* Returns the elastic energy, divided by the stiffness, of the bonds of the eight particles of row block g, repulsive
+ * cores included. Half the stiffness times this is the share of these particles in the energy, since each bond belongs
+ * to two particles. row_energy[b->rows]: the share of each particle is added to the entry of its row [J]; NULL if not
+ * wanted. model: bond law, a compile-time constant. */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 real *row_energy, const int dim, const enum pd_model model)
 {
@@ -80,8 +80,8 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
 }
 
 /* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the eight
- * particles of block g of eight rows, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005).
- * model: bond law, a compile-time constant. */
+ * particles of row block g (their bonds are stored together), into p->stress [Pa]. F_ij is the force of bond i-j on i
+ * (Silling & Askari 2005). model: bond law, a compile-time constant. */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                 const enum pd_model model)
 {
@@ -109,8 +109,8 @@ static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct
     bonds_update_softened_stretch(s.b, s.number * LANES, stretch);
 }
 
-/* Raises the largest stretches so far of the bonds of block g of eight rows (bonds of eight particles) to the present
- * stretches. Call only if at least one of these bonds has begun to soften. */
+/* Raises the largest stretches so far of the bonds of row block g (the bonds of eight particles, stored together) to
+ * the present stretches. Call only if at least one of these bonds has begun to soften. */
 static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim)
 {

@@ -2,8 +2,8 @@
  * (src/quasistatic/softening.c), and begin where the body is scaled beyond their onset. */
 #include "kernels/kernels.h"
 
-/* Returns the smallest stretch at which a bond in block g of eight rows (bonds of eight particles stored together)
- * begins to soften or breaks [1]. */
+/* Returns the smallest stretch at which a bond in row block g (the bonds of eight particles, stored together) begins
+ * to soften or breaks [1]. */
 static real row_block_trigger(const struct bonds *b, int64_t g)
 {
     real least = INFINITY;

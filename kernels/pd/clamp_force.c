@@ -26,8 +26,9 @@ struct across {
     lanes y[DIM_MAX], w, inverse_length, inverse, stretch;
 };
 
-/* Returns vector, length, weight and stretch of the bonds k to k + 7 in the list c of bonds that cross clamped planes.
- * The neighbours in these bonds are mirror images of particles beyond such a plane. dim: dimensions of space. */
+/* Returns bond vectors, lengths, weights and stretches of the eight bonds k .. k + 7 in the list c of bonds across
+ * clamped planes (planes of symmetry that also prevent tangential motion). The neighbour in such a bond is the mirror
+ * image of a particle. p: particles and images; dim: dimensions of space. */
 static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k,
                                              const int dim)
 {
@@ -42,9 +43,10 @@ static ALWAYS_INLINE struct across across_of(const struct clamped *c, const stru
     return a;
 }
 
-/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, which is the
- * force on the image, into the member `reaction` [N]. For bond-based models. The force kernel adds the force that
- * follows from both rows of a bond to the particle of the row, so that the reaction is minus half of it. */
+/* Computes the forces on the mirror images in the eight bonds k .. k + 7 of the list b->clamped [N], and stores them
+ * in its member `reaction`. The list has all bonds across clamped planes (planes of symmetry that also prevent
+ * tangential motion). For bond-based models, where the force on the image is minus half of the force of the bond on
+ * its particle: the other half is that of a second row, which an image does not have. */
 static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
 {
     const struct clamped *c = &b->clamped;
@@ -59,9 +61,10 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }
 
-/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, the force on
- * the image, into the member `reaction` [N]. For state-based models: minus the force that follows from the state of the
- * row's particle alone (state_laws.h). rotates: true in models with rotations. */
+/* Computes the forces on the mirror images in the eight bonds k .. k + 7 of the list b->clamped [N], and stores them
+ * in its member `reaction`. The list has all bonds across clamped planes (planes of symmetry that also prevent
+ * tangential motion). For state-based models, where the force on the image is minus the part of the bond force that
+ * follows from the state of the bond's particle (state_laws.h). rotates: true in models with rotations. */
 static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim,
                                           const bool rotates)
 {
@@ -82,8 +85,8 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
-/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, the force on
- * the image, into the member `reaction` [N]. Chooses the function for the model. */
+/* Computes the forces on the mirror images in the eight bonds k .. k + 7 of the list b->clamped (bonds across clamped
+ * planes) into its member `reaction` [N], by the function for the model of the bonds b. p: particles and images. */
 static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const struct particles *p, int64_t k,
                                                 const int dim)
 {
@@ -95,8 +98,8 @@ static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const str
         state_reactions(b, p, k, dim, false);
 }
 
-/* Adds to the force p->f on one particle the reactions of bonds across clamped planes. h: number of the particle in
- * c->particle, from 0. A reaction acts on a mirror image of the particle and is reflected back to the particle. */
+/* Adds to the force p->f on one particle the forces on its mirror images beyond clamped planes (c->reaction),
+ * reflected back at the plane. h: number of the particle in c->particle, from 0. */
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -107,18 +110,18 @@ static void clamp_force_give(const struct clamped *c, struct particles *p, int64
     }
 }
 
-/* Copies the weights of the bonds to mirror images in clamped planes from the bond arrays to the list b->clamped, after
- * some weights have changed. */
+/* Copies the weights of the bonds to mirror images beyond clamped planes from the bond arrays b->w to the list
+ * b->clamped. Call after weights have changed. */
 static void weights_follow(struct bonds *b)
 {
     struct clamped *c = &b->clamped;
     for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]];
 }
 
-/* Recomputes the reactions of those bonds in b->clamped (bonds to mirror images beyond clamped planes) that the force
- * kernel has broken in this step. Their reaction is the share that acts until the bond breaks, with the states before
- * bonds broke (bond_last.h). These bonds are recognised by their weights: c->w, copied before the step, is not 0, but
- * the present weight is 0. limit: breaking limits and time step. */
+/* Recomputes the reactions (forces on the mirror images) of those bonds in b->clamped that the force kernel has broken
+ * in this step. b->clamped lists the bonds to mirror images beyond clamped planes. Such a reaction is the share of the
+ * force that acts until the bond breaks, from the states before bonds broke (bond_last.h). A bond has broken in this
+ * step if its copied weight c->w is not 0 but the present weight is 0. limit: breaking limits and time step. */
 static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const struct clamped *c = &b->clamped;

@@ -25,11 +25,11 @@ struct family_sums {
     lanes_mask moved;
 };
 
-/* Adds the eight bonds of a column (one bond of each of eight particles) to *sum, the sums over their neighbourhoods
- * (all bonds of one particle): w r e with weight w, reference length r and extension e = |Y| - r of the bond vector Y,
- * and in models with rotations w Y (x) xi with the reference vector xi. Also updates the smallest and largest stretch
- * in *sum. x[dim], X[dim]: present and reference positions of the eight particles [m]. model: state-based model, a
- * compile-time constant. */
+/* Adds eight bonds to *sum, the sums over the neighbourhoods (all bonds) of eight particles: w r e with weight w,
+ * reference length r and extension e = |Y| - r of the bond vector Y, and in models with rotations w Y (x) xi with the
+ * reference vector xi. Also updates the smallest and largest stretch in *sum. column: the bonds, one of each particle;
+ * x[dim], X[dim]: present and reference positions of the eight particles [m]; model: state-based model, a compile-time
+ * constant. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
                                             const struct column column, const lanes *x, const lanes *X, const int dim,
                                             const enum pd_model model)
@@ -49,9 +49,10 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     }
 }
 
-/* Computes the rotations of eight neighbourhoods from `moment`, their moments sum w Y (x) xi [dim dim], in the form in
- * which rotations are stored (rotation.h). moved: lanes that are 0 belong to neighbourhoods in which no neighbour has
- * moved, whose rotation is set to the identity exactly. spring: spring stiffness of the neighbourhoods [N/m]. */
+/* Computes the rotations that fit the deformation of the neighbourhoods (all bonds) of eight particles best, from
+ * their moments sum w Y (x) xi (moment[dim dim]), in the form in which rotations are stored (rotation.h). moved: 0 in
+ * lanes of neighbourhoods in which no particle has moved; these get exactly the identity. spring: spring stiffness of
+ * the neighbourhoods [N/m]. */
 static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, lanes_mask moved, lanes spring,
                                           const int dim)
 {
@@ -69,8 +70,7 @@ struct own_family {
     lanes share;   /* V/Q, with the weighted volume of a full neighbourhood if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the neighbourhoods of the eight particles of block g of eight rows. A
- * neighbourhood consists of all bonds of one particle. */
+/* Returns the moduli and weighted volumes of the neighbourhoods (all bonds) of the eight particles of row block g. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -92,8 +92,8 @@ struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states *k (pressure, spring stiffness and rotation) of the neighbourhoods of the eight particles of block
- * g of eight rows in b->state. model: state-based model, a compile-time constant. */
+/* Stores the states *k (pressure, spring stiffness and rotation) of the neighbourhoods of the eight particles of row
+ * block g (their bonds are stored together) in b->state. model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -108,8 +108,8 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns the mask of the rows of block g of eight rows (the bonds of eight particles) that belong to material points
- * with bonds; the other rows belong to peridynamic particles. A row has the bonds of one particle. */
+/* Returns a mask with lane l set if particle l of row block g (the bonds of eight particles) is a material point with
+ * bonds, not a peridynamic particle. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     lanes_mask end;
@@ -117,10 +117,10 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
     return end;
 }
 
-/* Computes the rotations of the cells of eight material points, which their bonds use, from p->end_rotation. Stores
- * them in rotation[ROTATION], times the spring stiffness (in the plane) or a factor of it (in space), as rotation.h
- * describes. row: indices of the points; own: the first of them if they are consecutive, else -1; spring: spring
- * stiffness of their neighbourhoods [N/m]; back: true for the inverse rotations. */
+/* Computes the rotations of the mesh cells of eight material points with bonds, from p->end_rotation, into
+ * rotation[ROTATION], multiplied by the spring stiffness in 2D or the square root of twice the stiffness in 3D, as
+ * rotation.h describes. row: indices of the points; own: the first of them if they are consecutive, else -1; spring:
+ * spring stiffness of their neighbourhoods [N/m]; back: true for the inverse rotations. */
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {
@@ -135,11 +135,11 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
         rotation[c] = (c < 3 ? axis : scale) * lanes_load_or_gather(p->end_rotation[c], own, row);
 }
 
-/* Stores in particles.end_moment the moments that bonds exert on eight material points [N m], for the points in the
- * mask `end`; 0 for the others. The moment is the axial vector of g R^T M, with M = sum w Y (x) xi over the bonds of
- * the point and the rotation R of its cell: component k is entry ji less entry ij. row: indices of the points, of which
- * the first `rows` exist; own: index of the first point if they are consecutive, else -1; sum: sums over the bonds;
- * spring: spring stiffness g [N/m]. */
+/* Stores in p->end_moment the moments [N m] that bonds exert on eight material points, for the points in the mask
+ * `end`; 0 for the other lanes. The moment is the axial vector of N = g R^T M, with M = sum w Y (x) xi over the bonds
+ * of the point, the rotation R of its mesh cell and the spring stiffness g: N_ji - N_ij for component k, with i, j, k
+ * cyclic. row: indices of the points, of which the first `rows` exist; own: index of the first point if they are
+ * consecutive, else -1; sum: sums over the bonds, with M; spring: g [N/m]. */
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
@@ -161,10 +161,11 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* Updates the states *k of those particles of block g of eight rows (bonds of eight particles) that are material
- * points. Adds to the pressure of each the mean strain of its cell, and replaces its rotation by that of the cell.
- * Stores the reactions of the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes
- * of the eight neighbourhoods; sum: sums over their bonds. model: state-based model, a compile-time constant. */
+/* Corrects the states *k (pressure, spring stiffness, rotation) of those of the eight particles of row block g that
+ * are material points: adds the mean strain of the point's mesh cell to the pressure, and replaces the rotation by
+ * that of the cell. Stores the reactions of the bonds on the cells in p->end_pull and p->end_moment. f: moduli and
+ * weighted volumes of the eight neighbourhoods; sum: sums over their bonds; model: state-based model, a compile-time
+ * constant. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -185,10 +186,9 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes pressure, spring stiffness and rotation of the neighbourhoods (all bonds of one particle) of block g of
- * eight rows (eight particles), and stores them in b->state. Neighbourhoods of material points include the contribution
- * of the cell of the point. sum: sums over the bonds of each family. model: state-based model, a compile-time
- * constant. */
+/* Computes pressure, spring stiffness and rotation of the neighbourhoods (all bonds) of the eight particles of row
+ * block g, and stores them in b->state. The states of material points with bonds include the contribution of their
+ * mesh cell. sum: sums over the bonds of each particle; model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -207,11 +207,11 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     precompute_store(b, g, &k, model);
 }
 
-/* Computes the states (pressure, spring stiffness, rotation) of the eight particles of block g of eight rows from sums
- * over their bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking
- * limit, and b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the
- * states for the remaining bonds are means of those with and without the breaking bonds (state_last.h). limit: breaking
- * limits. model: state-based model, a compile-time constant. */
+/* Computes the states (pressure, spring stiffness, rotation) of the eight particles of row block g from sums over
+ * their bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit,
+ * and b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the
+ * states stored are means of those with and without the breaking bonds (state_last.h). limit: breaking limits; model:
+ * state-based model, a compile-time constant. */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {
@@ -262,12 +262,12 @@ struct state_sums {
     lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
 };
 
-/* Adds the forces of the eight bonds of a column (one bond of each of eight particles) to *sum, the sums of these
- * particles. In models without rotations the force of a bond is w [P + (g - P) q] times Y, with pressure P, spring
- * stiffness g and q = (|Y| - r)/|Y|: two products fewer than with the stretch. In models with rotations the effective
- * displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is exactly 0 where nothing has moved; the part of
- * the rotations of the block's own particles is added in force_row_block. model: state-based model, a
- * compile-time constant. */
+/* Adds the forces of eight bonds to *sum, the sums of their eight particles. column: the bonds, one of each particle;
+ * model: state-based model, a compile-time constant. Without rotations the force of a bond is w [P + (g - P) q] Y,
+ * with bond vector Y, weight w, pressure P, spring stiffness g and q = (|Y| - r)/|Y|, which takes two products fewer
+ * than the stretch. With rotations the effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is
+ * exactly 0 where nothing has moved; the part of the rotations of the eight particles themselves is added in
+ * force_row_block. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {
@@ -299,9 +299,9 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
 
-/* Computes the forces of all bonds on the eight particles of block g of eight rows into p->f, without repulsive cores,
- * from the states of the neighbourhoods in b->state (pressure, spring stiffness and rotation). model: state-based
- * model, a compile-time constant. */
+/* Computes the forces of all bonds on the eight particles of row block g (their bonds are stored together) into p->f,
+ * without repulsive cores, from the states of the neighbourhoods in b->state (pressure, spring stiffness and
+ * rotation). model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                           const enum pd_model model)
 {
@@ -326,9 +326,9 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     for (int d = 0; d < dim; d++) bond_row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
-/* Computes the forces of the bonds on the eight particles of block g of eight rows into p->f, repulsive cores included,
- * and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each counted once for each of its
- * two rows. limit: breaking limits; model: state-based model, a compile-time constant. */
+/* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
+ * repulsive cores included, and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each
+ * counted once for each of its two rows. limit: breaking limits; model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

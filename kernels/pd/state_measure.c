@@ -35,10 +35,10 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
     return s;
 }
 
-/* Computes the forces of the eight bonds of a column, one bond of each of eight particles. T[dim]: receives the force
- * due to the state of the row's particle alone [N], 0 for broken bonds; y[dim]: receives the bond vector [m]. s:
- * positions and states of the eight particles; rotates: true in models with rotations. Returns the elastic energies
- * that belong to the eight particles [J]. */
+/* Computes the forces of eight bonds, one of each of eight particles. column: the bonds; s: positions and states of
+ * the eight particles. T[dim]: receives the part of the bond force that follows from the state of that particle alone,
+ * not of its neighbour [N], 0 for broken bonds; y[dim]: receives the bond vector [m]. rotates: true in models with
+ * rotations. Returns the elastic energies of the bonds in the neighbourhoods of the eight particles [J]. */
 static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct column column,
                                             const struct particles *p, lanes *T, lanes *y, const int dim,
                                             const bool rotates)
@@ -67,9 +67,10 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_broadcast(0));
 }
 
-/* Returns the elastic energy of the neighbourhoods of the eight particles of block g of eight rows, repulsive cores
- * included [J]; 0 if the block is inactive (at rest). row_energy: [b->rows] the energy of each neighbourhood is added
- * to it [J]; NULL if it is not wanted. model: state-based model, a compile-time constant. */
+/* Returns the elastic energy of the neighbourhoods of the eight particles of row block g (their bonds are stored
+ * together), repulsive cores included [J]; 0 if the block is inactive (at rest). row_energy: [b->rows] the energy of
+ * each neighbourhood is added to it [J]; NULL if it is not wanted. model: state-based model, a compile-time constant.
+ */
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                            real *row_energy, const int dim, const enum pd_model model)
 {
@@ -85,9 +86,10 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     return total;
 }
 
-/* Adds the symmetric part of T (x) y of the eight bonds of a column (one bond of each of eight particles) to
- * sum[component], one lane per particle: T is the force due to the state of the row's particle alone [N], y the bond
- * vector [m]. s: positions and states of the particles. model: state-based model, a compile-time constant. */
+/* Adds the symmetric part of T (x) y of eight bonds to sum[component], one lane for each of their eight particles. T:
+ * part of the bond force that follows from the state of that particle alone [N]; y: bond vector [m]. column: the
+ * bonds, one of each particle; s: positions and states of the particles; model: state-based model, a compile-time
+ * constant. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
@@ -98,9 +100,9 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-/* Computes the stress of the peridynamic ones among the eight particles of block g of eight rows, into p->stress [Pa],
- * from the states of their neighbourhoods (pressure, spring stiffness and rotation). model: state-based model, a
- * compile-time constant. */
+/* Computes the stress of the peridynamic ones among the eight particles of row block g (their bonds are stored
+ * together), into p->stress [Pa], from the states of their neighbourhoods (pressure, spring stiffness and rotation).
+ * model: state-based model, a compile-time constant. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -165,9 +167,9 @@ static void end_rotation(const struct particles *p, int32_t i, real *R)
     }
 }
 
-/* Returns sum w |Y - R xi|^2 over the bonds of one particle [m^2], with bond vectors Y and reference vectors xi, at a
- * time `lag` before the present positions [s]. row: the particle's row; R: rotation that fits the bonds with their
- * present weights best; for a material point that of its cell. */
+/* Returns sum w |Y - R xi|^2 over the bonds of one particle [m^2], with weights w, bond vectors Y at the time `lag`
+ * [s] before the present and reference vectors xi. R is the rotation that fits these bonds best, or for a material
+ * point the rotation of its mesh cell. row: row of b with the bonds of the particle. */
 static real row_effective(const struct bonds *b, const struct particles *p, int64_t row, real lag)
 {
     const int32_t i = b->particle[row];

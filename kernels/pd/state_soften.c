@@ -18,8 +18,9 @@
 #include "kernels/kernels.h"
 #include "state_driving.h"
 
-/* Sets the damage of softening bond q of row `row` (bonds of one particle) to that of `most`, its largest stretch so
- * far [1]. Breaks the bond if this is the end of its softening. Returns 1 if it is broken, else 0. */
+/* Sets the largest stretch so far of the softening bond q of row `row` (bonds of one particle) to `most` [1] and
+ * reduces its weight accordingly. Breaks the bond if `most` is at the end of its softening. Returns 1 if the bond is
+ * broken, else 0. */
 static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, int64_t q, real most)
 {
     const struct softened *soft = &b->soft;
@@ -34,20 +35,20 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
     return 0;
 }
 
-/* Returns a mean of the energy of the bonds of one row (bonds of one particle) over the last time step dt [s]: the
- * elastic energy with the squares of displacements replaced by the products of displacements before and after the step
- * [J]. When bonds are damaged, this mean falls by the energy that the leap-frog step loses. */
+/* Returns a mean of the elastic energy of the bonds of one particle over the last time step dt [s]: the energy with
+ * the squares of displacements replaced by products of the displacements before and after the step [J]. When bonds are
+ * damaged, this mean falls by the energy that the leap-frog step loses. row: row of b with these bonds. */
 static real row_energy_of_step(const struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     return 2 * state_row_energy(b, p, row, 0.5 * dt) -
            0.5 * (state_row_energy(b, p, row, dt) + state_row_energy(b, p, row, 0));
 }
 
-/* Increases the damage of the softening bonds of one row (bonds of one particle) to that of their present stretches. A
- * bond takes part if the increase of damage releases energy and both of its particles are peridynamic; a
- * material point whose bond begins to soften becomes peridynamic in this step. limit: limits of stretch, and the time
- * step. Sets *changed to true if the damage of a bond has
- * changed. Returns the number of bonds that have broken, at the end of their softening. */
+/* Increases the damage of the softening bonds of one particle to that of their present stretches, where this releases
+ * energy and both particles of the bond are peridynamic. (A material point whose bond begins to soften becomes
+ * peridynamic in this step.) row: row of b with these bonds; limit: limits of stretch, and the time step. Sets
+ * *changed to true if the damage of a bond has changed. Returns the number of bonds that break, at the end of their
+ * softening. */
 static int64_t row_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
                           bool *changed)
 {

@@ -83,8 +83,9 @@ static struct archive archive_of(struct hdf *f, bool saving)
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
 /* Writes the state of a run to an HDF5 file under the temporary name of `path`, without the footer (length and hash).
- * o: output of the run; scene_text: text of the scene, which is stored in the file; archive_all(context, a): must pass
- * all entries of the state to the archive a. Returns FAILED, with a message, on a fault, with the file removed. */
+ * o: output of the run; scene_text: text of the input file (scene), which is stored in the file; archive_all(context,
+ * a): must pass all entries of the state to the archive a. Returns FAILED, with a message, on a fault, with the file
+ * removed. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {

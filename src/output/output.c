@@ -185,10 +185,10 @@ static status file_each(const char *folder, const char *name, file_visit_fn *eac
     return path_exists(path.text) ? each(path.text) : OK;
 }
 
-/* Calls each(path) for all frames and index files of one region for which frames are written separately. inner: name
- * frames_NAME of the folder of these frames, which is in `folder`; end: additional ending of the file names, "" or that
- * of temporary files. If `each` removes files, the folder is removed too, unless other files are in it. Returns the
- * first status other than OK. */
+/* Calls each(path) for all output frames and index files of one region for which frames are written separately. inner:
+ * name frames_NAME of the folder of these frames, which is in `folder`; end: additional ending of the file names, ""
+ * or that of temporary files. If `each` removes files, the folder is removed too, unless other files are in it.
+ * Returns the first status other than OK. */
 static status region_each(const char *folder, const char *inner, const char *end, file_visit_fn *each)
 {
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
@@ -213,7 +213,7 @@ static bool is_frames_of_region(const char *inner, const char *scene_text)
     return strstr(scene_text, line) != NULL;
 }
 
-/* Calls each(path) for the frames and index files of every region that scene.yaml in the folder defines. Other
+/* Calls each(path) for the output frames and index files of every region that scene.yaml in the folder defines. Other
  * folders named frames_* are not touched. end: additional ending of the file names, "" or that of temporary files.
  * Returns the first status other than OK. */
 static status regions_each(const char *folder, const char *end, file_visit_fn *each)
@@ -256,7 +256,7 @@ static void temporary_remove(const char *folder)
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
-/* Returns true if an index of frames lists the frame `path`: FOLDER/frames.xdmf for FOLDER/frames/FILE, or
+/* Returns true if an index of output frames lists the frame `path`: FOLDER/frames.xdmf for FOLDER/frames/FILE, or
  * FOLDER/NAME.xdmf of a region for FOLDER/frames_NAME/FILE. */
 static bool index_lists(const char *path)
 {
@@ -276,8 +276,8 @@ static bool index_lists(const char *path)
     return listed;
 }
 
-/* Checks the file `path`, which a run would remove. Returns REFUSED if it has the name of a frame or particles file,
- * but is not from Cleave: it has no footer of Cleave's files, and the index of the older run does not list it. */
+/* Checks the file `path`, which a run would remove. Returns REFUSED if it has the name of an output frame or particles
+ * file, but is not from Cleave: it has no footer of Cleave's files, and the index of the older run does not list it. */
 static status frame_guard(const char *path)
 {
     if (!is_frame(strrchr(path, '/') + 1, "") || file_has_checksum_footer(path) || index_lists(path)) return OK;
@@ -340,8 +340,8 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     return OK;
 }
 
-/* Returns the path of the folder frames_NAME, in the folder of a run, in which the frames of the region NAME = name
- * are. */
+/* Returns the path of the folder frames_NAME, in the folder of a run, in which the output frames of the region NAME =
+ * name are. */
 static struct path series_folder(const char *folder, const char *name)
 {
     char inner[PATH_NAME_ROOM];
@@ -391,9 +391,9 @@ status output_write_text(const struct output *o, const char *file_name, const ch
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the list of frames of series s (number, times, sizes) and the number and hash of its last particles file to the
- * archive a if a->saving is true, else restores them. A series is the frames of the whole run or of one region. Returns
- * FAILED if the restored lists do not match. */
+/* Saves the list of output frames of series s (number, times, sizes) and the number and hash of its last particles
+ * file to the archive a if a->saving is true, else restores them. A series is the frames of the whole run or of one
+ * region. Returns FAILED if the restored lists do not match. */
 static status series_archive(struct frame_series *s, struct archive *a)
 {
     char frames_name[100], entry_name[100], number_name[100], content_name[100];

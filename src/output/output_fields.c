@@ -80,7 +80,7 @@ static void copy_stress(const struct frame_source *s, const int32_t *row, int64_
 }
 
 /* Computes the rows first .. end - 1 of the array `rows` for a field that is derived from stress or velocity, such as
- * the von Mises stress. s: source of the frame; row[r]: index of the particle of row r. */
+ * the von Mises stress. s: source of the output frame; row[r]: index of the particle of row r. */
 static void copy_derived(const struct derived_field *field, const struct frame_source *s, const int32_t *row,
                          int64_t first, int64_t end, float *rows)
 {
@@ -139,8 +139,8 @@ static void copy_strain(const struct frame_source *s, const int32_t *row, int64_
 }
 
 /* Fills the rows first .. end - 1 with the density rho_0/J [kg/m^3], where J^2 = det(1 + 2 E) and E is the
- * Green-Lagrange strain. row[r]: index of the particle of row r; s: source of the frame; rows: array with one float per
- * row. */
+ * Green-Lagrange strain. row[r]: index of the particle of row r; s: source of the output frame; rows: array with one
+ * float per row. */
 static void copy_density(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++) {
@@ -188,9 +188,9 @@ static void copy_level(const struct frame_source *s, const int32_t *row, int64_t
 
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
 
-/* Copies the damage of particles to the rows first .. end - 1: the damage computed for the frame if there is one, else
- * that stored in struct particles. s: source of the frame; row[r]: index of the particle of row r; rows: array with one
- * float per row. */
+/* Copies the damage of particles to the rows first .. end - 1: the damage computed for the output frame if there is
+ * one, else that stored in struct particles. s: source of the frame; row[r]: index of the particle of row r; rows:
+ * array with one float per row. */
 static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->extra.state.damage ? s->extra.state.damage : s->p->damage);
@@ -226,7 +226,8 @@ static void copy_fragment(const struct frame_source *s, const int32_t *row, int6
 /* ---- fields of the particles file -------------------------------------------------------------------------------- */
 
 /* Copies the spacing of particles [m] to the rows first .. end - 1. Material points of coarse grid cells have larger
- * spacings. s: source of the frame; row[r]: index of the particle of row r; rows: array with one float per row. */
+ * spacings. s: source of the output frame; row[r]: index of the particle of row r; rows: array with one float per row.
+ */
 static void copy_spacing(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++)
@@ -302,8 +303,8 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
  * field k + 1. */
 enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
-/* Returns true if a frame of source s contains `field`, a row of frame_fields: its data exist and, if the field is
- * written on request only, the scene requests it. */
+/* Returns true if an output frame of source s contains `field`, a row of frame_fields: its data exist and, if the
+ * field is written on request only, the input file (scene) requests it. */
 static bool field_exists(const struct frame_field *field, const struct frame_source *s)
 {
     const int64_t k = field - frame_fields;

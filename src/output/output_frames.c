@@ -22,7 +22,7 @@ enum { FRAME_VERSION = 2 }; /* version of the format of frames */
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
-/* Everything that is needed to write one frame in another thread. */
+/* Everything that is needed to write one output frame in another thread. */
 struct frame_job {
     struct path path;            /* path of the file */
     struct output *o;            /* output of the run; borrowed */
@@ -43,8 +43,8 @@ struct frame_job {
     char message[512]; /* its message, if it failed */
 };
 
-/* Returns true if field number k is stored in the frame of `job`, the description of a frame to be written. Fields that
- * do not change from frame to frame are in the particles file instead. */
+/* Returns true if field number k is stored in the output frame of `job`, the description of a frame to be written.
+ * Fields that do not change from frame to frame are in the particles file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
 /* Copies from `source` the rows of those fields of a frame (output file of one time) that are stored in the frame
@@ -82,9 +82,9 @@ static void job_drop_contact(struct frame_job *job)
     if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
 }
 
-/* Chooses the particles file (the data that do not change from frame to frame) to which the frame of `job` links. It is
- * the last particles file of the series of frames, or a new one if its contents would differ. source: data of the
- * frame; scene_text: text of the scene, which the file contains. */
+/* Chooses the particles file (the data that do not change from output frame to frame) to which the frame of `job`
+ * links. It is the last particles file of the series of frames, or a new one if its contents would differ. source:
+ * data of the frame; scene_text: text of the input file (scene), which the file contains. */
 static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
 {
     struct frame_series *s = job->series;
@@ -156,8 +156,8 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-/* Releases the list of the particles that the frames of the series s (of the whole run or of one region) show. They are
- * selected again for the next frame. */
+/* Releases the list of the particles that the output frames of the series s (of the whole run or of one region) show.
+ * They are selected again for the next frame. */
 static void rows_free(struct frame_series *s)
 {
     free(s->rows.index);
@@ -165,8 +165,8 @@ static void rows_free(struct frame_series *s)
     s->particles.current = false;
 }
 
-/* Returns true if the frames of the series s show particle i of p: it is in the region of the series, or the series has
- * no region. p: particles, or material points of coarse cells. */
+/* Returns true if the output frames of the series s show particle i of p: it is in the region of the series, or the
+ * series has no region. p: particles, or material points of coarse cells. */
 static bool series_shows(const struct frame_series *s, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
@@ -175,10 +175,10 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Selects the particles of `source` that the frames of the series s show, in the order of their ids, and stores them in
- * s->rows. The selection is kept until output_discard_particle_order, or until the number of particles changes. It is
- * made again for each frame if the series has a region and there are material points of coarse grid cells, which may
- * change at any step. Returns false if memory is exhausted. */
+/* Selects the particles of `source` that the output frames of the series s show, in the order of their ids, and stores
+ * them in s->rows. The selection is kept until output_discard_particle_order, or until the number of particles
+ * changes. It is made again for each frame if the series has a region and there are material points of coarse grid
+ * cells, which may change at any step. Returns false if memory is exhausted. */
 static bool rows_make(struct frame_series *s, const struct frame_source *source)
 {
     const struct particles *more = source->extra.more;
@@ -206,8 +206,8 @@ void output_discard_particle_order(struct output *o)
 
 /* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ------------------------------- */
 
-/* Writes the groups and attributes of the frame of `job` to the file f, and its time, which VTK shows beside the
- * particles. */
+/* Writes the groups and attributes of the output frame of `job` to the file f, and its time, which VTK shows beside
+ * the particles. */
 static void write_marks(struct hdf *f, const struct frame_job *job)
 {
     static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
@@ -226,9 +226,9 @@ static void write_marks(struct hdf *f, const struct frame_job *job)
     if (job->untouched) hdf_write_text_attribute(f, "/Cleave", "zero", "contact_force");
 }
 
-/* Writes the frame of a job (the description of a frame to be written) under its temporary name PATH.cleave.tmp, and
- * renames it to PATH. Before that, writes the particles file to which it links, if this is new. Returns FAILED if a
- * file cannot be written. */
+/* Writes the output frame of a job (the description of a frame to be written) under its temporary name
+ * PATH.cleave.tmp, and renames it to PATH. Before that, writes the particles file to which it links, if this is new.
+ * Returns FAILED if a file cannot be written. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
@@ -243,9 +243,9 @@ static status frame_write(struct frame_job *job)
     return file_replace_by_temporary(job->path.text);
 }
 
-/* Writes the frame of a job (the description of a frame to be written) and then the index files of its series of
- * frames, which thus never list a missing frame. The folder of the run is two levels above the frame. Returns FAILED if
- * a file cannot be written. */
+/* Writes the output frame of a job (the description of a frame to be written) and then the index files of its series
+ * of frames, which thus never list a missing frame. The folder of the run is two levels above the frame. Returns
+ * FAILED if a file cannot be written. */
 static status job_write(struct frame_job *job)
 {
     TRY(frame_write(job));
@@ -256,7 +256,8 @@ static status job_write(struct frame_job *job)
 
 /* ---- one frame at a time ----------------------------------------------------------------------------------------- */
 
-/* Writes the frame of the job `context` in a thread of its own. Stores status and message in the job. Returns NULL. */
+/* Writes the output frame of the job `context` in a thread of its own. Stores status and message in the job. Returns
+ * NULL. */
 static void *job_run(void *context)
 {
     struct frame_job *job = context;
@@ -279,8 +280,8 @@ status output_wait_for_frame(struct output *o)
     return s;
 }
 
-/* Appends the frame of `job`, which is about to be written, to the list of its series s, the frames of the whole run or
- * of one region. If writing fails later, output_wait_for_frame removes it from the list. */
+/* Appends the output frame of `job`, which is about to be written, to the list of its series s, the frames of the
+ * whole run or of one region. If writing fails later, output_wait_for_frame removes it from the list. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frames", s->entry, s->frames + 1);
@@ -341,10 +342,10 @@ struct particles_seen {
     int64_t content;           /* hash of the contents of the file */
 };
 
-/* Checks particles file number `number` of the series of frames s in the folder of a run, and stores name, fault and
- * hash of the file in *seen. Does nothing if *seen already describes this file. The state restored from the checkpoint
- * has the hash of the last particles file of the series. If this file has another hash, it belongs to another run and
- * counts as lost. */
+/* Checks particles file number `number` of the series of output frames s in the folder of a run, and stores name,
+ * fault and hash of the file in *seen. Does nothing if *seen already describes this file. The state restored from the
+ * checkpoint has the hash of the last particles file of the series. If this file has another hash, it belongs to
+ * another run and counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
@@ -359,8 +360,8 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
         seen->fault = "belongs to another run";
 }
 
-/* Reads from the frame at `path` its time into *time [s] and the hash of its particles file into *content. Returns
- * false if the frame cannot be read. */
+/* Reads from the output frame at `path` its time into *time [s] and the hash of its particles file into *content.
+ * Returns false if the frame cannot be read. */
 static bool frame_read_marks(const char *path, real *time, int64_t *content)
 {
     struct hdf f;
@@ -372,9 +373,10 @@ static bool frame_read_marks(const char *path, real *time, int64_t *content)
     return read;
 }
 
-/* Returns true if the frame at `path` is damaged or missing for certain, and then writes a phrase that completes "FRAME
- * ..." to text[capacity]. Returns false if the frame has no fault, or if it cannot be decided because reading failed.
- * e: entry of the frame in the list of frames; particles: the particles file to which it should link. */
+/* Returns true if the output frame at `path` is damaged or missing for certain, and then writes a phrase that
+ * completes "FRAME ..." to text[capacity]. Returns false if the frame has no fault, or if it cannot be decided because
+ * reading failed. e: entry of the frame in the list of frames; particles: the particles file to which it should link.
+ */
 static bool frame_is_lost(const char *path, const struct frame_entry *e, const struct particles_seen *particles,
                           char *text, size_t capacity)
 {
@@ -411,8 +413,8 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
     if (seen.fault) s->particles.number = -1;
 }
 
-/* Composes and writes both index files of a series of frames of the output o (frames.hdf.series and frames.xdmf).
- * Returns FAILED if one cannot be written. */
+/* Composes and writes both index files of a series of output frames of the output o (frames.hdf.series and
+ * frames.xdmf). Returns FAILED if one cannot be written. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};

@@ -20,8 +20,8 @@ void series_write_index_file_name(const struct frame_series *series, char *name,
     snprintf(name, capacity, "%s%s", series->name[0] ? series->name : "frames", ending);
 }
 
-/* Writes to `out` the text of frames.hdf.series, the index of the frame series s (the frames of the run or of one
- * region), in JSON: name and time [s] of each frame that is not lost. */
+/* Writes to `out` the text of frames.hdf.series, the index of the output frame series s (the frames of the run or of
+ * one region), in JSON: name and time [s] of each frame that is not lost. */
 static void series_print(FILE *out, const struct frame_series *s)
 {
     const char *between = "";
@@ -60,8 +60,8 @@ static void xdmf_attribute(FILE *out, const char *file, const struct frame_field
     fprintf(out, "</Attribute>\n");
 }
 
-/* Writes to `out` the XDMF grid of one frame. frame, particles: paths of the frame and of its particles file; e: time,
- * number of particles and fields of the frame. */
+/* Writes to `out` the XDMF grid of one output frame. frame, particles: paths of the frame and of its particles file;
+ * e: time, number of particles and fields of the frame. */
 static void xdmf_grid(FILE *out, const char *frame, const char *particles, const struct frame_entry *e)
 {
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", e->time);
@@ -78,8 +78,8 @@ static void xdmf_grid(FILE *out, const char *frame, const char *particles, const
     fprintf(out, "</Grid>\n");
 }
 
-/* Writes to `out` the text of frames.xdmf, the index of the frame series s (the frames of the run or of one region): a
- * collection in time of the XDMF grids of all frames that are not lost. */
+/* Writes to `out` the text of frames.xdmf, the index of the output frame series s (the frames of the run or of one
+ * region): a collection in time of the XDMF grids of all frames that are not lost. */
 static void xdmf_print(FILE *out, const struct frame_series *s)
 {
     fprintf(out, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n");
@@ -96,8 +96,8 @@ static void xdmf_print(FILE *out, const struct frame_series *s)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of an index file of the frame series s (the frames of the run or of one region) in the folder of a
- * run. which: 0 for frames.hdf.series, 1 for frames.xdmf. */
+/* Returns the path of an index file of the output frame series s (the frames of the run or of one region) in the
+ * folder of a run. which: 0 for frames.hdf.series, 1 for frames.xdmf. */
 static struct path index_path(const char *folder, const struct frame_series *s, int which)
 {
     static const char *const end[INDICES] = {".hdf.series", ".xdmf"};
@@ -106,9 +106,9 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
     return path_join(folder, name);
 }
 
-/* Composes in memory, in index->text[which], the text of an index file of the frame series s (the frames of the run or
- * of one region). which: 0 for frames.hdf.series, 1 for frames.xdmf. folder: folder of the run, for messages. Returns
- * FAILED, with a message, if memory is exhausted. */
+/* Composes in memory, in index->text[which], the text of an index file of the output frame series s (the frames of the
+ * run or of one region). which: 0 for frames.hdf.series, 1 for frames.xdmf. folder: folder of the run, for messages.
+ * Returns FAILED, with a message, if memory is exhausted. */
 static status index_make(struct frame_indices *index, const char *folder, const struct frame_series *s, int which)
 {
     static void (*const print[INDICES])(FILE *, const struct frame_series *) = {series_print, xdmf_print};

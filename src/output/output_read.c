@@ -52,8 +52,8 @@ static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int6
     return data;
 }
 
-/* Reads all fields of a frame from the file h into new arrays of f. Stress components are in the order of struct
- * particles (xx yy xy in 2D, xx yy zz xy yz xz in 3D); in plane spaces zz follows as the last one. */
+/* Reads all fields of an output frame from the file h into new arrays of f. Stress components are in the order of
+ * struct particles (xx yy xy in 2D, xx yy zz xy yz xz in 3D); in plane spaces zz follows as the last one. */
 static void read_fields(struct output_frame *f, struct hdf *h)
 {
     static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
@@ -74,8 +74,8 @@ static void read_fields(struct output_frame *f, struct hdf *h)
         f->spacing = read_list(h, "/VTKHDF/PointData/spacing", HDF_F32, f->n);
 }
 
-/* Reads dimension, time, step and number of particles of a frame from the file h into f. Values out of range are
- * recorded as a fault of the file. bytes: size of the file. */
+/* Reads dimension, time, step and number of particles of an output frame from the file h into f. Values out of range
+ * are recorded as a fault of the file. bytes: size of the file. */
 static void read_size(struct output_frame *f, struct hdf *h, int64_t bytes)
 {
     int32_t dim = 0;
@@ -134,8 +134,8 @@ void frame_free(struct output_frame *f)
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
-/* Copies the quantity of particle i of frame f from which a derived field is computed, stress or velocity as `from`
- * selects, to row[SYM_MAX]. Components that the space does not have are 0. */
+/* Copies the quantity of particle i of output frame f from which a derived field is computed, stress or velocity as
+ * `from` selects, to row[SYM_MAX]. Components that the space does not have are 0. */
 static void source_row(const struct output_frame *f, enum derived_from from, int64_t i, real *row)
 {
     static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* order of read_fields */

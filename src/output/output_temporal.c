@@ -33,8 +33,9 @@ struct temporal {
     struct hdf_source *source; /* [n] scratch; its numbers of rows are those of the frames */
 };
 
-/* Lists in *a the frames of a series (of the whole run or of one region) whose files exist, with their particles files,
- * and the fields that all of these frames have. Contact forces are listed if at least one frame has them. */
+/* Lists in *a the output frames of a series (of the whole run or of one region) whose files exist, with their
+ * particles files, and the fields that all of these frames have. Contact forces are listed if at least one frame has
+ * them. */
 static void frames_look(struct temporal *a, const struct frame_series *series)
 {
     unsigned all = (1u << FRAME_FIELDS) - 1, any = 0;
@@ -51,8 +52,8 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     a->fields = all | (any & 1u << FIELD_CONTACT);
 }
 
-/* Writes the group Steps of f, the file of all frames for VTK: the times of the frames of a, and where the data of each
- * frame begin in the arrays. number: working memory of n entries, n being the number of frames. */
+/* Writes the group Steps of f, the file of all output frames for VTK: the times of the frames of a, and where the data
+ * of each frame begin in the arrays. number: working memory of n entries, n being the number of frames. */
 static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
@@ -79,9 +80,9 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Writes a virtual dataset to f that concatenates `field` of all frames of a. needed: bits of the fields without which
- * a frame does not contain the dataset, 0 if every frame contains it; the rows of frames that lack a needed field read
- * as 0. more: number of rows in each frame beyond its number of points. */
+/* Writes a virtual dataset to f that concatenates `field` of all output frames of a. needed: bits of the fields
+ * without which a frame does not contain the dataset, 0 if every frame contains it; the rows of frames that lack a
+ * needed field read as 0. more: number of rows in each frame beyond its number of points. */
 static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, uint32_t needed,
                           int more)
 {
@@ -92,8 +93,8 @@ static void write_virtual(struct hdf *f, const struct temporal *a, const struct 
     hdf_write_virtual_dataset(f, field->path, field->type, field->columns, a->source, a->n, more);
 }
 
-/* Writes points, cells and fields of all frames of a to f as virtual datasets. number: working memory with an entry for
- * each frame. */
+/* Writes points, cells and fields of all output frames of a to f as virtual datasets. number: working memory with an
+ * entry for each frame. */
 static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
@@ -113,8 +114,8 @@ static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
     }
 }
 
-/* Writes the units of the fields of a and scene_text, the text of the scene, to f as field data that all times share.
- * number: working memory with two entries for each frame. */
+/* Writes the units of the fields of a and scene_text, the text of the input file (scene), to f as field data that all
+ * times share. number: working memory with two entries for each output frame. */
 static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};
@@ -136,9 +137,9 @@ static void write_texts(struct hdf *f, const struct temporal *a, const char *sce
     }
 }
 
-/* Writes the file of all frames of a for VTK under the temporary name of `path` and renames it. scene_text: text of the
- * scene. Returns FAILED, with a message, on a fault. If HDF5 has failed, sets *broken to true and removes the
- * incomplete file. */
+/* Writes the file of all output frames of a for VTK under the temporary name of `path` and renames it. scene_text:
+ * text of the input file (scene). Returns FAILED, with a message, on a fault. If HDF5 has failed, sets *broken to true
+ * and removes the incomplete file. */
 static status temporal_write(const struct temporal *a, const char *path, const char *scene_text, bool *broken)
 {
     static const int32_t version[2] = {2, 0};

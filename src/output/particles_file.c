@@ -21,8 +21,8 @@ void particles_file_name(const struct frame_series *series, char *name, size_t c
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if field number k (FIELD_*) is in the particles file f, as its values do not change from frame to
- * frame. */
+/* Returns true if field number k (FIELD_*) is in the particles file f, as its values do not change from output frame
+ * to frame. */
 static bool is_inside(const struct particles_file *f, int k) { return f->fields >> k & 1 && frame_fields[k].fixed; }
 
 /* Returns the size of all rows of field number k (FIELD_*) in the particles file f [byte]. */
@@ -124,8 +124,8 @@ void particles_file_create_links(struct hdf *frame, const struct particles_file 
 
 /* ---- checking ---------------------------------------------------------------------------------------------------- */
 
-/* Reads the hash of the contents of the particles file `path` into *content_hash, 0 if the file is a frame or another
- * file of a run. Returns false if the file cannot be read. */
+/* Reads the hash of the contents of the particles file `path` into *content_hash, 0 if the file is an output frame or
+ * another file of a run. Returns false if the file cannot be read. */
 bool particles_file_read_content_hash(const char *path, int64_t *content_hash)
 {
     struct hdf h;

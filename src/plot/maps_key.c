@@ -100,8 +100,8 @@ static bool has_shares(const struct maps_shown *m)
 
 /* Writes to gnuplot, beside one end of the colour bar, which percentage of the particles have values beyond this end.
  * Writes nothing if no particle has. l: layout; view: ends of the colours and numbers of particles beyond; end: 0 for
- * the lower end, 1 for the upper; particles: number of particles of a frame; x, y: position of the text from the upper
- * left corner of the picture [pixel]; adjust: `left` or `right`. */
+ * the lower end, 1 for the upper; particles: number of particles of an output frame; x, y: position of the text from
+ * the upper left corner of the picture [pixel]; adjust: `left` or `right`. */
 static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int end, double x,
                         double y, const char *adjust)
 {
@@ -125,8 +125,8 @@ static void draw_bar_label(FILE *to, const struct layout *l, const struct bar_sc
                 (x + letter_wide() * (2 * line - 0.2 * !!unit)) / l->width, 1 - y / l->height);
 }
 
-/* Writes to gnuplot the commands that draw the colour bar of the maps m as a narrow panel on the right of the first row
- * of panels. l: layout; s: scale of the bar; particles: number of particles of a frame. */
+/* Writes to gnuplot the commands that draw the colour bar of the maps m as a narrow panel on the right of the first
+ * row of panels. l: layout; s: scale of the bar; particles: number of particles of an output frame. */
 static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
                             int64_t particles)
 {
@@ -150,7 +150,8 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
 }
 
 /* Writes to gnuplot the commands that draw the colour bar of the maps m below the panels and as wide as all of them,
- * with its label below the numbers. l: layout; s: scale of the bar; particles: number of particles of a frame. */
+ * with its label below the numbers. l: layout; s: scale of the bar; particles: number of particles of an output frame.
+ */
 static void draw_bar_under(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
                            int64_t particles)
 {

@@ -52,10 +52,10 @@ static struct contents contents_of(const struct plotted_particles *cloud, int cl
     return has;
 }
 
-/* Draws, for every frame of a run, a picture of each of the maps of damage, kinds of particles and the chosen field. A
- * map is omitted if the selected frames do not contain its quantity. r: request; frames: frames of the run; view: shown
- * rectangle and colours; has: quantities that the selected frames contain. Returns FAILED, with a message, if a frame
- * cannot be read or gnuplot fails. */
+/* Draws, for every output frame of a run, a picture of each of the maps of damage, kinds of particles and the chosen
+ * field. A map is omitted if the selected frames do not contain its quantity. r: request; frames: frames of the run;
+ * view: shown rectangle and colours; has: quantities that the selected frames contain. Returns FAILED, with a message,
+ * if a frame cannot be read or gnuplot fails. */
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view,
                          const struct contents *has)
 {
@@ -80,9 +80,9 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 }
 
 /* Draws for request r the maps of damage, of the chosen field, of the kinds of particles and of fragments of a plane
- * body or a slice. A map is omitted if the frames do not contain its quantity. cloud[frames->shown]: drawn particles of
- * the selected frames. If r->every is set, also draws these maps for every frame of the run. Returns REFUSED if the
- * request does not suit the field, FAILED if a frame cannot be read or gnuplot fails, with a message. */
+ * body or a slice. A map is omitted if the output frames do not contain its quantity. cloud[frames->shown]: drawn
+ * particles of the selected frames. If r->every is set, also draws these maps for every frame of the run. Returns
+ * REFUSED if the request does not suit the field, FAILED if a frame cannot be read or gnuplot fails, with a message. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
@@ -110,8 +110,8 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
 }
 
 /* Draws for request r two maps of a three-dimensional run as seen from outside the body: the chosen field and the
- * cracks. cloud[frames->shown]: drawn particles of the selected frames. Returns REFUSED if the request does not suit
- * the field, FAILED if gnuplot fails, with a message. */
+ * cracks. cloud[frames->shown]: drawn particles of the selected output frames. Returns REFUSED if the request does not
+ * suit the field, FAILED if gnuplot fails, with a message. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {
@@ -129,12 +129,12 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
 }
 
 /* Type of functions that draw pictures of the selected frames, as the request r asks. cloud[frames->shown]: particles
- * of each frame that are drawn. */
+ * of each output frame that are drawn. */
 typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames,
                               const struct plotted_particles *cloud);
 
-/* Reads the drawn particles of all selected frames and calls draw(r, frames, cloud) with them; frees them afterwards.
- * r: request. Returns FAILED, with a message, if a frame cannot be read, else the status of `draw`. */
+/* Reads the drawn particles of all selected output frames and calls draw(r, frames, cloud) with them; frees them
+ * afterwards. r: request. Returns FAILED, with a message, if a frame cannot be read, else the status of `draw`. */
 static status draw_clouds(const struct plot_request *r, const struct run_frames *frames, draw_clouds_fn *draw)
 {
     struct plotted_particles *cloud = NEW("plot.clouds", frames->shown, struct plotted_particles);
@@ -180,8 +180,8 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Draws for request r the maps of a run in two or three dimensions: those of a slice and, in 3D, of an outside view.
- * frames: selected frames; last: the last of them, read. Returns REFUSED if no particle is in the requested slice, or
- * the request does not suit the field; FAILED if a frame cannot be read or gnuplot fails; with a message. */
+ * frames: selected output frames; last: the last of them, read. Returns REFUSED if no particle is in the requested
+ * slice, or the request does not suit the field; FAILED if a frame cannot be read or gnuplot fails; with a message. */
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;

@@ -26,9 +26,9 @@ static const struct {
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Reads into *h the profile, a CSV table of the bar and its closed-form solution, that the EXACT probe called `probe`
- * wrote with frame (output) `number` of the run in `folder`. Returns FAILED, with a message, if the file is missing or
- * cannot be read. Release *h with history_free. */
+/* Reads into *h the profile, a CSV table of the bar and its closed-form solution, that the probe of kind EXACT
+ * (closed-form solution of a bar) called `probe` wrote with frame (output) `number` of the run in `folder`. Returns
+ * FAILED, with a message, if the file is missing or cannot be read. Release *h with history_free. */
 static status profile_read(struct history *h, const char *folder, const char *probe, int number)
 {
     char path[PATH_LENGTH];
@@ -37,8 +37,8 @@ static status profile_read(struct history *h, const char *folder, const char *pr
     return history_read_file(h, path);
 }
 
-/* Returns true if `file` in `folder` is the profile of a probe at the first frame and has the columns of a closed-form
- * solution. Stores the name of the probe in `name`. */
+/* Returns true if `file` in `folder` is the profile of a probe at the first output frame and has the columns of a
+ * closed-form solution. Stores the name of the probe in `name`. */
 static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_LENGTH])
 {
     const char ending[] = "_000000.csv";
@@ -100,9 +100,9 @@ static void power_text(char *text, size_t capacity, int power)
              raised[size % 10]);
 }
 
-/* Returns range, unit and label of the vertical axis of panel q (a row of the table `quantity`), for the values of this
- * quantity in h[frames], the profiles of all frames. The range has a margin at both ends. The unit of strains is a
- * power of ten, that of other quantities has an SI prefix. */
+/* Returns range, unit and label of the vertical axis of panel q (a row of the table `quantity`), for the values of
+ * this quantity in h[frames], the profiles of all output frames. The range has a margin at both ends. The unit of
+ * strains is a power of ten, that of other quantities has an SI prefix. */
 static struct scale scale_of(const struct history *h, int frames, int q)
 {
     struct scale s = {.factor = 1};
@@ -140,8 +140,8 @@ static void send_number(FILE *to, double a)
         fputs(" NaN", to);
 }
 
-/* Sends the profile h of the drawn frame number k (from 0) to gnuplot through `to` as the data block $fK (K is the
- * number k): the columns are x, then the computed and the exact value of every panel. metre: unit of x [m];
+/* Sends the profile h of the drawn output frame number k (from 0) to gnuplot through `to` as the data block $fK (K is
+ * the number k): the columns are x, then the computed and the exact value of every panel. metre: unit of x [m];
  * scale[QUANTITIES]: units of the panels. */
 static void send_frame(FILE *to, const struct history *h, int k, double metre, const struct scale *scale)
 {
@@ -179,7 +179,7 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
     return true;
 }
 
-/* Writes to gnuplot the commands that plot the curves of panel q (a row of the table `quantity`) for the frames
+/* Writes to gnuplot the commands that plot the curves of panel q (a row of the table `quantity`) for the output frames
  * show[frames], with the exact solution dashed. tinted: true if the background shows the peridynamic parts of the bar,
  * so that the key (legend) has an entry for them. */
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
@@ -199,7 +199,7 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
 }
 
 /* Draws all panels of a bar with its closed-form solution on the picture `sheet` with the title `title`. h[frames]:
- * profiles of the frames show[frames]. Returns FAILED, with a message, if gnuplot fails. */
+ * profiles of the output frames show[frames]. Returns FAILED, with a message, if gnuplot fails. */
 static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {

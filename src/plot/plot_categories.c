@@ -41,9 +41,9 @@ static int category_value(const struct plotted_particles *c, int64_t i)
     return (int)fminf(fmaxf(c->value[i], -1), MOST);
 }
 
-/* Finds the values that occur in the drawn particles of the frames cloud[clouds]. Returns an allocated array in which
- * seen[1 + value] is true for each of them, and stores the largest value in *last. The caller releases the array with
- * memory_free. */
+/* Finds the values that occur in the drawn particles of the output frames cloud[clouds]. Returns an allocated array in
+ * which seen[1 + value] is true for each of them, and stores the largest value in *last. The caller releases the array
+ * with memory_free. */
 static bool *values_seen(int *last, const struct plotted_particles *cloud, int clouds)
 {
     *last = -1;

@@ -25,8 +25,8 @@ static int64_t sample_count(int64_t n)
     return samples < n ? samples : n;
 }
 
-/* Returns the mean distance [m] of particle i of frame f from its f->dim nearest neighbours. On a lattice this is the
- * spacing, because even a particle at a corner has as many neighbours at this distance. */
+/* Returns the mean distance [m] of particle i of output frame f from its f->dim nearest neighbours. On a lattice this
+ * is the spacing, because even a particle at a corner has as many neighbours at this distance. */
 static double near_distance(const struct output_frame *f, int64_t i)
 {
     double nearest[DIM_MAX];
@@ -93,7 +93,7 @@ static bool is_aligned(double *const *X, int64_t n)
 /* ---- slices ------------------------------------------------------------------------------------------------------ */
 
 /* Computes the smallest and the largest coordinate along axis d of the reference positions of all particles of the
- * frame f, and stores them in *from and *to [m]. */
+ * output frame f, and stores them in *from and *to [m]. */
 static void frame_extent(const struct output_frame *f, int d, double *from, double *to)
 {
     *from = INFINITY, *to = -INFINITY;
@@ -103,8 +103,8 @@ static void frame_extent(const struct output_frame *f, int d, double *from, doub
     }
 }
 
-/* Returns the coordinate axis (0 .. 2) along which the particles of frame f have the smallest extent; the last one of
- * equal axes. */
+/* Returns the coordinate axis (0 .. 2) along which the particles of output frame f have the smallest extent; the last
+ * one of equal axes. */
 static int thinnest_direction(const struct output_frame *f)
 {
     double thinnest = INFINITY;
@@ -119,8 +119,8 @@ static int thinnest_direction(const struct output_frame *f)
     return normal;
 }
 
-/* Returns the coordinate along the axis `normal` [m] of the particle of frame f whose coordinate is nearest to `wanted`
- * [m], the lower one of two that are equally near. */
+/* Returns the coordinate along the axis `normal` [m] of the particle of output frame f whose coordinate is nearest to
+ * `wanted` [m], the lower one of two that are equally near. */
 static double nearest_coordinate(const struct output_frame *f, int normal, double wanted)
 {
     const double tie = TIE * frame_particle_spacing(f);
@@ -134,8 +134,8 @@ static double nearest_coordinate(const struct output_frame *f, int normal, doubl
     return at;
 }
 
-/* Returns the coordinate along the axis `normal` [m] of the particle layer of frame f that a slice shows. It is the
- * layer nearest to the middle among those whose sum of damage is at least 0.98 of the largest sum; in an undamaged
+/* Returns the coordinate along the axis `normal` [m] of the particle layer of output frame f that a slice shows. It is
+ * the layer nearest to the middle among those whose sum of damage is at least 0.98 of the largest sum; in an undamaged
  * body, the layer nearest to the middle. Of two such layers it is the lower one. */
 static double damaged_layer(const struct output_frame *f, int normal)
 {
@@ -198,8 +198,8 @@ struct camera camera_along_axis(int axis, int side)
     return c;
 }
 
-/* Computes the drawn position x[3] = X + magnify u of particle i of frame f [m]; components that the run lacks are 0.
- * magnify: factor on displacements [1]. */
+/* Computes the drawn position x[3] = X + magnify u of particle i of output frame f [m]; components that the run lacks
+ * are 0. magnify: factor on displacements [1]. */
 static void place_now(const struct output_frame *f, int64_t i, double magnify, double *x)
 {
     for (int d = 0; d < 3; d++) x[d] = d < f->dim ? f->X[d][i] + magnify * f->u[d][i] : 0;
@@ -210,8 +210,8 @@ static double along(const double *direction, const double *x)
     return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
 }
 
-/* Appends particle i of the frame f to the cloud c: its drawn position and its reference position along the axes of the
- * map. Extends the bounding box of the cloud by the reference position. */
+/* Appends particle i of the output frame f to the cloud c: its drawn position and its reference position along the
+ * axes of the map. Extends the bounding box of the cloud by the reference position. */
 static void cloud_place(struct plotted_particles *c, const struct output_frame *f, int64_t i)
 {
     const int64_t k = c->n;
@@ -248,7 +248,7 @@ static void cloud_allocate(struct plotted_particles *c, const struct output_fram
     if (projection->value) c->value = NEW("plot.value", f->n, float);
 }
 
-/* Sets the axes of the map in c, the drawn particles of frame f (output of one time): x and y in 2D; in 3D, as
+/* Sets the axes of the map in c, the drawn particles of output frame f (output of one time): x and y in 2D; in 3D, as
  * `projection` requests, the axes in the plane of the slice or the directions of the camera. */
 static void cloud_axes(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {

@@ -37,7 +37,7 @@ struct pairs {
     double spacing, limit, magnify;
 };
 
-/* Returns the relative elongation |x_j - x_i|/|X_j - X_i| - 1 of the pair of particles i and j of frame f. */
+/* Returns the relative elongation |x_j - x_i|/|X_j - X_i| - 1 of the pair of particles i and j of output frame f. */
 static double elongation(const struct output_frame *f, int64_t i, int64_t j)
 {
     double now = 0, first = 0;
@@ -48,23 +48,24 @@ static double elongation(const struct output_frame *f, int64_t i, int64_t j)
     return sqrt(now / first) - 1;
 }
 
-/* Returns true if the particles i and j of the frame p->f belong to one body, none of them has lost more than the share
- * LOOSE of its bonds, and no pre-crack separates them. */
+/* Returns true if the particles i and j of the output frame p->f belong to one body, none of them has lost more than
+ * the share LOOSE of its bonds, and no pre-crack separates them. */
 static bool same_side(const struct pairs *p, int64_t i, int64_t j)
 {
     return p->f->body[i] == p->f->body[j] && fmaxf(p->f->damage[i], p->f->damage[j]) <= LOOSE &&
            !(p->scene && precracks_cut_bond_between(p->scene->crack, p->scene->cracks, &p->part, i, j));
 }
 
-/* Returns true if the neighbours i and j of the frame p->f are certainly connected: no pre-crack separates them, they
- * belong to one body, and at least one of them has all its bonds. */
+/* Returns true if the neighbours i and j of the output frame p->f are certainly connected: no pre-crack separates
+ * them, they belong to one body, and at least one of them has all its bonds. */
 static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
 {
     return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);
 }
 
-/* Returns the largest elongation |x_j - x_i|/|X_j - X_i| - 1 for which a particle j near particle i of the frame p->f
- * counts as connected to it: JUMP + JUMP_TIMES * (median elongation of the pairs of i). near: particles near i. */
+/* Returns the largest elongation |x_j - x_i|/|X_j - X_i| - 1 for which a particle j near particle i of the output
+ * frame p->f counts as connected to it: JUMP + JUMP_TIMES * (median elongation of the pairs of i). near: particles
+ * near i. */
 static double jump_of(const struct pairs *p, const struct neighbour_list *near, int64_t i)
 {
     double all[NEAR_MOST];
@@ -74,8 +75,8 @@ static double jump_of(const struct pairs *p, const struct neighbour_list *near, 
     return n > 0 ? JUMP + JUMP_TIMES * fmax(median_by_sorting(all, n), 0) : JUMP;
 }
 
-/* Returns true if the neighbours i and j of the frame p->f are drawn as connected. jump: largest elongation |x_j -
- * x_i|/|X_j - X_i| - 1 for which a neighbour of particle i counts as connected. */
+/* Returns true if the neighbours i and j of the output frame p->f are drawn as connected. jump: largest elongation
+ * |x_j - x_i|/|X_j - X_i| - 1 for which a neighbour of particle i counts as connected. */
 static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
 {
     const double longer = elongation(p->f, i, j);
@@ -106,9 +107,9 @@ static double parted_limit(const struct pairs *p)
     return limit;
 }
 
-/* Computes the deformation gradient F[9] of particle i of the frame p->f, rows along x, y, z, as the least-squares fit
- * to its connected neighbours (Silling et al. 2007 with unit weights). Displacements are magnified by p->magnify. In
- * directions that the neighbours do not span, F is the identity. near: work list for neighbours. */
+/* Computes the deformation gradient F[9] of particle i of the output frame p->f, rows along x, y, z, as the
+ * least-squares fit to its connected neighbours (Silling et al. 2007 with unit weights). Displacements are magnified
+ * by p->magnify. In directions that the neighbours do not span, F is the identity. near: work list for neighbours. */
 static void gradient_of(const struct pairs *p, struct neighbour_list *near, int64_t i, float *F)
 {
     const struct output_frame *f = p->f;
@@ -134,8 +135,8 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
         }
 }
 
-/* Returns true if the displacements in the frame f differ by more than STRAIN_SEEN spacings, so that a deformation may
- * be visible. spacing: spacing of the particles [m]. */
+/* Returns true if the displacements in the output frame f differ by more than STRAIN_SEEN spacings, so that a
+ * deformation may be visible. spacing: spacing of the particles [m]. */
 static bool may_be_deformed(const struct output_frame *f, double spacing)
 {
     double most = 0;

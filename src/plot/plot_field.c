@@ -154,8 +154,8 @@ void plot_field_write_label(char *text, size_t capacity, const struct plot_field
         if (*c == '_') *c = ' ';
 }
 
-/* Returns true if particles have lost bonds between the frames `first` and `last`. If the particles of the frames
- * differ, returns true if a particle of `last` is damaged. */
+/* Returns true if particles have lost bonds between the output frames `first` and `last`. If the particles of the
+ * frames differ, returns true if a particle of `last` is damaged. */
 static bool bonds_broke(const struct output_frame *first, const struct output_frame *last)
 {
     bool more = false;
@@ -164,7 +164,7 @@ static bool bonds_broke(const struct output_frame *first, const struct output_fr
     return more;
 }
 
-/* Returns true if `field` can be read in the frame f and is not 0 everywhere. path: file of the frame. */
+/* Returns true if `field` can be read in the output frame f and is not 0 everywhere. path: file of the frame. */
 static bool field_occurs(const struct plot_field *field, const struct output_frame *f, const char *path)
 {
     float *value = NULL;

@@ -43,9 +43,9 @@ static bool stations_are_parted(const struct station *a, const struct station *b
            fmaxf(a->value[2], b->value[2]) > ALL_BONDS;
 }
 
-/* Returns the profile of frame f along a bar. value: values of a field at its particles, or NULL for velocity, stress
- * and damage; spacing: spacing of the particles [m]; projection: states whether labels name load steps instead of
- * times. Release the member `at` with memory_free. */
+/* Returns the profile of output frame f along a bar. value: values of a field at its particles, or NULL for velocity,
+ * stress and damage; spacing: spacing of the particles [m]; projection: states whether labels name load steps instead
+ * of times. Release the member `at` with memory_free. */
 static struct bar_profile profile_make(const struct output_frame *f, const float *value, double spacing,
                                        const struct projection *projection)
 {

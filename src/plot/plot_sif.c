@@ -194,7 +194,7 @@ static void send_tip_path(FILE *to, const struct history *h, const struct tip_pa
 
 /* Computes the end point end[2] [m] of a line at the crack angle that an experiment measured. The line begins at the
  * start of the path w, is as long as the crack has grown, and is on the side to which the path has turned. Returns
- * false if the scene states no experiment for this path. */
+ * false if the input file (scene) states no experiment for this path. */
 static bool ray_of(const struct tip_path *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;

@@ -60,8 +60,8 @@ static struct span positions_extent(const double *value, int64_t n)
 }
 
 /* Returns the range to be shown [m] along axis k (0 or 1) of the map. It contains the initial body. For each of the
- * frames cloud[clouds] it contains the range of the particles without the outermost 1 % at each end, extended by 20 %
- * at both ends. It is limited to the extent of all particles. */
+ * output frames cloud[clouds] it contains the range of the particles without the outermost 1 % at each end, extended
+ * by 20 % at both ends. It is limited to the extent of all particles. */
 static struct span span_along(const struct plotted_particles *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
@@ -173,8 +173,8 @@ static status range_end_read(real *value, const struct plot_request *r, int end,
                       printable_name(r->range[1]).text, printable_name(r->range[end]).text, what);
 }
 
-/* Counts in each of the frames cloud[clouds] the particles whose values are below and above the ends of the colour
- * scale of view v, and stores the largest numbers in v->beyond. */
+/* Counts in each of the output frames cloud[clouds] the particles whose values are below and above the ends of the
+ * colour scale of view v, and stores the largest numbers in v->beyond. */
 static void count_beyond(struct view *v, const struct plotted_particles *cloud, int clouds)
 {
     const bool damage = map_of_field(v->field) == MAP_DAMAGE;
@@ -211,8 +211,8 @@ static status view_set_options(struct view *v, const struct plot_request *r)
     return OK;
 }
 
-/* Returns true if the rectangle of view v shows a part of one of the frames cloud[clouds]: a particle in the rectangle
- * or within two spacings of it, or a part of a rigid body. */
+/* Returns true if the rectangle of view v shows a part of one of the output frames cloud[clouds]: a particle in the
+ * rectangle or within two spacings of it, or a part of a rigid body. */
 static bool view_shows_any(const struct view *v, const struct plotted_particles *cloud, int clouds)
 {
     bool any = false;
@@ -229,7 +229,7 @@ static const double CROP_MOST = 200;
 
 /* Returns REFUSED, with a message, if the view v is cropped to a rectangle in which there is nothing to see, else OK.
  * around: view of everything, whose rectangle the message states; r: request with the crop; cloud[clouds]: drawn
- * particles of the frames. */
+ * particles of the output frames. */
 static status view_check_crop(const struct view *v, const struct view *around, const struct plot_request *r,
                               const struct plotted_particles *cloud, int clouds)
 {

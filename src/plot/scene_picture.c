@@ -59,9 +59,9 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
 }
 
 /* Appends the squares of n = p->n particles p to the cloud c, coloured by material or body. With `spacing` NULL, p are
- * the particles of the run, with the spacing of the scene s; if the run has material points and peridynamic particles,
- * the latter are darker. Otherwise p are points that represent coarse cells, and spacing[n] are the edges of their
- * squares [m]. part: all particles of the run. */
+ * the particles of the run, with the spacing that the input file (scene) gives s; if the run has material points and
+ * peridynamic particles, the latter are darker. Otherwise p are points that represent coarse cells, and spacing[n] are
+ * the edges of their squares [m]. part: all particles of the run. */
 static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {

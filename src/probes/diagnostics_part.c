@@ -19,8 +19,8 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_write_real(j, "angular_momentum_error", l->spin_error);
 }
 
-/* Writes the time t of an event [s] to j under the key `what`_time. In runs in load steps, which the scene selects,
- * writes the number of the step of `clock` under `what`_step instead, or nothing if t is NAN. */
+/* Writes the time t of an event [s] to j under the key `what`_time. In runs in load steps, which the input file
+ * (scene) selects, writes the number of the step of `clock` under `what`_step instead, or nothing if t is NAN. */
 static void put_when(struct json *j, const struct scene *scene, const struct run_clock *clock, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];

@@ -9,9 +9,9 @@
 
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
-/* Counts the separate groups of bonds of run o that break in this step in the region of the BREAK probe q. If there are
- * any, also stores time, load step and position as those of the first break; do not call after the first break. Bonds
- * of particles with prescribed motion do not count. */
+/* Counts the separate groups of bonds of run o that break in this step in the region of the probe q of kind BREAK
+ * (first bond break). If there are any, also stores time, load step and position as those of the first break; do not
+ * call after the first break. Bonds of particles with prescribed motion do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
     q->memory.ends = diagnostics_count_clusters_of_new_breaks(o->part, q->list, q->n, o->horizon, q->memory.position);
@@ -20,8 +20,8 @@ static void step_break(struct probe *q, const struct observed_run *o)
     q->memory.first_step = o->load_step;
 }
 
-/* Updates the memory of the REACTION probe q from run o: the largest reaction force, with its step and displacement,
- * and the sum of squared forces over all steps. */
+/* Updates the memory of the probe q of kind REACTION (force on a support) from run o: the largest reaction force, with
+ * its step and displacement, and the sum of squared forces over all steps. */
 static void step_reaction(struct probe *q, const struct observed_run *o)
 {
     const int dim = o->part->dim;
@@ -142,25 +142,25 @@ void probes_store_motion_before_step(struct probes *s, const struct observed_run
     }
 }
 
-/* Computes K_I and K_II [Pa m^0.5], J [J/m^2] and the relative difference of J between contours for the SIF probe q of
- * run o, and stores them in value[SIF_FIGURES] in this order; NAN for those that are not meaningful. t_velocity: time
- * of the current velocities [s]. */
+/* Computes K_I and K_II [Pa m^0.5], J [J/m^2] and the relative difference of J between contours for the probe q of
+ * kind SIF (stress-intensity factors) of run o, and stores them in value[SIF_FIGURES] in this order; NAN for those
+ * that are not meaningful. t_velocity: time of the current velocities [s]. */
 static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
     sif_probe_compute_intensity_factors(q, o, t_velocity);
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = sif_probe_result(q, f);
 }
 
-/* Stores in value[dim] the reaction force [N] of the boundary of REACTION probe q, as computed in the last step of run
- * o. */
+/* Stores in value[dim] the reaction force [N] of the boundary of probe q of kind REACTION (force on a support), as
+ * computed in the last step of run o. */
 static void sample_force(const struct probe *q, const struct observed_run *o, real *value)
 {
     real displacement[DIM_MAX];
     probe_compute_reaction_of_supports(q, o->loads, o->part->dim, value, displacement);
 }
 
-/* Stores in value[dim .. 2 dim - 1] the velocity [m/s] of the particle of POINT probe q at the time of the sample. p:
- * all particles. */
+/* Stores in value[dim .. 2 dim - 1] the velocity [m/s] of the particle of probe q of kind POINT (one particle) at the
+ * time of the sample. p: all particles. */
 static void sample_velocity(const struct probe *q, const struct particles *p, real *value)
 {
     for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_particle_velocity_component(q, p, d, 0);

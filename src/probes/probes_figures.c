@@ -92,9 +92,9 @@ void growing_crack_compute_probe_values(const struct growing_crack *g, real *val
 
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
-/* Returns the crack tip that TIP probe q currently follows: the tip of *tips whose origin is nearest to the position
- * `at` of the probe. Without `at` it is the tip of the longest crack, or the first tip if no crack has grown. Returns
- * NULL if there are no tips. The result points into *tips. */
+/* Returns the crack tip that probe q of kind TIP (crack tip) currently follows: the tip of *tips whose origin is
+ * nearest to the position `at` of the probe. Without `at` it is the tip of the longest crack, or the first tip if no
+ * crack has grown. Returns NULL if there are no tips. The result points into *tips. */
 const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips)
 {
     if (tips->n == 0) return NULL;
@@ -244,8 +244,8 @@ static void put_position(const struct emitter *e, const real *X)
     for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);
 }
 
-/* Reports the crack tip of a TIP probe to e->emit: start, arrest, growth, angle, speeds, position, and the number of
- * tips that are equally long. Reports nothing without a tip. */
+/* Reports the crack tip of a probe of kind TIP (crack tip) to e->emit: start, arrest, growth, angle, speeds, position,
+ * and the number of tips that are equally long. Reports nothing without a tip. */
 static void figures_tip(const struct emitter *e)
 {
     const struct crack_tip *tip = probe_find_followed_crack_tip(e->q, e->o->tips);
@@ -262,8 +262,8 @@ static void figures_tip(const struct emitter *e)
                        (real)(e->q->request.has_at ? tip->ends : tips_count_ends_with_largest_growth(e->o->tips)));
 }
 
-/* Reports time (or load step) and position of the first break in the region of a BREAK probe to e->emit, and the number
- * of broken bonds, each counted once. Reports nothing before the first break. */
+/* Reports time (or load step) and position of the first break in the region of a probe of kind BREAK (first bond
+ * break) to e->emit, and the number of broken bonds, each counted once. Reports nothing before the first break. */
 static void figures_break(const struct emitter *e)
 {
     if (isnan(e->q->memory.first_time)) return;
@@ -277,8 +277,8 @@ static void figures_break(const struct emitter *e)
                        0.5 * reproducible_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
 
-/* Reports the largest and the root-mean-square reaction force of a REACTION probe [N] and the present displacement of
- * its boundary [m] to e->emit. */
+/* Reports the largest and the root-mean-square reaction force of a probe of kind REACTION (force on a support) [N] and
+ * the present displacement of its boundary [m] to e->emit. */
 static void figures_reaction(const struct emitter *e)
 {
     const struct probe_memory *m = &e->q->memory;
@@ -294,9 +294,9 @@ static void figures_reaction(const struct emitter *e)
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
-/* Reports residual_max of a PATCH probe (a patch test under uniform initial stress) to e->emit: the largest nodal force
- * in the region of the probe in the first step, divided by the force of the largest initial stress component on one
- * face of a grid cell. */
+/* Reports residual_max of a probe of kind PATCH (a patch test under uniform initial stress) to e->emit: the largest
+ * nodal force in the region of the probe in the first step, divided by the force of the largest initial stress
+ * component on one face of a grid cell. */
 static void figures_patch(const struct emitter *e)
 {
     const struct observed_run *o = e->o;
@@ -305,8 +305,8 @@ static void figures_patch(const struct emitter *e)
     probes_figures_put(e, "residual_max", reference > 0 ? o->residual_step0 / reference : NAN);
 }
 
-/* Reports position and time of the separation that a SPALL probe has found to e->emit, and the mean speeds of both
- * parts of the body. Reports nothing before separation. */
+/* Reports position and time of the separation that a probe of kind SPALL (separation of a body) has found to e->emit,
+ * and the mean speeds of both parts of the body. Reports nothing before separation. */
 static void figures_spall(const struct emitter *e)
 {
     real speed, rest;
@@ -328,8 +328,8 @@ static void figures_point(const struct emitter *e)
         probes_figures_put(e, particle_probe_value_column(p, k).name, value[k]);
 }
 
-/* Reports the smallest and the largest value of each quantity of a LINE probe to e->emit, over those of its stations
- * (equidistant points of the line) that are inside the bodies. */
+/* Reports the smallest and the largest value of each quantity of a probe of kind LINE (points along a line) to
+ * e->emit, over those of its stations (equidistant points of the line) that are inside the bodies. */
 static void figures_line(const struct emitter *e)
 {
     const struct particles *p = e->o->part;

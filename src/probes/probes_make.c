@@ -84,8 +84,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* Makes the particle of run o nearest to the point of POINT probe q its only particle. Returns REFUSED, with a message,
- * if the point is outside the bodies. */
+/* Makes the particle of run o nearest to the point of probe q of kind POINT (one particle) its only particle. Returns
+ * REFUSED, with a message, if the point is outside the bodies. */
 static status bind_point(struct probe *q, const struct observed_run *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
@@ -98,9 +98,9 @@ static status bind_point(struct probe *q, const struct observed_run *o)
                       particles_extent_text(o->part).text);
 }
 
-/* Makes the particles of run o nearest to the stations of LINE probe q its particles, -1 for stations outside the
- * bodies. Stations are equidistant points from one end of the line to the other. Returns REFUSED, with a message, if
- * all are outside. */
+/* Makes the particles of run o nearest to the stations of probe q of kind LINE (points along a line) its particles, -1
+ * for stations outside the bodies. Stations are equidistant points from one end of the line to the other. Returns
+ * REFUSED, with a message, if all are outside. */
 static status bind_line(struct probe *q, const struct observed_run *o)
 {
     int dim = o->part->dim, inside = 0;
@@ -204,7 +204,7 @@ static status probe_bind(struct probe *q, const struct observed_run *o)
     }
 }
 
-/* Returns true if a REACTION probe of s measures the boundary called `boundary`. */
+/* Returns true if a probe of kind REACTION (force on a support) of s measures the boundary called `boundary`. */
 static bool reaction_is_measured(const struct probes *s, const char *boundary)
 {
     bool measured = false;
@@ -222,9 +222,9 @@ static void support_name(const struct probes *s, const char *boundary, char name
     snprintf(name, NAME_MAX_LENGTH, "%s%.54s", taken ? "reaction_" : "", boundary);
 }
 
-/* Appends to s a REACTION probe for each boundary of run o that prescribes a motion and that no probe of the scene
- * measures, so that history.csv has the force of every support, and its displacement unless it is at rest. These probes
- * have no values in the summary. */
+/* Appends to s a probe of kind REACTION (force on a support) for each boundary of run o that prescribes a motion and
+ * that no probe of the scene measures, so that history.csv has the force of every support, and its displacement unless
+ * it is at rest. These probes have no values in the summary. */
 static void supports_observe(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; o->loads && k < o->loads->n; k++) {

@@ -19,8 +19,8 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes to file a CSV row for each station of LINE probe q (equidistant points of the line) that is inside a body of
- * run o: distance from the first station [m], position, and the values of the nearest particle. */
+/* Writes to file a CSV row for each station of probe q of kind LINE (equidistant points of the line) that is inside a
+ * body of run o: distance from the first station [m], position, and the values of the nearest particle. */
 static void profile_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -39,8 +39,8 @@ static void profile_rows(FILE *file, const struct probe *q, const struct observe
     }
 }
 
-/* Writes the profile of EXACT probe q to file as CSV, with a header: computed and exact values of all particles of run
- * o from left to right. */
+/* Writes the profile of probe q of kind EXACT (closed-form solution of a bar) to file as CSV, with a header: computed
+ * and exact values of all particles of run o from left to right. */
 static void bar_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     real value[BAR_READINGS];

@@ -109,9 +109,10 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the results of RIGID probe q of run o that depend on positions: value[0], the rotation angle of the body
- * [rad]; value[1], its largest absolute principal stress [Pa]; value[2], its largest in-plane shear stress [Pa]. The
- * angle continues beyond half a turn if the body rotates by less than half a turn between samples. */
+/* Computes the results of probe q of kind RIGID (rigid-body motion) of run o that depend on positions: value[0], the
+ * rotation angle of the body [rad]; value[1], its largest absolute principal stress [Pa]; value[2], its largest
+ * in-plane shear stress [Pa]. The angle continues beyond half a turn if the body rotates by less than half a turn
+ * between samples. */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;

@@ -40,7 +40,7 @@ struct sif_tracked {
     real *body[2];                   /* [n_all] forces of loads divided by masses [m/s^2] */
 };
 
-/* Returns true if the scene gives `value` for a key of the probe: it is then positive, else NAN. */
+/* Returns true if the input file (scene) gives `value` for a key of the probe: it is then positive, else NAN. */
 static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
@@ -71,8 +71,8 @@ static int growth_meant(const struct sif_tracked *w, const struct observed_run *
     return -1;
 }
 
-/* Returns REFUSED, with a message, if the probe with request r controls the growth of a crack of run o but measures (w)
- * the tip of another one. The scene must then give the key `at`, which selects the tip. */
+/* Returns REFUSED, with a message, if the probe with request r controls the growth of a crack of run o but measures
+ * (w) the tip of another one. The input file (scene) must then give the key `at`, which selects the tip. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -85,9 +85,9 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds for w position and direction of the crack tip of a SIF probe, from the request r or from a pre-crack of run o,
- * and the growing crack that starts there. Returns REFUSED, with a message, if position or direction is unknown, or if
- * the probe controls the growth of a crack at another tip. */
+/* Finds for w position and direction of the crack tip of a probe of kind SIF (stress-intensity factors), from the
+ * request r or from a pre-crack of run o, and the growing crack that starts there. Returns REFUSED, with a message, if
+ * position or direction is unknown, or if the probe controls the growth of a crack at another tip. */
 static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     w->follows = tip_meant(r, o);
@@ -163,9 +163,9 @@ static const struct crack_tip *other_tip_within(const struct sif_tracked *w, rea
     return NULL;
 }
 
-/* Returns the outer radius of the contour of the SIF probe w of run o whose request r gives none: OUTER spacings or, if
- * r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times this value that stays in the body and contains no
- * other tip [m]. */
+/* Returns the outer radius of the contour of the probe w of kind SIF (stress-intensity factors) of run o whose request
+ * r gives none: OUTER spacings or, if r gives no other radius either, the first of 0.9, 0.8 .. 0.5 times this value
+ * that stays in the body and contains no other tip [m]. */
 static real default_outer_radius(const struct sif_tracked *w, const struct probe_request *r,
                                  const struct observed_run *o)
 {
@@ -177,9 +177,9 @@ static real default_outer_radius(const struct sif_tracked *w, const struct probe
     return most;
 }
 
-/* Sets the integration contours of the SIF probe w of run o: contour[0], from which the results are computed, then
- * further ones for comparison, which have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of
- * contour[0]. Sets w->reach to the largest outer radius. */
+/* Sets the integration contours of the probe w of kind SIF (stress-intensity factors) of run o: contour[0], from which
+ * the results are computed, then further ones for comparison, which have the radii of request r, or 0.6, 0.8 and 1
+ * times the outer radius of contour[0]. Sets w->reach to the largest outer radius. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     const real outer = given(r->outer) ? r->outer : default_outer_radius(w, r, o),
@@ -297,9 +297,9 @@ void sif_probe_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip of SIF probe q from run o. Returns true if the tip belongs to a
- * crack that grows because bonds break. Returns false for tips at rest, and for cracks that grow at a prescribed or
- * controlled speed, since the position of their tip is known exactly. */
+/* Updates position, speed and direction of the tip of probe q of kind SIF (stress-intensity factors) from run o.
+ * Returns true if the tip belongs to a crack that grows because bonds break. Returns false for tips at rest, and for
+ * cracks that grow at a prescribed or controlled speed, since the position of their tip is known exactly. */
 static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;

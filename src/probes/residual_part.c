@@ -4,7 +4,7 @@
 #include "probes/probes_part.h"
 #include "grid/grid_part.h"
 
-/* Returns true if position x[dim] [m] is in the region of a PATCH probe of scene s. */
+/* Returns true if position x[dim] [m] is in the region of a probe of kind PATCH (patch test) of scene s. */
 static bool in_patch(const struct scene *s, const real *x)
 {
     for (int k = 0; k < s->probes; k++)
@@ -12,9 +12,9 @@ static bool in_patch(const struct scene *s, const real *x)
     return false;
 }
 
-/* Raises *most to the largest absolute force component on node I of grid g [N], if the node is in the region of a PATCH
- * probe of scene s. at: index of the node of the regular grid at the same position; it differs from I if I is a second
- * node at the same position, on the other side of a pre-crack. */
+/* Raises *most to the largest absolute force component on node I of grid g [N], if the node is in the region of a
+ * probe of kind PATCH (patch test) of scene s. at: index of the node of the regular grid at the same position; it
+ * differs from I if I is a second node at the same position, on the other side of a pre-crack. */
 static void node_keep(const struct scene *s, const struct grid *g, int64_t I, int64_t at, real *most)
 {
     real x[DIM_MAX];

@@ -15,8 +15,8 @@ struct turning {
  * have [1]. */
 #define LEAST_TURN 0.01
 
-/* Adds a particle or node with its mass [kg], position x[DIM_MAX] [m] and velocity v[DIM_MAX] [m/s] to the moments *to
- * of its body: mass, first moments, momentum, angular momentum about the origin, m x^2 and m v^2. */
+/* Adds one particle or node to the moments *to of its body: mass, first moments, momentum, angular momentum about the
+ * origin, m x^2 and m v^2. mass: m [kg]; x[DIM_MAX]: position [m]; v[DIM_MAX]: velocity [m/s]. */
 static void turning_add(struct turning *to, real mass, const real *x, const real *v)
 {
     to->mass += mass, to->inertia += mass * dot(x, x, DIM_MAX), to->twice_kinetic += mass * dot(v, v, DIM_MAX);
@@ -40,10 +40,11 @@ static void turning_about(const struct turning *t, const real *position, const r
     }
 }
 
-/* Computes spin[DIM_MAX], the angular momentum of all bodies about their common centre of mass [kg m^2/s], from
- * particles and mesh nodes (mesh may be NULL), without the velocity gradients of the transfer method APIC. bodies:
- * number of bodies. Returns the scale of errors of spin: the sum of the magnitudes of the angular momenta of the
- * bodies, but at least LEAST_TURN times the largest value that is possible with their kinetic energy. */
+/* Computes spin[DIM_MAX], the angular momentum of all bodies about their common centre of mass [kg m^2/s], from the
+ * particles p and the nodes of the mesh, which may be NULL. The velocity gradients that points have with the transfer
+ * method APIC are left out. bodies: number of bodies. Returns the value by which errors of the angular momentum are
+ * divided: the sum of the magnitudes of the angular momenta of the bodies, but at least LEAST_TURN times the largest
+ * angular momentum that is possible with their kinetic energy. */
 static real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
 {
     struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};

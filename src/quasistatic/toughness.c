@@ -21,9 +21,9 @@ real toughness_of_material(const struct family *family, enum model model, const 
 }
 
 /* Returns the crack energy per area between materials number a and b of scene s [J/m^2]. For state-based models it is
- * that of their interface if the scene gives one, else the smaller of the values of both materials. For two different
- * elastic materials with bond-based models it is the energy of the bonds at the critical stretch of the pair. source:
- * bonds of the lattice and their critical stretches. */
+ * that of their interface if the input file (scene) gives one, else the smaller of the values of both materials. For
+ * two different elastic materials with bond-based models it is the energy of the bonds at the critical stretch of the
+ * pair. source: bonds of the lattice and their critical stretches. */
 static real toughness_of_pair(const struct scene *s, const struct bond_source *source, int a, int b)
 {
     const struct family *family = &source->family;

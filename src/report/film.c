@@ -63,7 +63,7 @@ static void set_free(struct film_set *s)
 
 /* Sets s->busy[i] to true for each particle i of the particle set s (the particles that consecutive frames have in
  * common) that is damaged or has yielded in `frame`. Also updates s->history[i], a hash of the kinds and fragments of
- * particle i in all frames. path: file of the frame. */
+ * particle i in all output frames. path: file of the frame. */
 static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
 {
     int columns = 0;
@@ -79,9 +79,9 @@ static void set_mark(struct film_set *s, const struct output_frame *frame, const
 
 /* ---- first reading ----------------------------------------------------------------------------------------------- */
 
-/* Adds a frame to the film f. Creates a new particle set if the frame does not have the particles of the last set (the
- * particles that consecutive frames have in common), and extends the ranges of displacements and fields by the frame.
- * shown: entry of the frame in the film, in which set and step are stored; path: file of the frame. */
+/* Adds an output frame to the film f. Creates a new particle set if the frame does not have the particles of the last
+ * set (the particles that consecutive frames have in common), and extends the ranges of displacements and fields by
+ * the frame. shown: entry of the frame in the film, in which set and step are stored; path: file of the frame. */
 static void frame_scan(struct film *f, struct film_frame *shown, const struct output_frame *frame, const char *path)
 {
     if (f->sets == 0 || !set_is_of(&f->set[f->sets - 1], frame)) {
@@ -135,8 +135,8 @@ void film_free(struct film *f)
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Selects at most `most` of the frames of film f that were read, evenly spread, to be shown, and sets f->used to their
- * number. */
+/* Selects at most `most` of the output frames of film f that were read, evenly spread, to be shown, and sets f->used
+ * to their number. */
 static void frames_use(struct film *f, int most)
 {
     for (int k = 0; k < f->frames; k++) f->frame[k].used = false;
@@ -219,9 +219,9 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     memory_free(stored), memory_free(mean);
 }
 
-/* Writes the displacements of a frame of film f along axis d for all shown groups (particles shown as one) of the
- * particle set s to the page p: the mean of u over the particles of each group, divided by the largest displacement
- * f->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
+/* Writes the displacements of an output frame of film f along axis d for all shown groups (particles shown as one) of
+ * the particle set s to the page p: the mean of u over the particles of each group, divided by the largest
+ * displacement f->reach[d], as a signed 16-bit number. u[s->n]: displacements of the particles [m]. */
 static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
 {
     int16_t *stored = NEW("report.stored", s->shown, int16_t);
@@ -247,9 +247,9 @@ static void write_sizes(struct page *p, const struct film *f, const struct film_
     memory_free(size);
 }
 
-/* Writes the data that all frames of the particle set s (the particles that these frames have in common) share to the
- * page p: numbers, reference positions, sizes, and fields that do not change. f: film; frame, path: the first frame of
- * the set and its file. */
+/* Writes the data that all output frames of the particle set s (the particles that these frames have in common) share
+ * to the page p: numbers, reference positions, sizes, and fields that do not change. f: film; frame, path: the first
+ * frame of the set and its file. */
 static void write_film_set(struct page *p, const struct film *f, const struct film_set *s,
                            const struct output_frame *frame, const char *path)
 {

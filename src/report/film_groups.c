@@ -49,7 +49,7 @@ static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_
 
 /* Merges particles of the set s into cubic cells with an edge of 2^level spacings of film f. For the particles of each
  * cell that they fill completely, sets s->level to `level`, if all of them have the same material and body, and the
- * same kinds and fragments in all frames. from[dim]: lower corner of the lattice [m]. */
+ * same kinds and fragments in all output frames. from[dim]: lower corner of the lattice [m]. */
 static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);

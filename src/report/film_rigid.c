@@ -8,8 +8,8 @@
 /* Returns the number of rigid bodies that the page of film f shows: none in one dimension or without the scene. */
 static int rigids_of(const struct film *f) { return f->scene && f->dim > 1 ? f->scene->rigids : 0; }
 
-/* Computes the bounding box of the particles in the first frame of film f. low[dim], high[dim]: receive its lower and
- * upper corner [m]. */
+/* Computes the bounding box of the particles in the first output frame of film f. low[dim], high[dim]: receive its
+ * lower and upper corner [m]. */
 static void particles_box(const struct film *f, real *low, real *high)
 {
     const struct film_set *s = &f->set[0];

@@ -133,7 +133,7 @@ static status write_picture(struct page *p, const char *scene, const char *path)
 }
 
 /* Writes the names and pre-cracks of the scene s to the page p, and its picture. folder: folder of the run; particles:
- * number of particles in the first frame; path: path of the page. */
+ * number of particles in the first output frame; path: path of the page. */
 static void write_scene(struct page *p, const char *folder, const struct scene *s, int64_t particles, const char *path)
 {
     json_write_text(&p->json, "name", s->name);
@@ -148,9 +148,9 @@ static void write_scene(struct page *p, const char *folder, const struct scene *
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the frames of the run in `folder` to the page p, which shows them as a film; writes nothing if there are none.
- * scene: scene of the run; NULL: not known. Stores the number of particles of the first frame in *particles, 0 without
- * frames. Returns FAILED, with a message, if a frame cannot be read. */
+/* Writes the output frames of the run in `folder` to the page p, which shows them as a film; writes nothing if there
+ * are none. scene: scene of the run; NULL: not known. Stores the number of particles of the first frame in *particles,
+ * 0 without frames. Returns FAILED, with a message, if a frame cannot be read. */
 static status write_film(struct page *p, const char *folder, const struct scene *scene, int64_t *particles)
 {
     struct film f;

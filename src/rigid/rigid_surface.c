@@ -392,8 +392,8 @@ static void print_index(FILE *to, const struct frame_series *s)
 }
 
 /* Composes a file in memory and writes it to `path`. If `rigid` is NULL, the file is the index of all surface files of
- * the series s. Otherwise it holds the surfaces of the rigid bodies at the last frame of s. Returns FAILED, with a
- * message, if the file cannot be composed or written. */
+ * the series s. Otherwise it holds the surfaces of the rigid bodies at the last output frame of s. Returns FAILED,
+ * with a message, if the file cannot be composed or written. */
 static status compose(const char *path, const struct rigid_set *rigid, const struct frame_series *s)
 {
     char *text = NULL;

@@ -4,8 +4,8 @@
 #include "run/make.h"
 
 /* Returns REFUSED, with a message, if the motion that boundary condition b prescribes depends on the reference
- * positions of particles but acts on material points on the grid of the current frame, which do not store these
- * positions. l: the load of b. */
+ * positions of particles but acts on material points on the grid of the current frame (background grid), which do not
+ * store these positions. l: the load of b. */
 static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
     for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)

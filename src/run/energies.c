@@ -134,9 +134,10 @@ struct kick {
 };
 
 /* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 of k->p [J], where dv is the change of
- * velocity in the step. This is the difference between two energies: the mean of the kinetic energies before and after
- * the step, and m v_before . v_after/2, the kinetic part of the energy that leap-frog conserves. Particles with
- * prescribed motion do not contribute, since their work is computed with their motion. */
+ * velocity in the step (from k->before or from the forces). This is the difference between two energies: the mean of
+ * the kinetic energies before and after the step, and m v_before . v_after/2, the kinetic part of the energy that
+ * leap-frog conserves. Particles with prescribed motion do not contribute, since their work is computed with their
+ * motion. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;

@@ -183,8 +183,8 @@ static status check_spacing_given(const struct particle_draft *d, int body)
 }
 
 /* Adds the particles of the lattice in the shape of a body to d, the list of particles to be created, with x varying
- * fastest. body: index of the body. Returns REFUSED, with a message, if the scene has no spacing or the shape does not
- * fit it. */
+ * fastest. body: index of the body. Returns REFUSED, with a message, if the input file (scene) has no spacing or the
+ * shape does not fit it. */
 static status fill_lattice(struct particle_draft *d, int body)
 {
     real volume = cell_volume(d->scene), place[DIM_MAX];

@@ -58,8 +58,8 @@ static bool shares_file(const struct scene *s, int k, const char *file)
 }
 
 /* Finds the material of entry i of the particle list l: that of the list, or that of the body b if the list has no
- * materials. Stores its index in the scene s in *material. Returns REFUSED, with a message, if the scene has no such
- * material. */
+ * materials. Stores its index in the scene s in *material. Returns REFUSED, with a message, if the input file (scene)
+ * has no such material. */
 static status entry_material(const struct scene *s, const struct particle_list *l, const struct scene_body *b,
                              int64_t i, int *material)
 {

@@ -285,9 +285,9 @@ static status csv_header(struct csv *c, struct particle_list *l)
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
-/* Reads the column names that the scene gives, l->form.columns, in place of those of the file c. The first line that is
- * not a comment is the first entry; it shows whether commas, tabs or blanks separate fields. Returns REFUSED, with a
- * message, for an empty file or invalid names. */
+/* Reads the column names that the input file (scene) gives, l->form.columns, in place of those of the file c. The
+ * first line that is not a comment is the first entry; it shows whether commas, tabs or blanks separate fields.
+ * Returns REFUSED, with a message, for an empty file or invalid names. */
 static status csv_header_given(struct csv *c, struct particle_list *l)
 {
     char entry[CSV_LINE_LENGTH];

@@ -9,8 +9,8 @@
 #include "base/memory.h"
 
 /* Reads the key `space` of the scene into r->scene and sets r->dim. It is read before all other keys, because their
- * meaning depends on the number of dimensions. root: tree of the scene. Returns REFUSED, with a message, if the key is
- * missing or invalid. */
+ * meaning depends on the number of dimensions. root: YAML tree of the input file (scene). Returns REFUSED, with a
+ * message, if the key is missing or invalid. */
 static status read_space(struct reader *r, const struct yaml_node *root)
 {
     const struct key *k = key_find("", "space");

@@ -16,7 +16,8 @@ static const struct yaml_node *scene_check_below(const struct yaml_node *root, c
 }
 
 /* Returns REFUSED, with a message, if `thickness` is missing in a plane space or given in another one, or if `section`
- * is given outside space line. In spaces without a thickness, sets it to 1. root: tree of the scene. */
+ * is given outside space line. In spaces without a thickness, sets it to 1. root: YAML tree of the input file (scene).
+ */
 static status check_measure(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -42,7 +43,8 @@ static real longest_side(const real *from, const real *to, int dim)
 
 /* Returns REFUSED, with a message, if the bodies of the scene would have more than 2e9 particles, the limit of 32-bit
  * indices and of memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions.
- * Numbers of particles are estimated from bounding boxes. root: tree of the scene, for the location in the message. */
+ * Numbers of particles are estimated from bounding boxes. root: YAML tree of the input file (scene), for the location
+ * in the message. */
 status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -69,8 +71,8 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
                  node_text(r, spacing), total, longest);
 }
 
-/* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of particles,
- * or together with planes of symmetry. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED if the input file (scene) has friction where it is not supported: with the contact law between pairs
+ * of particles, or together with planes of symmetry. root: YAML tree of the scene, for the location in the message. */
 status check_friction_is_supported(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -88,7 +90,8 @@ status check_friction_is_supported(struct reader *r, const struct yaml_node *roo
     return OK;
 }
 
-/* Returns REFUSED if a static problem has absorbing faces. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED if a static problem has absorbing faces. root: YAML tree of the input file (scene), for the location
+ * in the message. */
 status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -102,7 +105,7 @@ status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml
 }
 
 /* Returns REFUSED if a static problem has damping, or if damping is combined with coarse grid cells that have time
- * steps of their own (mpm.levels). root: tree of the scene, for the location in the message. */
+ * steps of their own (mpm.levels). root: YAML tree of the input file (scene), for the location in the message. */
 static status check_damping(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -122,7 +125,7 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
 
 /* Returns REFUSED for loads that other keys of the scene exclude: pressures on particles at irregular (randomly
  * shifted) positions; with static solvers, pressures that follow the surface, rotations, and velocities by a formula
- * whose displacement is unknown. root: tree of the scene, for the location in the message. */
+ * whose displacement is unknown. root: YAML tree of the input file (scene), for the location in the message. */
 status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -152,8 +155,8 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if the scene gives a time step with which the run would take more than 1e12 steps. root: tree of the
- * scene, for the location in the message. */
+/* Returns REFUSED if the input file (scene) gives a time step with which the run would take more than 1e12 steps.
+ * root: YAML tree of the scene, for the location in the message. */
 static status check_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -177,8 +180,8 @@ static status check_origin(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if mpm.transfer is given as apic and the shape functions are linear, which is unstable. root: tree of
- * the scene, for the location in the message. */
+/* Returns REFUSED if mpm.transfer is given as apic and the shape functions are linear, which is unstable. root: YAML
+ * tree of the input file (scene), for the location in the message. */
 static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
@@ -190,7 +193,8 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
  * Crack lengths and most crack angles are equal at both values. In a scene in which two crack paths are nearly
  * equivalent, the path can change above 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and
  * taylor_bar loses 0.09 % of its energy instead of 0.04 %. Only bars shorter than two diameters are more accurate at
- * 0.5, for which say_flow_error prints a remark. root: tree of the scene, to see whether the key is given. */
+ * 0.5, for which say_flow_error prints a remark. root: YAML tree of the input file (scene), to see whether the key is
+ * given. */
 void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -198,9 +202,9 @@ void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml
         s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* Sets the default of contact.between: contact exists if the scene has several bodies, rigid bodies or cracks, but not
- * with static solvers or if bonds soften in load steps. root: tree of the scene. Returns REFUSED, with a message, for
- * contact settings that contradict the solver or the model. */
+/* Sets the default of contact.between: contact exists if the input file (scene) has several bodies, rigid bodies or
+ * cracks, but not with static solvers or if bonds soften in load steps. root: YAML tree of the scene. Returns REFUSED,
+ * with a message, for contact settings that contradict the solver or the model. */
 status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -227,10 +231,10 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
 
 /* Returns the default of pd.surface, the rule by which bonds near surfaces are corrected, for the scene s. The
  * correction is needed only with `method: pd`, since only then bonds fill whole bodies up to their surfaces;
- * state-based neighbourhoods with a given normalisation are corrected already. Scenes in load steps with growing cracks
- * use the rule that ignores pre-cracks, because surfaces of a growing crack get no weights and the loads of pre-crack
- * and grown crack are compared (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5
- * %). root: tree of the scene. */
+ * state-based neighbourhoods with a given normalisation are corrected already. Scenes in load steps with growing
+ * cracks use the rule that ignores pre-cracks, because surfaces of a growing crack get no weights and the loads of
+ * pre-crack and grown crack are compared (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with
+ * moments by 5 %). root: YAML tree of the input file (scene). */
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
@@ -243,8 +247,8 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
 }
 
 /* Sets in s the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (whether bonds are
- * normalised by a full neighbourhood or by the neighbourhood of each particle). root: tree of the scene, to see which
- * keys are given. */
+ * normalised by a full neighbourhood or by the neighbourhood of each particle). root: YAML tree of the input file
+ * (scene), to see which keys are given. */
 static void resolve_surface(struct scene *s, const struct yaml_node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
@@ -259,8 +263,8 @@ static bool list_forms_agree(const struct particle_list_form *a, const struct pa
     return !a->columns || strcmp(a->columns, b->columns) == 0;
 }
 
-/* Returns true if the particle list of the body with the index `body` in s forms a lattice with the spacing of the
- * scene. Returns false for a list that cannot be read, which is reported later. */
+/* Returns true if the particle list of the body with the index `body` in s forms a lattice with the spacing that the
+ * input file (scene) gives. Returns false for a list that cannot be read, which is reported later. */
 static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
@@ -284,8 +288,8 @@ void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node
     resolve_surface(s, root);
 }
 
-/* Sets the defaults of keys of pd, mpm and crack that depend on method, model, coupling and solver. root: tree of the
- * scene, to see which keys are given. */
+/* Sets the defaults of keys of pd, mpm and crack that depend on method, model, coupling and solver. root: YAML tree of
+ * the input file (scene), to see which keys are given. */
 static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -353,7 +357,7 @@ const char *scene_why_reference_frame_is_no_remedy(const struct scene *s)
 
 /* Returns the reason why the scene s requires the frame `current`, in which shape functions are evaluated at the
  * present positions of material points: a key that only this frame supports, as part of a message. Returns NULL if the
- * scene gives no such key. */
+ * input file (scene) gives no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
@@ -369,11 +373,11 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s)
     return any && scene_is_dynamic(s) && s->method == METHOD_MPM;
 }
 
-/* Chooses the frame of bodies of s with `frame: auto` that cannot use the reference frame or whose scene gives keys of
- * the current frame: they get `current`, with the reason. If no body then has the frame `auto`, marks the keys
- * mpm.shape, mpm.transfer and interface_damping as given, so that scene_echo.c writes them. While a body has the frame
- * `auto` they must not be written: these keys have a meaning in the current frame only, and a scene that gives them
- * requires it. */
+/* Chooses the frame of bodies of s with `frame: auto` that cannot use the reference frame (mesh of the undeformed
+ * body) or whose scene gives keys of the current frame: they get `current`, with the reason. If no body then has the
+ * frame `auto`, marks the keys mpm.shape, mpm.transfer and interface_damping as given, so that scene_echo.c writes
+ * them. While a body has the frame `auto` they must not be written: these keys have a meaning in the current frame
+ * only, and a scene that gives them requires it. */
 void resolve_automatic_frames_of_bodies(struct scene *s)
 {
     bool open = false;
@@ -394,8 +398,8 @@ void resolve_automatic_frames_of_bodies(struct scene *s)
 }
 
 /* Sets s->frames, the number of output frames, from output.every or output.times; times beyond the duration are
- * omitted. root: tree of the scene. Returns REFUSED, with a message, if two of output.every, output.times and
- * output.frames are given, or if there are more than FRAMES_MOST frames. */
+ * omitted. root: YAML tree of the input file (scene). Returns REFUSED, with a message, if two of output.every,
+ * output.times and output.frames are given, or if there are more than FRAMES_MOST frames. */
 static status check_times(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -413,17 +417,18 @@ static status check_times(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the scene gives the key accuracy, which only `method: auto` uses (scene_wish.c).
- * root: tree of the scene. */
+/* Returns REFUSED, with a message, if the input file (scene) gives the key accuracy, which only `method: auto` uses
+ * (scene_wish.c). root: YAML tree of the scene. */
 static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *n = yaml_node_find(root, "accuracy");
     return n ? fault(r, n, "has no effect without method: auto; remove it") : OK;
 }
 
-/* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models in
- * space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in space line, or with
- * state-based models that normalise each family. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models
+ * in space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in space line, or
+ * with state-based models that normalise each family. root: YAML tree of the input file (scene), for the location in
+ * the message. */
 static status check_model(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -453,8 +458,8 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for keys that the static solvers do not support. Must be called after materials and probes are
- * read. root: tree of the scene, for the location in the message. */
+/* Returns REFUSED for keys that the static solvers do not support. Must be called after materials and probes are read.
+ * root: YAML tree of the input file (scene), for the location in the message. */
 status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

@@ -334,8 +334,8 @@ void yaml_write_file_name(struct writer *w, const char *key, const char *file, u
     free(whole);
 }
 
-/* Writes the key `particles` of the body b to w: the file of its particle list, with scale and columns if the scene
- * gives them. */
+/* Writes the key `particles` of the body b to w: the file of its particle list, with scale and columns if the input
+ * file (scene) gives them. */
 static void write_particle_list(struct writer *w, const struct scene_body *b)
 {
     const bool formed = b->form.scale > 0 || b->form.columns;

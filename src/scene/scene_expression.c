@@ -335,8 +335,8 @@ bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity 
     return true;
 }
 
-/* Reads the value of node n, of the form `1/3 mm`, as a constant expression e in the unit of key k: 1/3 of a mm, as in
- * keys without formulas. As a formula it would mean 1/(3 mm). Returns false if the text has another form. */
+/* Reads the value of YAML node n, of the form `1/3 mm`, as a constant expression e in the unit of key k: 1/3 of a mm,
+ * as in keys without formulas. As a formula it would mean 1/(3 mm). Returns false if the text has another form. */
 static bool number_constant(const struct yaml_node *n, const struct key *k, struct expression *e)
 {
     char what[256];

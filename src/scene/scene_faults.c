@@ -32,8 +32,8 @@ const char *origin_file_name(const struct reader *r, int origin_index)
     return origin_index <= ORIGIN_INCLUDED ? r->included[ORIGIN_INCLUDED - origin_index] : r->name;
 }
 
-/* Writes the name of node n for messages to name[capacity]: its key or, for an item of a list, the key of the list with
- * the index of the item, such as `velocity[1]`; "" for the whole scene. */
+/* Writes the name of YAML node n for messages to name[capacity]: its key or, for an item of a list, the key of the
+ * list with the index of the item, such as `velocity[1]`; "" for the whole scene. */
 static void node_name(const struct yaml_node *n, char *name, size_t capacity)
 {
     if (n->key) {

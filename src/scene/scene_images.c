@@ -12,7 +12,7 @@ int compare_paths(const void *a, const void *b) { return strverscmp(*(char *cons
 
 /* ---- grey values ------------------------------------------------------------------------------------------------- */
 
-/* Appends the grey values that `text` gives, such as 255 or 100-255, to the ranges of p. n: node of the text, for
+/* Appends the grey values that `text` gives, such as 255 or 100-255, to the ranges of p. n: YAML node of the text, for
  * messages. Returns REFUSED, with a message, for another form, for values above GREY_MAX and for too many ranges. */
 static status grey_range_read(struct reader *r, const struct yaml_node *n, const char *text, struct voxel_part *p)
 {
@@ -48,12 +48,13 @@ status read_grey_values(struct reader *r, const struct yaml_node *values_node, s
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the value of node n, an entry of `materials` of an image, is the word `void`: pixels with the grey
- * values of this entry are left out of the body. */
+/* Returns true if the value of YAML node n, an entry of `materials` of an image, is the word `void`: pixels with the
+ * grey values of this entry are left out of the body. */
 static bool is_void(const struct yaml_node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
 
-/* Returns REFUSED, with a message, if a voxel of v has a grey value for which the scene names no material. in[GREY_MAX
- * + 1]: true for grey values in a range of `materials`; n: node of the image, for messages. */
+/* Returns REFUSED, with a message, if a voxel of v has a grey value for which the input file (scene) names no
+ * material. in[GREY_MAX + 1]: true for grey values in a range of `materials`; n: YAML node of the image, for messages.
+ */
 static status check_covered(struct reader *r, const struct yaml_node *n, const struct voxels *v, const bool *in)
 {
     const int64_t all = v->n[0] * v->n[1] * v->n[2];
@@ -98,8 +99,8 @@ status read_grey_materials(struct reader *r, const struct yaml_node *materials_n
     return s;
 }
 
-/* Returns a copy of the node n and its descendants, without entries that have the key `without`. The copy is in the
- * arena of the reader r, which frees it. parent: parent of the copy. */
+/* Returns a copy of the YAML node n and its descendants, without entries that have the key `without`. The copy is in
+ * the arena of the reader r, which frees it. parent: parent of the copy. */
 static struct yaml_node *node_copy(struct reader *r, const struct yaml_node *n, struct yaml_node *parent,
                                    const char *without)
 {
@@ -119,8 +120,8 @@ static int material_called(const struct scene *s, const char *name)
 }
 
 /* Reads one entry of `materials` of an image as a part of the body b: the image, restricted to the grey values of the
- * entry, with the motions of its solid. solid: node of that solid; entry: node with grey values as key and the name of
- * the material as value. Returns REFUSED, with a message, for an unknown material or invalid grey values. */
+ * entry, with the motions of its solid. solid: YAML node of that solid; entry: node with grey values as key and the
+ * name of the material as value. Returns REFUSED, with a message, for an unknown material or invalid grey values. */
 static status read_grey_part(struct reader *r, const struct yaml_node *solid, const struct yaml_node *entry,
                              struct scene_body *b)
 {

@@ -86,8 +86,8 @@ static int length_of(const struct chain *chain)
     return n;
 }
 
-/* Returns the path of the file that node n includes, in memory of the reader r that arena_free releases. A relative
- * name starts from the folder of the including file. */
+/* Returns the path of the file that YAML node n includes, in memory of the reader r that arena_free releases. A
+ * relative name starts from the folder of the including file. */
 static char *path_from(struct reader *r, const struct yaml_node *n)
 {
     const char *from = origin_file_name(r, n->origin);
@@ -100,9 +100,9 @@ static char *path_from(struct reader *r, const struct yaml_node *n)
 
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain);
 
-/* Reads the scene in the file that node n names, and the scenes that it includes, into the tree *root. chain: files
- * that are being read, to find a file that includes itself. Returns REFUSED, with a message, if the file cannot be
- * read, is no scene or includes itself. */
+/* Reads the scene in the file that YAML node n names, and the scenes that it includes, into the tree *root. chain:
+ * files that are being read, to find a file that includes itself. Returns REFUSED, with a message, if the file cannot
+ * be read, is no scene or includes itself. */
 static status include_file(struct reader *r, const struct yaml_node *n, const struct chain *chain,
                            struct yaml_node **root)
 {
@@ -141,8 +141,8 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
 }
 
 /* Reads the files in the list `include` of the scene in order, and merges them: later files replace values of earlier
- * ones, the scene itself those of all files. root: tree of the scene, replaced by the merged tree; chain: files that
- * are being read. Returns REFUSED, with a message, for an invalid list or file. */
+ * ones, the scene itself those of all files. root: YAML tree of the input file (scene), replaced by the merged tree;
+ * chain: files that are being read. Returns REFUSED, with a message, for an invalid list or file. */
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain)
 {
     struct yaml_node *list = yaml_node_find(root, "include"), *file;

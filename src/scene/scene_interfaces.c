@@ -7,8 +7,8 @@
 #include "scene_parts.h"
 #include "scene_remedies.h"
 
-/* Sets face->body[2] to the indices of the two bodies that the interface `face` joins, found by name. n: node of the
- * interface. Returns REFUSED, with a message, for unknown or rigid bodies, equal bodies and pairs that have an
+/* Sets face->body[2] to the indices of the two bodies that the interface `face` joins, found by name. n: YAML node of
+ * the interface. Returns REFUSED, with a message, for unknown or rigid bodies, equal bodies and pairs that have an
  * interface already. */
 static status interface_bodies(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
@@ -39,8 +39,8 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
 }
 
 /* Makes a copy of the material of body b, named MATERIAL_BODY, and assigns the copy to b. It is needed because bonds
- * between joined bodies are recognised by their different materials. n: node of the interface, for messages. Returns
- * REFUSED, with a message, if there are 255 materials already. */
+ * between joined bodies are recognised by their different materials. n: YAML node of the interface, for messages.
+ * Returns REFUSED, with a message, if there are 255 materials already. */
 static status material_apart(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;
@@ -64,9 +64,9 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
 
 /* Computes face->critical_stretch, the critical stretch of bonds across the interface `face`, if the interface has an
  * energy release rate. With model bond it is the critical stretch of a material with the harmonic mean of both Young's
- * moduli, this energy release rate, and the other properties of the softer body; state-based bonds have the mean of the
- * energies of both materials. n: node of the interface. Returns REFUSED, with a message, for bodies of several
- * materials or with bonds that soften. */
+ * moduli, this energy release rate, and the other properties of the softer body; state-based bonds have the mean of
+ * the energies of both materials. n: YAML node of the interface. Returns REFUSED, with a message, for bodies of
+ * several materials or with bonds that soften. */
 static status interface_strength(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;

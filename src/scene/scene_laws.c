@@ -60,7 +60,7 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
     return check_curve(r, n, c);
 }
 
-/* Returns REFUSED with a message that names the words of all flow laws in `hardening`. n: node of `hardening`. */
+/* Returns REFUSED with a message that names the words of all flow laws in `hardening`. n: YAML node of `hardening`. */
 static status fault_no_law(struct reader *r, const struct yaml_node *n)
 {
     char words[200] = "";
@@ -71,8 +71,8 @@ static status fault_no_law(struct reader *r, const struct yaml_node *n)
     return fault(r, n, "has no law; give %s", words_for_message(r, words));
 }
 
-/* Reads the flow law in the mapping `hardening` into `law`. material: node of the material; n: node of `hardening`.
- * Returns REFUSED, with a message, if there are no or several laws, or if yield_hardening is given too. */
+/* Reads the flow law in the mapping `hardening` into `law`. material: YAML node of the material; n: node of
+ * `hardening`. Returns REFUSED, with a message, if there are no or several laws, or if yield_hardening is given too. */
 static status read_hardening_law(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
                                  struct law *law)
 {
@@ -93,8 +93,8 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
     return read_keys_of_group(r, given, given, group, law);
 }
 
-/* Reads the flow law of Johnson and Cook into `law`. material: node of the material; n: node of `johnson_cook`. Returns
- * REFUSED, with a message, if another hardening is given too, or if the melting temperature is not above room
+/* Reads the flow law of Johnson and Cook into `law`. material: YAML node of the material; n: node of `johnson_cook`.
+ * Returns REFUSED, with a message, if another hardening is given too, or if the melting temperature is not above room
  * temperature. */
 static status read_johnson_cook(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
                                 struct law *law)
@@ -111,7 +111,7 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
 }
 
 /* Completes the heating of a material by plastic work in `law`: sets the fraction of the work that becomes heat to 0.9
- * unless it is given. material: node of the material. Returns REFUSED, with a message, if this fraction is given
+ * unless it is given. material: YAML node of the material. Returns REFUSED, with a message, if this fraction is given
  * without specific heat, or specific heat without a flow law that depends on temperature. */
 static status read_heat(struct reader *r, const struct yaml_node *material, struct law *law)
 {
@@ -126,9 +126,9 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the material m has a yield stress or yield tangent although its flow law replaces
- * them, or if its law needs a yield stress and none is given. material: node of the material; law_node: node of the
- * law. */
+/* Returns REFUSED, with a message, if the material m has a yield stress or yield tangent although its flow law
+ * replaces them, or if its law needs a yield stress and none is given. material: YAML node of the material; law_node:
+ * node of the law. */
 static status check_first_yield(struct reader *r, const struct yaml_node *material, const struct yaml_node *law_node,
                                 const struct material *m)
 {
@@ -144,7 +144,7 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
 }
 
 /* Returns REFUSED, with a message, unless the method of the scene is mpm: other methods do not have these flow laws.
- * law_node: node of the law, for the message. */
+ * law_node: YAML node of the law, for the message. */
 static status check_law_place(struct reader *r, const struct yaml_node *law_node)
 {
     return r->scene->method == METHOD_MPM ? OK : refuse_flow_law_without_mpm(r, law_node);

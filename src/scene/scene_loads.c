@@ -9,9 +9,9 @@
 
 /* ---- profiles in space ------------------------------------------------------------------------------------------- */
 
-/* Reads the profile in space of a body force into f: a sine wave, or the factor 1 everywhere. n: node of `profile`,
- * NULL or `uniform` for the factor 1. Returns REFUSED, with a message, for another form or a direction without
- * length. */
+/* Reads the profile in space of a body force into f: a sine wave, or the factor 1 everywhere. n: YAML node of
+ * `profile`, NULL or `uniform` for the factor 1. Returns REFUSED, with a message, for another form or a direction
+ * without length. */
 static status read_profile(struct reader *r, const struct yaml_node *n, struct profile *f)
 {
     f->direction[0] = 1;
@@ -31,7 +31,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
 
-/* Reads the name of an axis, x, y or z, from `text` into *axis as its number 0, 1 or 2. n: node of the text, for
+/* Reads the name of an axis, x, y or z, from `text` into *axis as its number 0, 1 or 2. n: YAML node of the text, for
  * messages. Returns REFUSED for axes that the space does not have. */
 static status read_axis(struct reader *r, const struct yaml_node *n, const char *text, int *axis)
 {
@@ -44,8 +44,8 @@ static status read_axis(struct reader *r, const struct yaml_node *n, const char 
     return OK;
 }
 
-/* Reads the constrained components of the entry `fixed`, node n, into b->components, one bit per axis: `all` or a list
- * of axes. Returns REFUSED, with a message, for another form, or an axis given twice. */
+/* Reads the constrained components of the entry `fixed`, YAML node n, into b->components, one bit per axis: `all` or a
+ * list of axes. Returns REFUSED, with a message, for another form, or an axis given twice. */
 static status read_fixed(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     int axis;
@@ -63,9 +63,9 @@ static status read_fixed(struct reader *r, const struct yaml_node *n, struct bou
     return OK;
 }
 
-/* Reads one component of a vector from node n: a number into *value, or a formula into *f with *value = 1. k: key of
- * the vector, for unit and range; of: variables allowed in the formula (EXPRESS_*). Returns REFUSED, with a message, if
- * it is neither. */
+/* Reads one component of a vector from YAML node n: a number into *value, or a formula into *f with *value = 1. k: key
+ * of the vector, for unit and range; of: variables allowed in the formula (EXPRESS_*). Returns REFUSED, with a
+ * message, if it is neither. */
 static status read_formula(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                            struct expression *f)
 {
@@ -91,17 +91,17 @@ status read_vector_of_formulas(struct reader *r, const struct key *k, const stru
     return OK;
 }
 
-/* Reads component d (from 0) of the vector that the boundary condition b prescribes, a number or a formula, from node n
- * into b->value and b->formula. k: key of the vector, for unit and range. Returns REFUSED, with a message, if it is
- * neither. */
+/* Reads component d (from 0) of the vector that the boundary condition b prescribes, a number or a formula, from YAML
+ * node n into b->value and b->formula. k: key of the vector, for unit and range. Returns REFUSED, with a message, if
+ * it is neither. */
 static status read_load_value(struct reader *r, const struct key *k, const struct yaml_node *n, struct boundary *b,
                               int d)
 {
     return read_formula(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, &b->value[d], &b->formula[d]);
 }
 
-/* Reads the pressure of the boundary condition b from node n, a number or a formula, and sets all components of its
- * value to it. Returns REFUSED, with a message, if it is neither. */
+/* Reads the pressure of the boundary condition b from YAML node n, a number or a formula, and sets all components of
+ * its value to it. Returns REFUSED, with a message, if it is neither. */
 static status read_pressure(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_load_value(r, key_find("boundary", "pressure"), n, b, 0));
@@ -110,8 +110,8 @@ static status read_pressure(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Reads component d (from 0) of the prescribed velocity or displacement of the boundary condition b from node n; `free`
- * leaves the component unconstrained. Returns REFUSED, with a message, for an invalid value. */
+/* Reads component d (from 0) of the prescribed velocity or displacement of the boundary condition b from YAML node n;
+ * `free` leaves the component unconstrained. Returns REFUSED, with a message, for an invalid value. */
 static status read_component(struct reader *r, const struct yaml_node *n, struct boundary *b, int d)
 {
     if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
@@ -119,7 +119,7 @@ static status read_component(struct reader *r, const struct yaml_node *n, struct
     return read_load_value(r, key_find("boundary", b->displaces ? "displacement" : "velocity"), n, b, d);
 }
 
-/* Reads the prescribed velocities [m/s] or displacements [m] of the boundary condition b from node n, one number,
+/* Reads the prescribed velocities [m/s] or displacements [m] of the boundary condition b from YAML node n, one number,
  * formula or `free` per component, into b->value, b->formula and b->components. Returns REFUSED, with a message, for a
  * wrong number of components, or if all are free. */
 static status read_velocity(struct reader *r, const struct yaml_node *n, struct boundary *b)
@@ -176,8 +176,9 @@ static status read_rotation(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Reads a plane of symmetry into the boundary condition b. map: node of the condition; n: node of its `mirror`. Returns
- * REFUSED, with a message, for an invalid axis, and if region, body or time are given, which have no meaning here. */
+/* Reads a plane of symmetry into the boundary condition b. map: YAML node of the condition; n: node of its `mirror`.
+ * Returns REFUSED, with a message, for an invalid axis, and if region, body or time are given, which have no meaning
+ * here. */
 static status read_mirror(struct reader *r, const struct yaml_node *map, const struct yaml_node *n, struct boundary *b)
 {
     const char *const senseless[] = {"region", "body", "time"};
@@ -191,7 +192,7 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
     return read_axis(r, at, at->text, &axis);
 }
 
-/* Checks the entry `absorbing` of a boundary condition. map: node of the condition; n: node of the entry. Returns
+/* Checks the entry `absorbing` of a boundary condition. map: YAML node of the condition; n: node of the entry. Returns
  * REFUSED, with a message, if a time is given, and for another value than true. */
 static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
@@ -203,7 +204,8 @@ static status read_absorbing(struct reader *r, const struct yaml_node *map, cons
 }
 
 /* Reads the face of the boundary condition b, such as `x+`, into b->face (axis 0 to 2) and b->side (+1 or -1). map:
- * node of the boundary condition. Returns REFUSED, with a message, if it is missing or not a face of this space. */
+ * YAML node of the boundary condition. Returns REFUSED, with a message, if it is missing or not a face of this space.
+ */
 static status read_face(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     const struct yaml_node *n = yaml_node_find(map, "face");
@@ -223,8 +225,8 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
 }
 
 /* Reads face and depth of the layer of particles that the boundary condition b moves, if a face is given. By default
- * the depth is one horizon, or one spacing with method mpm. map: node of the boundary condition. Returns REFUSED, with
- * a message, for a depth without face. */
+ * the depth is one horizon, or one spacing with method mpm. map: YAML node of the boundary condition. Returns REFUSED,
+ * with a message, for a depth without face. */
 static status read_layer(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     const struct yaml_node *depth = yaml_node_find(map, "depth");
@@ -236,8 +238,8 @@ static status read_layer(struct reader *r, const struct yaml_node *map, struct b
     return read_face(r, map, b);
 }
 
-/* Finds *kind, the entry of a boundary condition that determines its kind, such as velocity or pressure. map: node of
- * the condition. Returns REFUSED, with a message, if there is no such entry or more than one. */
+/* Finds *kind, the entry of a boundary condition that determines its kind, such as velocity or pressure. map: YAML
+ * node of the condition. Returns REFUSED, with a message, if there is no such entry or more than one. */
 static status kind_of_boundary(struct reader *r, const struct yaml_node *map, const struct yaml_node **kind)
 {
     const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
@@ -254,8 +256,8 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
     return *kind ? OK : fault(r, map, "has no load or support; give one of %s", words_for_message(r, words));
 }
 
-/* Returns true if the text of node n, a number or a formula, contains a unit and is not 0. value: the number that was
- * read from n. Returns false if n is NULL. */
+/* Returns true if the text of YAML node n, a number or a formula, contains a unit and is not 0. value: the number that
+ * was read from n. Returns false if n is NULL. */
 static bool carries_unit(struct reader *r, const struct yaml_node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");
@@ -268,7 +270,7 @@ static bool carries_unit(struct reader *r, const struct yaml_node *n, real value
 }
 
 /* Returns REFUSED, with a message, if the factor of time of the boundary condition b is a file column with a unit, and
- * the value of b has a unit too: only one of them can give the magnitude of the load. kind: node of the value. */
+ * the value of b has a unit too: only one of them can give the magnitude of the load. kind: YAML node of the value. */
 static status check_time_unit(struct reader *r, const struct yaml_node *kind, const struct boundary *b)
 {
     real most = 0;
@@ -284,9 +286,9 @@ static status check_time_unit(struct reader *r, const struct yaml_node *kind, co
                  node_text(r, kind));
 }
 
-/* Reads the value of the boundary condition b by its kind. n: node of the condition; kind: its entry that gives the
- * kind, such as velocity. Returns REFUSED, with a message, for invalid values and for keys that have no meaning with
- * this kind. */
+/* Reads the value of the boundary condition b by its kind. n: YAML node of the condition; kind: its entry that gives
+ * the kind, such as velocity. Returns REFUSED, with a message, for invalid values and for keys that have no meaning
+ * with this kind. */
 static status read_kind(struct reader *r, const struct yaml_node *n, const struct yaml_node *kind, struct boundary *b)
 {
     const struct yaml_node *face = NULL, *depth = NULL, *profile = yaml_node_find(n, "profile");
@@ -339,8 +341,9 @@ static status read_boundary(struct reader *r, const struct yaml_node *n, struct 
     return check_time_unit(r, kind, b);
 }
 
-/* Appends gravity to the boundary conditions of the scene as a body force on all bodies. n: node of `gravity`, for
- * messages. Returns REFUSED, with a message, if there are BOUNDARIES_MAX conditions already, or one called gravity. */
+/* Appends gravity to the boundary conditions of the scene as a body force on all bodies. n: YAML node of `gravity`,
+ * for messages. Returns REFUSED, with a message, if there are BOUNDARIES_MAX conditions already, or one called
+ * gravity. */
 static status gravity_add(struct reader *r, const struct yaml_node *n)
 {
     struct scene *s = r->scene;

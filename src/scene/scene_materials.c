@@ -8,8 +8,8 @@
 #include "scene_remedies.h"
 
 /* Reads the fracture strength of material m from one of the keys energy_release_rate, critical_stretch and toughness.
- * Toughness K gives the energy release rate K^2/E, or K^2 (1 - nu^2)/E in plane strain and 3D. n: node of the material.
- * Returns REFUSED, with a message, if more than one of the keys is given. */
+ * Toughness K gives the energy release rate K^2/E, or K^2 (1 - nu^2)/E in plane strain and 3D. n: YAML node of the
+ * material. Returns REFUSED, with a message, if more than one of the keys is given. */
 static status read_strength(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
@@ -32,7 +32,7 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
 }
 
 /* Returns REFUSED, with a message, if the material m is given a Poisson's ratio that bonds cannot have: bond-based
- * peridynamics has one elastic constant, an isotropic solid two. n: node of the material. */
+ * peridynamics has one elastic constant, an isotropic solid two. n: YAML node of the material. */
 static status check_poisson(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
@@ -44,8 +44,8 @@ static status check_poisson(struct reader *r, const struct yaml_node *n, const s
 }
 
 /* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from the key yield_tangent or the
- * hardening modulus H of the key yield_hardening: E_t = E H/(E + H). n: node of the material. Returns REFUSED, with a
- * message, if both are given, if the material has no yield stress, or unless E_t < E. */
+ * hardening modulus H of the key yield_hardening: E_t = E H/(E + H). n: YAML node of the material. Returns REFUSED,
+ * with a message, if both are given, if the material has no yield stress, or unless E_t < E. */
 static status read_hardening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct yaml_node *tangent = yaml_node_find(n, "yield_tangent"),
@@ -67,7 +67,7 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
                  node_text(r, tangent ? tangent : hardening));
 }
 
-/* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
+/* Reads the random scatter of the strength of material m. n: YAML node of `scatter`, or NULL if there is none. Returns
  * REFUSED, with a message, for a material whose bonds do not break, for material points that yield, and if the
  * parameter of the distribution is missing. */
 static status read_scatter(struct reader *r, const struct yaml_node *n, struct material *m)
@@ -101,8 +101,8 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     return OK;
 }
 
-/* Reads the viscosity of material m. n: node of `viscosity`, or NULL if there is none. With viscosity all cells have
- * one time step, and regions at rest are computed as well, because viscous forces act between moving regions and
+/* Reads the viscosity of material m. n: YAML node of `viscosity`, or NULL if there is none. With viscosity all cells
+ * have one time step, and regions at rest are computed as well, because viscous forces act between moving regions and
  * regions at rest. Returns REFUSED, with a message, where viscosity has no effect. */
 static status read_viscosity(struct reader *r, const struct yaml_node *n, struct material *m)
 {
@@ -120,8 +120,8 @@ static status read_viscosity(struct reader *r, const struct yaml_node *n, struct
     return why ? fault(r, n, "%s", why) : OK;
 }
 
-/* Reads the material of node n into m, with defaults that depend on the space, and derives its wave speeds and critical
- * stretch. Returns REFUSED, with a message, for invalid or contradicting keys. */
+/* Reads the material of YAML node n into m, with defaults that depend on the space, and derives its wave speeds and
+ * critical stretch. Returns REFUSED, with a message, for invalid or contradicting keys. */
 static status scene_parts_read_material(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;

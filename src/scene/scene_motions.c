@@ -14,8 +14,8 @@ bool node_is_motion_key_of_solid(const struct yaml_node *n)
     return is;
 }
 
-/* Reads the axis of a rotation into m, by default z. n: node of the rotation. Returns REFUSED, with a message, for an
- * axis without length, for any axis in 2D, and in 1D. */
+/* Reads the axis of a rotation into m, by default z. n: YAML node of the rotation. Returns REFUSED, with a message,
+ * for an axis without length, for any axis in 2D, and in 1D. */
 static status read_turning_axis(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
     const struct yaml_node *axis = yaml_node_find(n, "axis");
@@ -27,8 +27,8 @@ static status read_turning_axis(struct reader *r, const struct yaml_node *n, str
     return fault(r, axis, "has the length 0; give an axis such as [0, 0, 1]");
 }
 
-/* Reads the centre of a rotation into m->about [m], by default the centre of the bounding box of the solid s. n: node
- * of the rotation. Returns REFUSED, with a message, if the centre is not given and the box is infinite. */
+/* Reads the centre of a rotation into m->about [m], by default the centre of the bounding box of the solid s. n: YAML
+ * node of the rotation. Returns REFUSED, with a message, if the centre is not given and the box is infinite. */
 static status read_about(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
     for (int d = 0; d < r->dim && !m->has_about; d++) {

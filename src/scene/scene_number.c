@@ -75,8 +75,8 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* Returns REFUSED, with a message, if the key of node n cannot name a variable: it is no name, is too long, or has a
- * meaning in expressions. */
+/* Returns REFUSED, with a message, if the key of YAML node n cannot name a variable: it is no name, is too long, or
+ * has a meaning in expressions. */
 static status check_variable_name(struct reader *r, const struct yaml_node *n)
 {
     size_t length = 0;
@@ -111,7 +111,7 @@ static bool is_used(const struct yaml_node *n, const struct yaml_node *variable)
 }
 
 /* Returns REFUSED, with a message, if an override sets a variable that no value of the scene contains: a misspelt name
- * would have no effect. root: tree of the scene. */
+ * would have no effect. root: YAML tree of the input file (scene). */
 static status check_overrides(struct reader *r, const struct yaml_node *root)
 {
     for (const struct variable *v = r->variable; v < r->variable + r->variables; v++) {

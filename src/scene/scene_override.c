@@ -57,8 +57,8 @@ static const char *item_name(const struct yaml_node *list, const struct yaml_nod
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* Sets the origin of node n to override number `origin`, so that the message of the refusal that follows names this
- * override, and returns n. The tree must not be used afterwards, since the origin is wrong. */
+/* Sets the origin of YAML node n to override number `origin`, so that the message of the refusal that follows names
+ * this override, and returns n. The tree must not be used afterwards, since the origin is wrong. */
 static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 {
     n->origin = origin;
@@ -125,9 +125,9 @@ static bool is_key(const struct yaml_node *n, const char *key, size_t length)
     return strlen(n->key) == length && (length == 0 || memcmp(n->key, key, length) == 0);
 }
 
-/* Writes out the short form of a value: if the value of node n is a word, turns n into a mapping with the one entry
- * `key`, whose value is `text` (NULL: an empty mapping). For example, `exact: step bar` becomes `exact: {form: step
- * bar}`. Leaves other nodes unchanged. origin: number of the override. */
+/* Writes out the short form of a value: if the value of YAML node n is a word, turns n into a mapping with the one
+ * entry `key`, whose value is `text` (NULL: an empty mapping). For example, `exact: step bar` becomes `exact: {form:
+ * step bar}`. Leaves other nodes unchanged. origin: number of the override. */
 static void write_out(struct reader *r, struct yaml_node *n, const char *key, const char *text, int origin)
 {
     if (n->kind != NODE_SCALAR || *n->text == '\0') return;
@@ -150,7 +150,7 @@ static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, co
     return item->first;
 }
 
-/* Finds *out, the node that one part of a path addresses: if `map` is a mapping, the entry `key` (of `length`
+/* Finds *out, the YAML node that one part of a path addresses: if `map` is a mapping, the entry `key` (of `length`
  * characters), created if it is missing; if it is a list, the item with this index or name. origin: number of the
  * override, for messages. Returns REFUSED, with a message, for a list without such an item, and for nodes without
  * keys. */
@@ -188,8 +188,8 @@ static bool is_new_item(const struct yaml_node *list, const char *key, size_t le
     return next && (value->kind != NODE_SCALAR || (list->key && strcmp(list->key, "probes") == 0));
 }
 
-/* Replaces the value of node n (text, or entries) by the value of the node `value`. The key of n and its position in
- * the tree do not change. */
+/* Replaces the value of YAML node n (text, or entries) by the value of the node `value`. The key of n and its position
+ * in the tree do not change. */
 static void replace(struct yaml_node *n, const struct yaml_node *value)
 {
     struct yaml_node whole = *value;
@@ -200,9 +200,9 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
     for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
-/* Applies override number `origin` (from 0) to `root`, the tree of the scene. Sets the value at its path; appends the
- * value to a list if the path ends in the index after the last item; removes the key if the value is empty. Returns
- * REFUSED, with a message, for a malformed path, and if the key to be removed is missing. */
+/* Applies override number `origin` (from 0) to `root`, the YAML tree of the input file (scene). Sets the value at its
+ * path; appends the value to a list if the path ends in the index after the last item; removes the key if the value is
+ * empty. Returns REFUSED, with a message, for a malformed path, and if the key to be removed is missing. */
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];

@@ -37,9 +37,9 @@ static status read_list_columns(struct reader *r, const struct yaml_node *n, str
     return OK;
 }
 
-/* Reads the particle list of body b: path and hash of its file, unit and columns if the scene gives them, and the
- * column names in the file. n: node of `particles`, a file name or a mapping. Returns REFUSED, with a message, for an
- * invalid file. */
+/* Reads the particle list of body b: path and hash of its file, unit and columns if the input file (scene) gives them,
+ * and the column names in the file. n: YAML node of `particles`, a file name or a mapping. Returns REFUSED, with a
+ * message, for an invalid file. */
 static status read_particle_list(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     const bool mapping = n->kind == NODE_MAP;
@@ -58,7 +58,7 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
 }
 
 /* Returns REFUSED, with a message, if body b is not rigid and has keys of rigid bodies, or is rigid and has keys of
- * other bodies. n: node of the body. */
+ * other bodies. n: YAML node of the body. */
 static status check_rigid_body(struct reader *r, const struct yaml_node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
@@ -82,9 +82,9 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
     return OK;
 }
 
-/* Reads the body of node n into b. number: index of the body; the names of bodies with smaller indices must differ from
- * its name. Returns REFUSED, with a message, for invalid keys, and if the body has neither shape nor particles, or
- * both. */
+/* Reads the body of YAML node n into b. number: index of the body; the names of bodies with smaller indices must
+ * differ from its name. Returns REFUSED, with a message, for invalid keys, and if the body has neither shape nor
+ * particles, or both. */
 static status scene_parts_read_body(struct reader *r, const struct yaml_node *n, struct scene_body *b, int number)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape"), *file = yaml_node_find(n, "particles");
@@ -166,8 +166,8 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
 
 /* ---- initial states ---------------------------------------------------------------------------------------------- */
 
-/* Reads the polarisation of the pulse w, along its direction (default) or across it, and normalises it. n: node of
- * `polarisation`; NULL: not given. Returns REFUSED, with a message, for any other vector. */
+/* Reads the polarisation of the pulse w, along its direction (default) or across it, and normalises it. n: YAML node
+ * of `polarisation`; NULL: not given. Returns REFUSED, with a message, for any other vector. */
 static status read_polarisation(struct reader *r, const struct yaml_node *n, struct wave_pulse *w)
 {
     const int dim = r->dim;
@@ -202,8 +202,8 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
     return read_polarisation(r, yaml_node_find(n, "polarisation"), &initial->pulse);
 }
 
-/* Reads a rigid rotation w x (X - centre) of an initial state as its velocity gradient [1/s]. map: node of the initial
- * state. Returns REFUSED, with a message, if velocity_gradient or centre is given too, and for invalid keys. */
+/* Reads a rigid rotation w x (X - centre) of an initial state as its velocity gradient [1/s]. map: YAML node of the
+ * initial state. Returns REFUSED, with a message, if velocity_gradient or centre is given too, and for invalid keys. */
 static status read_initial_rotation(struct reader *r, const struct yaml_node *map, struct scene_initial *initial)
 {
     const struct yaml_node *n = yaml_node_find(map, "rotation"), *gradient = yaml_node_find(map, "velocity_gradient"),
@@ -225,8 +225,8 @@ static status read_initial_rotation(struct reader *r, const struct yaml_node *ma
     return OK;
 }
 
-/* Reads the velocity of an initial state, numbers [m/s] or formulas, from node n (NULL: none) into *initial. Returns
- * REFUSED, with a message, if it is invalid. */
+/* Reads the velocity of an initial state, numbers [m/s] or formulas, from YAML node n (NULL: none) into *initial.
+ * Returns REFUSED, with a message, if it is invalid. */
 static status read_initial_velocity(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     if (!n) return OK;
@@ -235,9 +235,9 @@ static status read_initial_velocity(struct reader *r, const struct yaml_node *n,
                                    initial->formula);
 }
 
-/* Reads an initial state from node n into *initial. Returns REFUSED, with a message, for invalid values, and for
- * initial displacements with relaxation on the grid: there the stress of points is accumulated from a start that counts
- * as unloaded, so that the equilibrium would depend on the initial state. */
+/* Reads an initial state from YAML node n into *initial. Returns REFUSED, with a message, for invalid values, and for
+ * initial displacements with relaxation on the grid: there the stress of points is accumulated from a start that
+ * counts as unloaded, so that the equilibrium would depend on the initial state. */
 static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
@@ -270,8 +270,8 @@ status read_initial_states(struct reader *r, const struct yaml_node *root)
 
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the growth rule of node n into g, and normalises its direction. number: index of the rule, for its default
- * name. Returns REFUSED, with a message, for keys without meaning and for an unknown probe. */
+/* Reads the growth rule of YAML node n into g, and normalises its direction. number: index of the rule, for its
+ * default name. Returns REFUSED, with a message, for keys without meaning and for an unknown probe. */
 static status read_growth(struct reader *r, const struct yaml_node *n, struct growth_rule *g, int number)
 {
     real length;
@@ -301,8 +301,8 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
                : OK;
 }
 
-/* Returns REFUSED, with a message, if a probe of the scene names a growth rule that the scene lacks. root: tree of the
- * scene, for the location in the message. */
+/* Returns REFUSED, with a message, if a probe of the input file (scene) names a growth rule that the scene lacks.
+ * root: YAML tree of the scene, for the location in the message. */
 static status check_growth_probes(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -324,8 +324,8 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
     return OK;
 }
 
-/* Reads the list `growth`, the rules of crack growth, after the probes that they can name. root: tree of the scene.
- * Returns REFUSED, with a message, for invalid rules, outside plane spaces and with method mpm. */
+/* Reads the list `growth`, the rules of crack growth, after the probes that they can name. root: YAML tree of the
+ * input file (scene). Returns REFUSED, with a message, for invalid rules, outside plane spaces and with method mpm. */
 status read_crack_growths(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -345,9 +345,9 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root)
 
 /* ---- frames of regions ------------------------------------------------------------------------------------------- */
 
-/* Reads entry number `number` of `output.regions` from node n into r->scene: a region for which frames are written at
- * intervals of their own. Returns REFUSED, with a message, for a name whose files are used already, and for too many
- * frames. */
+/* Reads entry number `number` of `output.regions` from YAML node n into r->scene: a region for which frames are
+ * written at intervals of their own. Returns REFUSED, with a message, for a name whose files are used already, and for
+ * too many frames. */
 static status read_frame_region(struct reader *r, const struct yaml_node *n, int number)
 {
     struct scene *s = r->scene;

@@ -10,9 +10,9 @@
 const char *const probe_names[PROBES] = {"tip",    "break",    "reaction", "patch", "spall", "point",  "line",
                                          "energy", "momentum", "pulse",    "exact", "sif",   "growth", "rigid"};
 
-/* Finds *kind, the kind of a probe, and *map, the mapping of its keys, or NULL if it has none. n: node of the probe in
- * one of the forms `tip`, `tip:` or `tip: {at: [..]}`. Returns REFUSED, with a message, for an unknown kind or several
- * kinds. */
+/* Finds *kind, the kind of a probe, and *map, the mapping of its keys, or NULL if it has none. n: YAML node of the
+ * probe in one of the forms `tip`, `tip:` or `tip: {at: [..]}`. Returns REFUSED, with a message, for an unknown kind
+ * or several kinds. */
 static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum probe_kind *kind,
                             const struct yaml_node **map)
 {
@@ -34,8 +34,8 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
     return OK;
 }
 
-/* Returns REFUSED, with a message, if p is a reaction probe and the scene does not have the boundary condition that it
- * names. n: node of this name, for the message. */
+/* Returns REFUSED, with a message, if p is a reaction probe and the input file (scene) does not have the boundary
+ * condition that it names. n: YAML node of this name, for the message. */
 static status check_probe_boundary(struct reader *r, const struct yaml_node *n, const struct probe_request *p)
 {
     const struct scene *s = r->scene;
@@ -52,8 +52,8 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
                  p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
-/* Checks a probe p that compares with a closed-form solution; returns OK for other probes. n: node of the probe; map:
- * mapping of its keys, or NULL. Returns REFUSED, with a message, outside space line, and if a number of the
+/* Checks a probe p that compares with a closed-form solution; returns OK for other probes. n: YAML node of the probe;
+ * map: mapping of its keys, or NULL. Returns REFUSED, with a message, outside space line, and if a number of the
  * manufactured solution is missing or is given with another solution. */
 static status check_exact(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
                           const struct probe_request *p)
@@ -81,7 +81,7 @@ static status check_rigid(struct reader *r, const struct yaml_node *n, const str
 }
 
 /* Checks a probe p of stress-intensity factors; returns OK for other probes. Sets its outer radius to its last contour
- * if none is given. n: node of the probe; map: mapping of its keys, or NULL. Returns REFUSED, with a message, for
+ * if none is given. n: YAML node of the probe; map: mapping of its keys, or NULL. Returns REFUSED, with a message, for
  * invalid radii, contours or direction, and outside plane spaces. */
 static status check_sif(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
                         struct probe_request *p)
@@ -106,8 +106,8 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
                  "has the length 0; give the direction ahead of the crack tip, such as [1, 0]");
 }
 
-/* Reads the probe of node n, in any of its forms, into *p. A number that is not given and has no default becomes NAN.
- * Returns REFUSED, with a message, for an invalid probe. */
+/* Reads the probe of YAML node n, in any of its forms, into *p. A number that is not given and has no default becomes
+ * NAN. Returns REFUSED, with a message, for an invalid probe. */
 static status read_probe(struct reader *r, const struct yaml_node *n, struct probe_request *p)
 {
     const struct yaml_node *map;

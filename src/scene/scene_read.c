@@ -24,7 +24,7 @@ static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
     if (length == 0) strcpy(name, "scene");
 }
 
-/* Returns the node of `method: auto` in the tree `root`; NULL if the scene has another method. */
+/* Returns the YAML node of `method: auto` in the tree `root`; NULL if the input file (scene) has another method. */
 static const struct yaml_node *auto_method(const struct yaml_node *root)
 {
     const struct yaml_node *method = root->kind == NODE_MAP ? yaml_node_find(root, "method") : NULL;
@@ -56,9 +56,9 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
                      r->name);
 }
 
-/* Reads a scene from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores only the
- * request for pilot runs, in *wish, and frees the scene. Returns REFUSED, with a message and the scene freed, for an
- * invalid scene, and for `method: auto` if wish is NULL. */
+/* Reads an input file (scene) from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores
+ * only the request for pilot runs, in *wish, and frees the scene. Returns REFUSED, with a message and the scene freed,
+ * for an invalid scene, and for `method: auto` if wish is NULL. */
 static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -84,9 +84,9 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
     return read_scene(&r, text, length, NULL);
 }
 
-/* Reads a scene from the file `path` into s. override[overrides]: values given on the command line. With `method: auto`
- * stores only the request for pilot runs, in *wish. Returns REFUSED, with a message, for an invalid scene, and for
- * `method: auto` if wish is NULL. */
+/* Reads an input file (scene) from the file `path` into s. override[overrides]: values given on the command line. With
+ * `method: auto` stores only the request for pilot runs, in *wish. Returns REFUSED, with a message, for an invalid
+ * scene, and for `method: auto` if wish is NULL. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                               struct pilot_wish *wish)
 {

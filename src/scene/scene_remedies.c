@@ -46,7 +46,7 @@ bool scene_has_material_with_key(const struct yaml_node *root, const char *key)
     return has;
 }
 
-/* Returns true if an item of the list `bodies` of the scene is rigid. root: tree of the scene. */
+/* Returns true if an item of the list `bodies` of the scene is rigid. root: YAML tree of the input file (scene). */
 static bool has_rigid_bodies(const struct yaml_node *root)
 {
     const struct yaml_node *many = yaml_node_find(root, "bodies");
@@ -94,8 +94,8 @@ static int row_of_method(const struct scene *s, enum method method, unsigned has
 
 /* Writes to text[capacity], as words of a message, how the scene s must be changed to the method and model in row
  * number `row` of the table `combination`. With method mpm, which does not use the key `model`, the key is mentioned
- * only if the scene has plasticity: a scene with plasticity must not name a state-based model. has: features of the
- * scene (bits HAS_...). */
+ * only if the input file (scene) has plasticity: a scene with plasticity must not name a state-based model. has:
+ * features of the scene (bits HAS_...). */
 static void write_change(const struct scene *s, int row, unsigned has, char *text, size_t capacity)
 {
     static const char *const methods[] = {

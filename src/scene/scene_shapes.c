@@ -38,9 +38,9 @@ static status shape_path_add(struct reader *r, const struct yaml_node *n, struct
     return OK;
 }
 
-/* Adds to f the files that match the pattern with stars in node n, sorted by name with numbers compared by value.
- * Searches the folder of the scene, then the current one. Returns REFUSED, with a message, if there is no such file, or
- * more than SLICES_MOST. */
+/* Adds to f the files that match the pattern with stars in YAML node n, sorted by name with numbers compared by value.
+ * Searches the folder of the scene, then the current one. Returns REFUSED, with a message, if there is no such file,
+ * or more than SLICES_MOST. */
 static status pattern_add(struct reader *r, const struct yaml_node *n, struct shape_file *f)
 {
     const char *slash = strrchr(r->name, '/');
@@ -112,9 +112,9 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* Reads the particle spacing that the scene gives into *spacing [m]; NAN if it gives none. Needed because shapes are
- * read before the spacing. n: any node of the tree of the scene. Returns REFUSED, with a message, if the spacing is no
- * length in its range. */
+/* Reads the particle spacing that the input file (scene) gives into *spacing [m]; NAN if it gives none. Needed because
+ * shapes are read before the spacing. n: any YAML node of the tree of the scene. Returns REFUSED, with a message, if
+ * the spacing is no length in its range. */
 static status read_spacing(struct reader *r, const struct yaml_node *n, real *spacing)
 {
     *spacing = NAN;
@@ -124,9 +124,9 @@ static status read_spacing(struct reader *r, const struct yaml_node *n, real *sp
     return given && k ? read_number(r, k, given, spacing) : OK;
 }
 
-/* Reads the file f of a solid, unless the same file with the same settings has been read already. Takes ownership of f,
- * and frees it if it is not needed or cannot be read. n: node of the solid; *known: receives the file that has been
- * read, which the scene owns. Returns REFUSED, with a message, if the file is invalid. */
+/* Reads the file f of a solid, unless the same file with the same settings has been read already. Takes ownership of
+ * f, and frees it if it is not needed or cannot be read. n: YAML node of the solid; *known: receives the file that has
+ * been read, which the scene owns. Returns REFUSED, with a message, if the file is invalid. */
 static status shape_take(struct reader *r, const struct yaml_node *n, struct shape_file *f, struct shape_file **known)
 {
     struct shape_file **last = &r->scene->shapes;
@@ -149,8 +149,8 @@ static status shape_take(struct reader *r, const struct yaml_node *n, struct sha
     return OK;
 }
 
-/* Returns REFUSED, with a message, if the scene gives the hash of a file of a solid and the file has another hash. n:
- * node of the solid; words: its keys; contents: hash of the file. */
+/* Returns REFUSED, with a message, if the input file (scene) gives the hash of a file of a solid and the file has
+ * another hash. n: YAML node of the solid; words: its keys; contents: hash of the file. */
 static status check_contents(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                              uint64_t contents)
 {
@@ -180,7 +180,7 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
 
-/* Reports that the mesh g has no set, or sets of several instances, called `name`. n: node of the name. Returns
+/* Reports that the mesh g has no set, or sets of several instances, called `name`. n: YAML node of the name. Returns
  * REFUSED, with a message that lists these sets, or all. */
 static status refuse_set(struct reader *r, const struct yaml_node *n, const char *name, const struct geometry *g)
 {
@@ -199,8 +199,8 @@ static status refuse_set(struct reader *r, const struct yaml_node *n, const char
 #define AT_NODE 0.01 /* largest distance of a particle from a node of the list in which it was [spacings] */
 
 /* Sets s->hull to the part of the mesh g of which the solid s consists: the whole mesh, a set of elements, or the
- * points within a distance s->radius [m] of a set of nodes or faces. n: node of the solid; words: its keys. Returns
- * REFUSED, with a message, for an unknown set, and for a distance that is missing or has no meaning. */
+ * points within a distance s->radius [m] of a set of nodes or faces. n: YAML node of the solid; words: its keys.
+ * Returns REFUSED, with a message, for an unknown set, and for a distance that is missing or has no meaning. */
 static status read_mesh_set(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                             const struct geometry *g, struct solid *s)
 {
@@ -258,8 +258,8 @@ status read_mesh_solid(struct reader *r, const struct yaml_node *solid_node, str
 
 /* ---- images ------------------------------------------------------------------------------------------------------ */
 
-/* Reads an image from its keys: files, size of the voxels and position. n: node of the image. *known: receives the
- * image, which the scene owns. Returns REFUSED, with a message, for invalid keys or files, and in 1D. */
+/* Reads an image from its keys: files, size of the voxels and position. n: YAML node of the image. *known: receives
+ * the image, which the scene owns. Returns REFUSED, with a message, for invalid keys or files, and in 1D. */
 static status read_voxels(struct reader *r, const struct yaml_node *n, struct shape_file **known)
 {
     const struct yaml_node *file = yaml_node_find(n, "file"), *slice = yaml_node_find(n, "slice");

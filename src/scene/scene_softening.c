@@ -50,7 +50,7 @@ real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const stru
 }
 
 /* Returns REFUSED, with a message, if bonds of material m would break before its tensile strength is reached, or would
- * need a finer spacing. Call after m->onset_stretch is set. n: node of the tensile strength. */
+ * need a finer spacing. Call after m->onset_stretch is set. n: YAML node of the tensile strength. */
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
@@ -99,9 +99,9 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
     return OK;
 }
 
-/* Reads how the tensile strength of material m grows with the strain rate. Call after m->onset_stretch is set. n: node
- * of the material. Returns REFUSED, with a message, where rates have no meaning, and for a strength that bonds of this
- * horizon do not reach. */
+/* Reads how the tensile strength of material m grows with the strain rate. Call after m->onset_stretch is set. n: YAML
+ * node of the material. Returns REFUSED, with a message, where rates have no meaning, and for a strength that bonds of
+ * this horizon do not reach. */
 static status read_rate(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -130,7 +130,7 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
 }
 
 /* Returns REFUSED, with a message, if a material without tensile strength has a key of a strength surface or of a
- * strain rate. n: node of the material. */
+ * strain rate. n: YAML node of the material. */
 static status check_no_surface(struct reader *r, const struct yaml_node *n)
 {
     static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength",

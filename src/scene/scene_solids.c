@@ -44,7 +44,7 @@ static status check_box(struct reader *r, const struct yaml_node *n, const struc
 }
 
 /* Returns REFUSED, with a message, if the solid s has an axis without length, or a hole or section that is not smaller
- * than its radius. n: node of the solid. */
+ * than its radius. n: YAML node of the solid. */
 static status check_round(struct reader *r, const struct yaml_node *n, const struct solid *s)
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
@@ -72,8 +72,8 @@ static status check_solid(struct reader *r, const struct yaml_node *n, const str
     return check_round(r, n, s);
 }
 
-/* Reads the corners of a polygon and its rounding into s->polygon. n: node of the polygon. Returns REFUSED, with a
- * message, if edges cross, the corners have no area or the rounding does not fit an edge. */
+/* Reads the corners of a polygon and its rounding into s->polygon. n: YAML node of the polygon. Returns REFUSED, with
+ * a message, if edges cross, the corners have no area or the rounding does not fit an edge. */
 static status read_corners(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct key *k = key_find("solid.polygon", "corners");
@@ -107,8 +107,8 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
 }
 
 /* Reads an extrusion along an axis from s->begin to s->end [m]. Its section s->region is read as a region in the plane
- * of the other two axes. n: node of the extrusion. Returns REFUSED, with a message, if the section is missing or begin
- * is not below end. */
+ * of the other two axes. n: YAML node of the extrusion. Returns REFUSED, with a message, if the section is missing or
+ * begin is not below end. */
 static status read_extrusion(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape");
@@ -122,7 +122,7 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
     return read;
 }
 
-/* Reads the keys of a solid of the kind that `word` names into s. n: node of these keys. Returns REFUSED, with a
+/* Reads the keys of a solid of the kind that `word` names into s. n: YAML node of these keys. Returns REFUSED, with a
  * message, for kinds that the space does not have, for an infinite solid in a body and for invalid keys. */
 static status read_shape(struct reader *r, const struct yaml_node *n, const struct solid_word *word, struct solid *s)
 {
@@ -151,8 +151,8 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Finds *called, the node of the region whose name is the value of node n; inside an extrusion the node of the section
- * with this name. Returns REFUSED, with the nearest name in the message, if there is none. */
+/* Finds *called, the YAML node of the region whose name is the value of node n; inside an extrusion the node of the
+ * section with this name. Returns REFUSED, with the nearest name in the message, if there is none. */
 static status region_called(struct reader *r, const struct yaml_node *n, const struct yaml_node **called)
 {
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
@@ -171,8 +171,8 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
     return fault(r, n, "there is no %s %s; did you mean %s?", word, node_text(r, n), nearest->key);
 }
 
-/* Reads the solids of the region whose name is the value of node n into `region`. Returns REFUSED, with a message, if
- * there is no such region or it contains itself. */
+/* Reads the solids of the region whose name is the value of YAML node n into `region`. Returns REFUSED, with a
+ * message, if there is no such region or it contains itself. */
 static status read_called(struct reader *r, const struct yaml_node *n, struct region *region)
 {
     struct naming here = {.outer = r->naming};
@@ -186,8 +186,8 @@ static status read_called(struct reader *r, const struct yaml_node *n, struct re
     return read;
 }
 
-/* Reads the region whose name is the value of node n as one solid s: the region's only solid, or a group of its solids.
- * Returns REFUSED, with a message, if there is no such region or it contains itself. */
+/* Reads the region whose name is the value of YAML node n as one solid s: the region's only solid, or a group of its
+ * solids. Returns REFUSED, with a message, if there is no such region or it contains itself. */
 static status read_named(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     s->kind = SOLID_GROUP;
@@ -217,7 +217,8 @@ static status read_names(struct reader *r, const struct yaml_node *map, struct n
 }
 
 /* Finds *map, the mapping of names to solids that is the value of `key` at the top of the scene; NULL if the key is
- * missing. root: tree of the scene. Returns REFUSED, with a message, if the value is no mapping or is empty. */
+ * missing. root: YAML tree of the input file (scene). Returns REFUSED, with a message, if the value is no mapping or
+ * is empty. */
 static status names_find(struct reader *r, const struct yaml_node *root, const char *key, const struct yaml_node **map)
 {
     *map = yaml_node_find(root, key);
@@ -256,13 +257,13 @@ status read_regions(struct reader *r, const struct yaml_node *root)
 
 /* ---- lists of solids --------------------------------------------------------------------------------------------- */
 
-/* Reads a solid from node n into *s; defined below, and declared here because the operand of an operation may be a
- * group of solids. signed_before: as at the definition. */
+/* Reads a solid from YAML node n into *s; defined below, and declared here because the operand of an operation may be
+ * a group of solids. signed_before: as at the definition. */
 static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before);
 
 /* Reads the operand of add, subtract or intersect into s: one solid, or a group if the operand is a list or has
- * motions. n: node of the solid; what: its entry with the operation. Returns REFUSED, with a message, for an invalid
- * operand. */
+ * motions. n: YAML node of the solid; what: its entry with the operation. Returns REFUSED, with a message, for an
+ * invalid operand. */
 static status read_operation(struct reader *r, const struct yaml_node *n, const struct yaml_node *what, struct solid *s)
 {
     const bool cutting = r->cutting;
@@ -280,9 +281,9 @@ static status read_operation(struct reader *r, const struct yaml_node *n, const 
     return read;
 }
 
-/* Reads the solid of node n with its motions into s. The node may also be an operation add, subtract or intersect with
- * its operand. signed_before: true if the solid is such an operand itself; then a further operation is refused. Returns
- * REFUSED, with a message, for an invalid solid, or too many copies. */
+/* Reads the solid of YAML node n with its motions into s. The node may also be an operation add, subtract or intersect
+ * with its operand. signed_before: true if the solid is such an operand itself; then a further operation is refused.
+ * Returns REFUSED, with a message, for an invalid solid, or too many copies. */
 static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before)
 {
     const struct yaml_node *child = NULL;
@@ -314,9 +315,9 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     return fault(r, n, "makes more than %g solids with its copies; use fewer copies", EFFORT_MOST);
 }
 
-/* Reads the list of solids of node n into `region`. intersect: true if solids without an operation of their own are
- * intersected instead of added. Returns REFUSED, with a message, for an empty list, an invalid solid, and if the first
- * one is subtracted. */
+/* Reads the list of solids of YAML node n into `region`. intersect: true if solids without an operation of their own
+ * are intersected instead of added. Returns REFUSED, with a message, for an empty list, an invalid solid, and if the
+ * first one is subtracted. */
 static status read_solids(struct reader *r, const struct yaml_node *n, struct region *region, bool intersect)
 {
     if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "is an empty list; give at least one solid, such as box");
@@ -360,7 +361,7 @@ static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX
 }
 
 /* Returns REFUSED, with a message, unless the corners of crack c form a plane convex polygon: every corner is in the
- * plane and on the inner side of every edge, to a millionth of the size of the polygon. n: node of the crack. */
+ * plane and on the inner side of every edge, to a millionth of the size of the polygon. n: YAML node of the crack. */
 static status check_polygon(struct reader *r, const struct yaml_node *n, const struct crack *c)
 {
     real normal[DIM_MAX] = {0}, part[DIM_MAX];
@@ -396,8 +397,8 @@ static status read_polygon(struct reader *r, const struct yaml_node *n, struct c
     return check_polygon(r, n, c);
 }
 
-/* Reads the position of crack c from node n: a point in 1D, a segment in 2D, a polygon in 3D. Returns REFUSED, with a
- * message, for keys of another space, and for a segment or polygon without extent. */
+/* Reads the position of crack c from YAML node n: a point in 1D, a segment in 2D, a polygon in 3D. Returns REFUSED,
+ * with a message, for keys of another space, and for a segment or polygon without extent. */
 static status read_crack_place(struct reader *r, const struct yaml_node *n, struct crack *c)
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};

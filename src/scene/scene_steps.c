@@ -5,7 +5,7 @@
 #include "scene_parts.h"
 
 /* Returns REFUSED, with a message, for keys that require inertia or time, which the load steps of solver static do not
- * have. root: tree of the scene, for the location in the message. */
+ * have. root: YAML tree of the input file (scene), for the location in the message. */
 static status check_steps_motion(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -39,7 +39,7 @@ static status check_steps_motion(struct reader *r, const struct yaml_node *root)
 }
 
 /* Returns REFUSED, with a message, for boundaries that load steps do not support: loads that follow the surface, and
- * velocities by formula, whose displacement is unknown. root: tree of the scene. */
+ * velocities by formula, whose displacement is unknown. root: YAML tree of the input file (scene). */
 static status check_steps_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -59,7 +59,7 @@ bool scene_has_load_steps_with_softening_bonds(const struct scene *s)
 }
 
 /* Returns REFUSED, with a message, for settings that load steps do not support if bonds soften; OK if none soften.
- * root: tree of the scene, for the location in the message. */
+ * root: YAML tree of the input file (scene), for the location in the message. */
 static status check_steps_softening(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -85,7 +85,7 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
 }
 
 /* Returns REFUSED, with a message, if no boundary condition, gravity or rigid body of the scene loads or displaces the
- * body. root: tree of the scene, for the location in the message. */
+ * body. root: YAML tree of the input file (scene), for the location in the message. */
 static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -124,9 +124,9 @@ status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
                  "distance, steps.opening; give all three");
 }
 
-/* Returns REFUSED, with a message, if the scene has settings of load steps but another solver. Default values are
- * accepted, because scene.yaml, the scene as run, has all keys. root: tree of the scene, for the location in the
- * message. */
+/* Returns REFUSED, with a message, if the input file (scene) has settings of load steps but another solver. Default
+ * values are accepted, because scene.yaml, the scene as run, has all keys. root: YAML tree of the scene, for the
+ * location in the message. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root)
 {
     const struct scene_steps *s = &r->scene->steps;

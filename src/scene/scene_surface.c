@@ -43,8 +43,8 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
         low * m->tensile_strength, high * m->tensile_strength);
 }
 
-/* Sets m->surface, the strength surface of material m, from the strength that the key `key` gives. n: node of the key.
- * Returns REFUSED, with a message, for a strength that does not suit the tensile strength. */
+/* Sets m->surface, the strength surface of material m, from the strength that the key `key` gives. n: YAML node of the
+ * key. Returns REFUSED, with a message, for a strength that does not suit the tensile strength. */
 static status surface_from(struct reader *r, const struct yaml_node *n, const char *key, struct material *m)
 {
     const real tension = m->tensile_strength;
@@ -91,7 +91,7 @@ real scene_strength_surface_largest_horizon(const struct scene *s, const struct 
 }
 
 /* Returns REFUSED, with a message, if bonds of material m begin to soften alone, by their own stretch, before its
- * strength surface is reached in tension. n: node of the tensile strength. */
+ * strength surface is reached in tension. n: YAML node of the tensile strength. */
 static status check_first(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;

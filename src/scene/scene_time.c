@@ -175,8 +175,8 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
 }
 
 /* Reads the factor of time of the boundary condition b from the CSV file that `file: name` gives, with `column: name`
- * for the values. map: node of `time`. Opens no file if r->files is false. Returns REFUSED, with a message, for invalid
- * keys or files. */
+ * for the values. map: YAML node of `time`. Opens no file if r->files is false. Returns REFUSED, with a message, for
+ * invalid keys or files. */
 static status read_time_file(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     struct time_columns c = {.unit = unit_of_boundary(b)};
@@ -199,8 +199,8 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Reads the factor of time of the boundary condition `boundary`. function_node: node of `time`; NULL or `constant`: the
- * factor is 1. Returns REFUSED, with a message, for an unknown form or invalid values. */
+/* Reads the factor of time of the boundary condition `boundary`. function_node: YAML node of `time`; NULL or
+ * `constant`: the factor is 1. Returns REFUSED, with a message, for an unknown form or invalid values. */
 status read_time_function(struct reader *r, const struct yaml_node *function_node, struct boundary *boundary)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};

@@ -15,8 +15,8 @@ static const char *group_of_values(const struct key *k)
     return NULL;
 }
 
-/* Returns the key beside node n, in the same mapping with keys of `group`, whose own keys include that of n, as `point`
- * in {name: middle, point: {at: [..]}}; NULL if there is none. */
+/* Returns the key beside YAML node n, in the same mapping with keys of `group`, whose own keys include that of n, as
+ * `point` in {name: middle, point: {at: [..]}}; NULL if there is none. */
 static const struct yaml_node *owner_beside(const struct yaml_node *n, const char *group)
 {
     for (const struct yaml_node *c = n->parent ? n->parent->first : NULL; c; c = c->next) {
@@ -27,8 +27,8 @@ static const struct yaml_node *owner_beside(const struct yaml_node *n, const cha
     return NULL;
 }
 
-/* Writes the reason why node n, which is no key of the group `group`, is refused to text[capacity], with the key that
- * is probably meant if there is a similar one. */
+/* Writes the reason why YAML node n, which is no key of the group `group`, is refused to text[capacity], with the key
+ * that is probably meant if there is a similar one. */
 static void describe_unknown_key(const struct yaml_node *n, const char *group, char *text, size_t capacity)
 {
     char instead[400];

@@ -12,8 +12,8 @@
 
 /* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED, with the expected range in the message, if `value` [SI], read from node n, is outside the range of
- * key k. */
+/* Returns REFUSED, with the expected range in the message, if `value` [SI], read from YAML node n, is outside the
+ * range of key k. */
 static status check_range(struct reader *r, const struct key *k, const struct yaml_node *n, real value)
 {
     const struct range *range = &k->range;
@@ -54,8 +54,8 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
     return check_range(r, k, n, *value);
 }
 
-/* Reads an expression from node n into *value. Returns REFUSED, with a message, unless its value is a whole number to a
- * relative 1e-9. */
+/* Reads an expression from YAML node n into *value. Returns REFUSED, with a message, unless its value is a whole
+ * number to a relative 1e-9. */
 static status read_whole(struct reader *r, const struct yaml_node *n, real *value)
 {
     char what[256];
@@ -67,8 +67,8 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
     return fault(r, n, "%s is %g; give a whole number", node_text(r, n), number);
 }
 
-/* Reads a whole number from node n into *value. Returns REFUSED, with a message, for other texts and outside the range
- * of key k. */
+/* Reads a whole number from YAML node n into *value. Returns REFUSED, with a message, for other texts and outside the
+ * range of key k. */
 static status read_int(struct reader *r, const struct key *k, const struct yaml_node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
@@ -138,8 +138,8 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     return nearest;
 }
 
-/* Reads words of key k, `none` or `all` from node n into *bits, one bit per word. Returns REFUSED, with a message, for
- * other texts. */
+/* Reads words of key k, `none` or `all` from YAML node n into *bits, one bit per word. Returns REFUSED, with a
+ * message, for other texts. */
 static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
     const char *words = words_for_message(r, k->words);
@@ -162,7 +162,7 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
     return OK;
 }
 
-/* Reads any text from node n into text[capacity]. Returns REFUSED, with a message, if it is empty or too long. */
+/* Reads any text from YAML node n into text[capacity]. Returns REFUSED, with a message, if it is empty or too long. */
 static status read_any_text(struct reader *r, const struct yaml_node *n, char *text, size_t capacity)
 {
     const size_t length = strlen(n->text);
@@ -175,8 +175,8 @@ static status read_any_text(struct reader *r, const struct yaml_node *n, char *t
     return OK;
 }
 
-/* Reads a name of letters, digits, _ and - from node n into name[NAME_MAX_LENGTH]. Returns REFUSED, with a message, for
- * another text. */
+/* Reads a name of letters, digits, _ and - from YAML node n into name[NAME_MAX_LENGTH]. Returns REFUSED, with a
+ * message, for another text. */
 static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
@@ -217,8 +217,8 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     return OK;
 }
 
-/* Reads dim x dim numbers, as a list of rows or as one list, from node n into matrix[dim * dim], row by row, in the SI
- * unit of key k. Returns REFUSED, with a message, for another form. */
+/* Reads dim x dim numbers, as a list of rows or as one list, from YAML node n into matrix[dim * dim], row by row, in
+ * the SI unit of key k. Returns REFUSED, with a message, for another form. */
 static status read_matrix(struct reader *r, const struct key *k, const struct yaml_node *n, real *matrix)
 {
     int dim = r->dim, entry = 0;
@@ -235,7 +235,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
 
 enum { SERIES_MOST = 100000 }; /* largest number of values of a series */
 
-/* Reads a list of ascending numbers from node n, in the SI unit and range of key k, into *series, which the scene
+/* Reads a list of ascending numbers from YAML node n, in the SI unit and range of key k, into *series, which the scene
  * frees. Returns REFUSED, with a message, for another form. */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
@@ -254,15 +254,15 @@ static status read_series(struct reader *r, const struct key *k, const struct ya
 
 /* ---- references by name ------------------------------------------------------------------------------------------ */
 
-/* Returns REFUSED with the message that node n names no existing `what`, such as a material, and the most similar name,
- * `nearest`. */
+/* Returns REFUSED with the message that YAML node n names no existing `what`, such as a material, and the most similar
+ * name, `nearest`. */
 static status fault_reference(struct reader *r, const struct yaml_node *n, const char *what, const char *nearest)
 {
     return fault(r, n, "there is no %s %s; did you mean %s?", what, node_text(r, n), nearest);
 }
 
-/* Stores the index of the material that node n names in *index. Returns REFUSED, with the most similar name in the
- * message, if no material has this name. */
+/* Stores the index of the material that YAML node n names in *index. Returns REFUSED, with the most similar name in
+ * the message, if no material has this name. */
 static status scene_value_read_material(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;
@@ -276,8 +276,8 @@ static status scene_value_read_material(struct reader *r, const struct yaml_node
     return fault_reference(r, n, "material", m[nearest].name);
 }
 
-/* Stores the index of the body that node n names in *index. Returns REFUSED if it is rigid or, with the most similar
- * name in the message, if there is no such body. */
+/* Stores the index of the body that YAML node n names in *index. Returns REFUSED if it is rigid or, with the most
+ * similar name in the message, if there is no such body. */
 static status scene_value_read_body(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;
@@ -298,8 +298,8 @@ static status scene_value_read_body(struct reader *r, const struct yaml_node *n,
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the value of key k from node n into group_values, the structure of the group of k, by the type of k. Returns
- * REFUSED, with a message, for an invalid value. */
+/* Reads the value of key k from YAML node n into group_values, the structure of the group of k, by the type of k.
+ * Returns REFUSED, with a message, for an invalid value. */
 status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *group_values)
 {
     char none[16];
@@ -337,7 +337,7 @@ status read_value_of_key(struct reader *r, const struct key *k, const struct yam
 }
 
 /* Reads the default of key k into `base`, the structure of its group. Returns REFUSED if k is required and missing;
- * where: node whose location the message names. */
+ * where: YAML node whose location the message names. */
 static status read_fallback(struct reader *r, const struct yaml_node *where, const struct key *k, void *base)
 {
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};

@@ -26,7 +26,8 @@ static status figure_read(struct reader *r, const struct yaml_node *of, char *fi
 }
 
 /* Reads the key `accuracy`, a number or a mapping {of, within, budget}, into figure, within and budget of w; missing
- * entries get defaults. root: tree of the scene. Returns REFUSED, with a message, for invalid entries. */
+ * entries get defaults. root: YAML tree of the input file (scene). Returns REFUSED, with a message, for invalid
+ * entries. */
 static status accuracy_read(struct reader *r, const struct yaml_node *root, struct pilot_wish *w)
 {
     const struct yaml_node *n = tree_find(root, "accuracy");
@@ -52,8 +53,8 @@ struct provisional_method {
 
 /* Reads the scene in text[length], which has `method: auto`, into s with the method `with` instead. Pilot runs choose
  * method, solver, model and spacing later; here they get provisional values that do not contradict the other keys of
- * the scene. spacing: used if the scene has none [m]. Returns REFUSED, with a message and s freed, if the scene is
- * invalid. */
+ * the scene. spacing: used if the input file (scene) has none [m]. Returns REFUSED, with a message and s freed, if the
+ * scene is invalid. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s,
                                const struct provisional_method *with, real spacing)
 {
@@ -83,9 +84,9 @@ static status provisional_read(struct reader *r, const char *text, size_t length
 }
 
 /* Reads the scene in text[length], which has `method: auto`, into s with a provisional method: the first of three that
- * the scene allows. Tries method adaptive, which is refused for joined bodies; then method pd, which is refused for
- * some Poisson's ratios; then method pd with softening bonds of a state-based model. spacing: used if the scene has
- * none [m]. Returns REFUSED, with a message and s freed, if all are refused. */
+ * the input file (scene) allows. Tries method adaptive, which is refused for joined bodies; then method pd, which is
+ * refused for some Poisson's ratios; then method pd with softening bonds of a state-based model. spacing: used if the
+ * scene has none [m]. Returns REFUSED, with a message and s freed, if all are refused. */
 static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
 {
     static const struct provisional_method with[] = {{"adaptive", false}, {"pd", false}, {"pd", true}};
@@ -95,10 +96,11 @@ static status provisional_read_any(struct reader *r, const char *text, size_t le
     return read;
 }
 
-/* Reads the scene in text[length], which has `method: auto`, into s with a provisional method. If the scene has no
- * spacing (`given` is false), reads it with 1 m, computes from it a coarse spacing that resolves all its lengths, and
- * reads it again with that. *most: receives the largest spacing that suits the strengths of all materials [m]; INFINITY
- * without strengths or if the scene has a spacing. Returns REFUSED, with a message, if the scene is invalid. */
+/* Reads the scene in text[length], which has `method: auto`, into s with a provisional method. If the input file
+ * (scene) has no spacing (`given` is false), reads it with 1 m, computes from it a coarse spacing that resolves all
+ * its lengths, and reads it again with that. *most: receives the largest spacing that suits the strengths of all
+ * materials [m]; INFINITY without strengths or if the scene has a spacing. Returns REFUSED, with a message, if the
+ * scene is invalid. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given,
                                 real *most)
 {
@@ -122,8 +124,8 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Reads into *requirements what a scene with `method: auto` requires of its pilot runs (runs that choose method and
- * spacing). root: tree of the scene; text[length]: its text. Returns REFUSED, with a message, for an invalid scene, and
- * for one with load steps. */
+ * spacing). root: YAML tree of the input file (scene); text[length]: its text. Returns REFUSED, with a message, for an
+ * invalid scene, and for one with load steps. */
 status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                                struct pilot_wish *requirements)
 {

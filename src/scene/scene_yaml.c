@@ -59,8 +59,8 @@ static status next_event(struct parse *p, yaml_event_t *event)
     return fault_at(p, mark, "the scene has more than 1000000 YAML items; put long data into a particle list");
 }
 
-/* Returns a message if the event e of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character, or
- * nesting of more than DEPTH_MOST levels. Returns NULL if it is allowed. depth: levels of nesting. */
+/* Returns a message if the event e of libyaml is not allowed in an input file (scene): an alias, anchor or tag, a NUL
+ * character, or nesting of more than DEPTH_MOST levels. Returns NULL if it is allowed. depth: levels of nesting. */
 static const char *event_refusal(const yaml_event_t *e, int depth)
 {
     const yaml_char_t *anchor = NULL, *tag = NULL;

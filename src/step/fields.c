@@ -195,8 +195,8 @@ static uint8_t *cell_levels_make(const struct reference_frame *frame, const stru
 }
 
 /* Returns the coarsening level of every point that represents a coarse cell of `frame` in output, one entry per point.
- * The spacing doubles from level to level; level 0 has the spacing of the scene. The caller frees the array with
- * memory_free. */
+ * The spacing doubles from level to level; level 0 has the spacing that the input file (scene) gives. The caller frees
+ * the array with memory_free. */
 static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
 {
     uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);
@@ -207,9 +207,9 @@ static uint8_t *point_levels_make(const struct reference_frame *frame, const str
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the fields of a frame of run e that particles do not store (strain, density, plastic work, level of cells)
- * and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as
- * bits ASK_... (output/output.h). Release them with frame_fields_free. */
+/* Computes the fields of an output frame of run e that particles do not store (strain, density, plastic work, level of
+ * cells) and stores pointers to them in *extra, from which the frame is written. requested_field_bits: set of these
+ * fields, as bits ASK_... (output/output.h). Release them with frame_fields_free. */
 void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra)
 {
     extra->asked = requested_field_bits, extra->material = e->scene->material, extra->space = e->scene->space;

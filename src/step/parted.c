@@ -28,7 +28,8 @@ const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape)
     return NULL;
 }
 
-/* Returns true if point i is on the grid of the current frame and its material (of scene s) yields. */
+/* Returns true if point i is on the grid of the current frame (background grid) and its material (of scene s) yields.
+ */
 static bool flows_on_grid(const struct particles *p, const struct scene *s, int64_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED) && material_yields(&s->material[p->material[i]]);

@@ -50,9 +50,9 @@ int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock 
 }
 
 /* Returns the step after which frame k (from 0) of the whole body is written. It is the step nearest to the time that
- * the scene s gives for the frame, or one of evenly spread steps if the scene gives no times. If frames are closer
- * together than the steps, some are written at later or earlier steps, so that each frame has a step of its own. clock:
- * number and length of steps. */
+ * the scene s gives for the frame, or one of evenly spread steps if the input file (scene) gives no times. If frames
+ * are closer together than the steps, some are written at later or earlier steps, so that each output frame has a step
+ * of its own. clock: number and length of steps. */
 int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
@@ -101,16 +101,16 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
     return s;
 }
 
-/* Returns true if frame number `frames` (from 0) of the whole body is due after `step` steps. s: times of frames;
- * clock: number and length of steps. */
+/* Returns true if frame number `frames` (from 0; a frame is an output file of one time) of the whole body is to be
+ * written after `step` steps. s: times of frames; clock: number and length of steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
     return frames <= report_frame_count_of_run(s, clock) && step >= report_step_number_of_frame(s, clock, frames);
 }
 
-/* Returns true if frame number `frames` (from 0) of a region is due after `step` steps. Frames are written every
- * `every` [s] and at the end of the run; of several frames that are due in one step only one is written. duration:
- * duration of the run [s]. clock: number and length of steps. */
+/* Returns true if frame number `frames` (from 0; a frame is an output file of one time) of a region is to be written
+ * after `step` steps. Frames are written every `every` [s] and at the end of the run; if several fall into one step,
+ * only one is written. duration: duration of the run [s]; clock: number and length of steps. */
 static bool region_frame_due(const struct run_clock *clock, real every, real duration, int frames, int64_t step)
 {
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
@@ -131,16 +131,17 @@ unsigned report_bits_of_frame_series_due(const struct output *out, const struct 
     return due;
 }
 
-/* Returns the fields that the frames of series k contain, as bits ASK_... (output/output.h): the fields given for the
- * series, else those of the scene. Series 0 is the whole body; series 1, 2, .. are regions. */
+/* Returns the fields that the output frames of series k contain, as bits ASK_... (output/output.h): the fields given
+ * for the series, else those of the scene. Series 0 is the whole body; series 1, 2, .. are regions. */
 static unsigned asked_of(const struct scene *scene, int k)
 {
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame of run e of each series of frames in `due`, and for the body also rigid bodies and profiles. due:
- * series whose time of output has come, as bits: bit 0 for the whole body, bit k for region k. Frames at t = 0 have no
- * contact forces. Returns FAILED, with a message, if a value is not finite or a file cannot be written. */
+/* Writes a frame (output file of one time) of run e for each series of frames in `due`, and for the body also rigid
+ * bodies and profiles. due: series of which a frame is to be written now, as bits: bit 0 for the whole body, bit k for
+ * region k. Frames at t = 0 have no contact forces. Returns FAILED, with a message, if a value is not finite or a file
+ * cannot be written. */
 static status write_frames(struct run *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_can_crack(e->scene);
@@ -175,8 +176,8 @@ static status write_frames(struct run *e, unsigned due)
     return s == OK && due & 1 ? profiles_write_csv_files(&e->probing->probes, out, &seen) : s;
 }
 
-/* Writes a checkpoint of the run and adds the time that this took to e->report, without the time of waiting for a
- * frame. Returns FAILED, with a message, if the file cannot be written. */
+/* Writes a checkpoint of the run and adds the time that this took to e->report, without the time of waiting for an
+ * output frame. Returns FAILED, with a message, if the file cannot be written. */
 static status write_checkpoint(struct run *e)
 {
     struct run_report *r = e->report;
@@ -191,10 +192,10 @@ static status write_checkpoint(struct run *e)
     return OK;
 }
 
-/* Returns true if a checkpoint is due after a time step or load step. If the scene gives an interval, the checkpoint is
- * due after this time, and after every load step. Otherwise it is due after CHECKPOINT_SECONDS, or after a load step,
- * but only if checkpoints so far took less than the share CHECKPOINT_SHARE of the run time. r: times of earlier
- * checkpoints; s: scene. */
+/* Returns true if a checkpoint is to be written after a time step or load step. If the input file (scene) gives an
+ * interval, it is written after this time, and after every load step. Otherwise it is written after
+ * CHECKPOINT_SECONDS, or after a load step, but only if checkpoints so far took less than the share CHECKPOINT_SHARE
+ * of the run time. r: times of earlier checkpoints; s: scene. */
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
     const bool in_steps = scene_has_load_steps(s);
@@ -212,9 +213,9 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
     return wall_clock_seconds() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
-/* Adds warnings to `to` and prints them, for frames and profiles that a resumed run should have, but whose files are
- * missing. out: output of the run; probes: probes with profiles. Returns FAILED, with a message, if the list of frames
- * cannot be read. */
+/* Adds warnings to `to` and prints them, for output frames and profiles that a resumed run should have, but whose
+ * files are missing. out: output of the run; probes: probes with profiles. Returns FAILED, with a message, if the list
+ * of frames cannot be read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[2 * PATH_NAME_ROOM + 300];

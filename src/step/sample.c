@@ -182,8 +182,8 @@ static real kinetic_now(const struct particles *p, const struct reference_frame 
     return particles_kinetic_energy(p) + reference_frame_kinetic_energy(reference);
 }
 
-/* Stores the grids of the reference frame and of its coarse cells, whose nodes carry momentum, in nodes[]. Returns the
- * number of grids. */
+/* Stores the meshes of the undeformed body, whose nodes carry momentum, in nodes[]: the grid of the finest cells, then
+ * those of the coarse cells. frame: the meshes. Returns the number of grids. */
 static int meshes(const struct reference_frame *frame, const struct grid *nodes[LEVELS_MAX + 1])
 {
     const struct mesh_levels *levels = &frame->levels;
@@ -200,17 +200,17 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     particles_linear_momentum(p, nodes, grids, momentum, NULL);
 }
 
-/* Replaces momentum[dim], the momentum after the step [kg m/s], by the momentum at the time t [s] of a sample, by
- * interpolation from s->momentum before t. now->t: time of the velocities after the step [s]; now->scale: factor on the
- * result. */
+/* Replaces momentum[dim], the momentum after the step [kg m/s], by the momentum at the time t [s] of a sample, which
+ * is between two velocity updates: interpolates linearly between it and s->momentum, the momentum before the step.
+ * now->t: time of the velocities after the step [s]; now->scale: factor on the result. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
     for (int d = 0; d < dim; d++) momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * momentum[d]);
 }
 
-/* Samples stress, momentum, crack tips and probes of run e at the present positions: all quantities of a sample except
- * energies. */
+/* Records stress, momentum, crack tips and probes of run e at the present positions: all quantities of a sample (the
+ * values that a line of history.csv has) except energies. */
 static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
@@ -234,8 +234,8 @@ real sample_current_elastic_energy(struct run *e)
            reference_frame_strain_energy(e->frame, &e->part);
 }
 
-/* Computes the energies of a sample at the present positions, except the kinetic energy, in e->report->sampling.energy
- * [J]. */
+/* Computes the energies of a sample (a line of history.csv) of run e at the present positions, except the kinetic
+ * energy, in e->report->sampling.energy [J]. */
 static void sample_energies(struct run *e)
 {
     const struct material *m = e->scene->material;
@@ -253,8 +253,9 @@ static void sample_energies(struct run *e)
     probes_sample_energies(&e->probing->probes, &o);
 }
 
-/* Completes a sample of run e with what requires velocities after the step, and writes its line of history.csv. now:
- * time of these velocities and factor on them; kinetic, work: energy and external work of the sample [J]. */
+/* Completes a sample of run e with the quantities that require velocities after the step, and writes it as a line of
+ * history.csv. now: time of these velocities and factor on them; kinetic, work: kinetic energy and external work of
+ * the sample [J]. */
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
@@ -275,8 +276,8 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
         e->report->history_status = output_write_history(e->report->out, e->report->record);
 }
 
-/* Copies the velocities at the start of a step to sampling->before if the grid moves particles. Samples need them for
- * energies, since the grid changes velocities without forces on particles. kind: coupling method. */
+/* Copies the velocities of p at the start of a step to sampling->before if the grid moves particles. The energies of
+ * samples need them, since the grid changes velocities without forces on particles. kind: coupling method. */
 static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
 {
     if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
@@ -286,8 +287,9 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the correction of the kinetic energy of a sample of run e [J]: mean of m v^2/2 before and after the velocity
- * update of the step, minus m v_before . v_after/2. Absorbing dashpots, which act during the update, are left out. */
+/* Returns the correction that a sample of run e subtracts from the kinetic energy [J]: the mean of m v^2/2 before and
+ * after the velocity update of the step, minus m v_before . v_after/2, the value that leap-frog conserves. Absorbing
+ * dashpots, which act during the update, are left out. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
@@ -377,7 +379,8 @@ void sample_take_in_equilibrium(struct run *e)
                  e->loads.work + e->loads.constraint_work + rigids_compute_energy(e->rigid, e->clock.dt).work);
 }
 
-/* Returns the power v . f [W] of the forces on particles that bonds move and on nodes of the reference frame. */
+/* Returns the power v . f [W] of the forces on those particles p that bonds move, and on the nodes of the mesh of the
+ * undeformed body in `reference`, coarse cells included. */
 static real power_now(const struct particles *p, const struct reference_frame *reference)
 {
     const struct grid *g = &reference->mesh.grid;
@@ -415,8 +418,9 @@ static void reactions_add(struct loads *l, const struct grid *g)
         l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
 }
 
-/* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads in l [N], after
- * those on particles. grid: grids of the current frame; NULL: no particle is on them. clock: step and its number. */
+/* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads in l [N],
+ * after those on particles. grid: grids of the current frame (background grid of material points), or NULL if no
+ * particle is on them; frame: mesh of the reference frame; clock: time step and its number. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -427,10 +431,10 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Returns the power v . f [W] of the forces at the end of the run. These are computed as in a further step, but nothing
- * moves, no bond breaks, and the loads keep their sums of energies and impulses; only reactions are updated. The power
- * includes the work on particles with prescribed motion, not that on nodes. *held: receives the work that grid and mesh
- * nodes with prescribed motion would do in this step [J]. */
+/* Returns the power v . f [W] of the forces at the end of run e. The forces are computed as in a further step, in
+ * which nothing moves, no bond breaks, and the loads keep their sums of energies and impulses; only reactions are
+ * updated. The power includes the work on particles with prescribed motion, not that on nodes. *held: receives the
+ * work that grid and mesh nodes with prescribed motion would do in this step [J]. */
 static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
@@ -457,8 +461,9 @@ static real power_last(struct run *e, real *held)
     return power - walls;
 }
 
-/* Takes the sample of run e after the last step and writes its line of history.csv. As in all samples, the kinetic
- * energy is m v- . v+/2, with the velocities v- and v+ before and after a velocity update, here by the last forces. */
+/* Writes the last line of history.csv (a sample of energies, probes and crack tips) of run e after the last step. As
+ * in all lines, the kinetic energy is m v- . v+/2, with the velocities v- and v+ before and after a velocity update,
+ * here by the last forces. */
 void sample_take_after_last_step(struct run *e)
 {
     real held = 0;

@@ -80,8 +80,8 @@ static real closing_speed(const struct scene *s, int a, int b)
     return speed > 0 && gap <= speed * s->duration ? speed : 0;
 }
 
-/* Returns advice, as text, for a scene s whose stress oscillates behind a front: bulk viscosity, or what the scene must
- * change so that viscosity is possible. */
+/* Returns advice, as text, for a scene s whose stress oscillates behind a front: bulk viscosity, or what the input
+ * file (scene) must change so that viscosity is possible. */
 static const char *remedy_of(const struct scene *s)
 {
     if (s->space == SPACE_PLANE_STRESS)

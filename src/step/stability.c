@@ -31,8 +31,9 @@ enum { MOMENTS = 256 };        /* number of times at which a function of time is
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the largest present speed of peridynamic particles and of material points on the grid [m/s]. For nodes of the
- * reference frame, the largest magnitude of a velocity component is used instead of the speed. */
+/* Returns the largest present speed of peridynamic particles and of material points on the grid [m/s]. For nodes of
+ * the reference frame (mesh of the undeformed body), the largest magnitude of a velocity component is used instead of
+ * the speed. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
     const real moving = real_max(particles_largest_speed_of_list(p, p->list[KIND_PD], p->n_of[KIND_PD]),

@@ -20,8 +20,8 @@
 /* Quantities that the phases of one time step share. */
 struct step {
     real middle;               /* t + dt/2 [s] */
-    real decay, share;         /* c dt of bulk damping, and its factor exp(-c dt/2) of the kick [1] */
-    real dt_velocity;          /* length of the kick of velocities: dt times share, half of it in the first step [s] */
+    real decay, share;         /* c dt of bulk damping, its factor exp(-c dt/2) on velocity updates [1] */
+    real dt_velocity;          /* duration of the velocity update: dt times share, half of it at first [s] */
     struct pd_motion motion;   /* motion of peridynamic particles */
     bool damps;                /* interface damping acts in this step */
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
@@ -72,7 +72,8 @@ static status sort(struct run *e)
 
 /* Damps the velocities of points of run e in the interface zone (material points near peridynamic particles), before
  * the forces of the step are computed. Adds the first half of the energy that this removes to e->damped; the second
- * half is added when the velocities after the step are known. Sets now->damps to true if the scene has such damping. */
+ * half is added when the velocities after the step are known. Sets now->damps to true if the input file (scene) has
+ * such damping. */
 static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
@@ -166,8 +167,8 @@ static status move_grid(struct run *e, const struct step *now)
     return OK;
 }
 
-/* Computes the forces on nodes of the bodies of run e in the reference frame and moves these nodes. Does nothing
- * without such bodies. now: quantities of this step. */
+/* Computes the forces on nodes of the bodies of run e in the reference frame (mesh of the undeformed body) and moves
+ * these nodes. Does nothing without such bodies. now: quantities of this step. */
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;

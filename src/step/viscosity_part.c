@@ -68,8 +68,8 @@ static void bond_push(const struct material *material, const struct particles *p
     for (int d = 0; d < p->dim; d++) f[d] -= stiffness * bond->w * strain * span[d] / length;
 }
 
-/* Adds the viscous forces of bonds to the forces on particles, and the energy that they have dissipated since the
- * previous step to v->taken. half: half of the time step, 0 in the first step [s]. */
+/* Adds the viscous forces of the bonds b to the forces on particles p, and the energy that they have dissipated since
+ * the previous step to v->taken. half: half of the time step, 0 in the first step [s]. */
 static void bonds_push(struct viscosity *v, const struct bonds *b, struct particles *p, real half)
 {
 #pragma omp parallel for schedule(static)
@@ -160,10 +160,10 @@ static real invert_gradient(const real *F, int dim, real *inverse)
     return J;
 }
 
-/* Replaces the displacement gradient H[dim dim][i] of point i of p, in a mesh, by volume0 J q F^-T [N m], with the
- * viscous pressure q and the determinant J of F = 1 + H. Multiplied by the gradients of the shape functions, this
- * tensor gives the viscous forces on nodes. v: materials and cell edge; partial: shares of the stress of points that
- * bonds carry; G: velocity gradients, [dim dim][points] [1/s]. */
+/* Replaces the displacement gradient H[dim dim][i] of point i of p, in a mesh, by volume0 J q F^-T [N m], where q is
+ * the viscous pressure, F = 1 + H and J = det F. Multiplied by the gradients of the shape functions, this tensor gives
+ * the viscous forces on nodes. v: materials and cell edge; partial: shares of the stress of points that bonds carry;
+ * G: velocity gradients, [dim dim][points] [1/s]. */
 static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                            int64_t i, real *const *H, real *const *G)
 {
@@ -222,8 +222,9 @@ static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
         if (mesh->kind[I] && cell_colour(mesh, I) == colours) cell_push(mesh, I, P, f);
 }
 
-/* Adds the viscous forces f[dim][g->n] [N] to the forces on the nodes of g, and the energy that they have dissipated
- * since the previous step to v->taken. half: half of the time step, 0 in the first step [s]. */
+/* Adds the viscous forces f[dim][g->n] [N] of this step to the forces on the nodes of g, and adds the energy that they
+ * have dissipated since the previous step to v->taken, by the trapezoidal rule with the stored forces of the previous
+ * step. half: half of the time step, 0 in the first step [s]. */
 static void nodes_book(struct viscosity *v, const struct grid *g, real half, real *const *f)
 {
     real *work = NEW("viscosity.node_work", g->n, real);

@@ -292,8 +292,9 @@ static void longest_free(struct longest *l)
     memory_free(l->tip);
 }
 
-/* Computes the mean position of the crack tip of position i of *l, over all its positions whose crack was at most
- * `reach` shorter or longer, into at[2] [m]. Near the ends of its path the reach is smaller, so that the ends stay. */
+/* Smooths the drawn crack path: computes the mean of all positions of the crack tip to which position i of *l belongs
+ * at which the crack was at most `reach` [m] shorter or longer, into at[2] [m]. Near the ends of the path the reach is
+ * smaller, so that the ends do not move. */
 static void path_mean(const struct longest *l, int64_t i, double reach, double *at)
 {
     double first = INFINITY, last = -INFINITY, sum[2] = {0};

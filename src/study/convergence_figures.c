@@ -106,7 +106,8 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
 }
 
 /* Returns true if the result f (a number in summary.json) differs between the spacing levels or the runs of a study.
- * Energies of mechanisms that the scene does not have are an example of constant results, which are not reported. */
+ * Energies of mechanisms that the input file (scene) does not have are an example of constant results, which are not
+ * reported. */
 static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;

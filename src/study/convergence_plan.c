@@ -25,8 +25,8 @@ struct places {
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
 /* Appends |distance|, the distance of a face or crack from the corner of its body [m], to the list *p if it fits the
- * lattice of the scene: if it is n or n + 1/2 spacings, with a whole number n. Ignores other distances, distances below
- * one spacing and duplicates. spacing: particle spacing of the scene [m]. */
+ * lattice of the scene: if it is n or n + 1/2 spacings, with a whole number n. Ignores other distances, distances
+ * below one spacing and duplicates. spacing: particle spacing that the input file (scene) gives [m]. */
 static void place_add(struct places *p, double distance, double spacing)
 {
     const double at = fabs(distance) / spacing, off = fabs(at - round(at));
@@ -64,7 +64,7 @@ static void places_find(struct places *p, const struct scene *s)
 
 /* Returns by how much faces and cracks miss the lattice if the spacing is `spacing` [m]: the largest deviation of the
  * distances in p from a whole number of spacings [spacings]. Distances that are a whole number plus one half at the
- * spacing of the scene are compared with such numbers. */
+ * spacing that the input file (scene) gives are compared with such numbers. */
 static double misfit(const struct places *p, double spacing)
 {
     double worst = 0;

@@ -43,8 +43,9 @@ static double spacing_in_turn(const struct convergence_study *s, int level, int 
 
 static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* Returns the horizon of runs with the spacing `spacing` [m], as a number of spacings: the number of the scene or, if
- * s->fixed_horizon is true, the number at which the horizon has the same length [m] as at the coarsest level. */
+/* Returns the horizon of runs with the spacing `spacing` [m], as a number of spacings: the number that the input file
+ * (scene) gives or, if s->fixed_horizon is true, the number at which the horizon has the same length [m] as at the
+ * coarsest level. */
 static double horizon_at(const struct convergence_study *s, double spacing)
 {
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
@@ -160,10 +161,10 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* Makes the first run of the study s that the request w demands, at the coarsest spacing level, and stores its duration
- * in s->spent. The durations of the other runs are predicted from it. Sets *refused to true if the scene is invalid at
- * this spacing, for example because the integration rings of probes become too narrow. Returns REFUSED, with a message,
- * if the run exceeds the budget, FAILED if it fails. */
+/* Makes the first run of the study s that the request w demands, at the coarsest spacing level, and stores its
+ * duration in s->spent. The durations of the other runs are predicted from it. Sets *refused to true if the input file
+ * (scene) is invalid at this spacing, for example because the integration rings of probes become too narrow. Returns
+ * REFUSED, with a message, if the run exceeds the budget, FAILED if it fails. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -204,9 +205,9 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
 }
 
 /* Makes the first run of the study s, which the request w demands, at the coarsest spacing level (first_run). If the
- * scene is invalid at that spacing, refines all levels and tries again, at most FINER_MOST times. Stores the largest
- * spacing that was invalid in s->refused, INFINITY if none was. Returns the status of the last try: OK, REFUSED, FAILED
- * or INTERRUPTED. */
+ * input file (scene) is invalid at that spacing, refines all levels and tries again, at most FINER_MOST times. Stores
+ * the largest spacing that was invalid in s->refused, INFINITY if none was. Returns the status of the last try: OK,
+ * REFUSED, FAILED or INTERRUPTED. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;
@@ -223,9 +224,9 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans the spacing levels of a study as the request w demands, in s->spacings. The finest level has the spacing of the
- * scene times 2^(shift/2), so that the scene's own spacing is among the levels if shift is at most 0. Omits levels at
- * which the scene is invalid. Returns false if no valid plan results. */
+/* Plans the spacing levels of a study as the request w demands, in s->spacings. The finest level has the spacing that
+ * the input file (scene) gives times 2^(shift/2), so that the scene's own spacing is among the levels if shift is at
+ * most 0. Omits levels at which the scene is invalid. Returns false if no valid plan results. */
 static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);

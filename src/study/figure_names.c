@@ -18,10 +18,10 @@ static bool of_contact(const struct scene *s) { return s->contact_between != CON
 /* Returns true if summary.json of runs of the scene s contains numbers on fragments. */
 static bool of_fragments(const struct scene *s) { return scene_is_dynamic(s) && scene_can_crack(s); }
 
-/* Names of the numbers in summary.json, grouped by the part of the name before the last point. group: this part, with #
- * in place of whole numbers; "" for names without a point; leaves: possible parts after the last point, separated by
- * blanks; had: returns true if runs of scene s have these numbers, NULL: all runs have them; needs: what the scene
- * requires to have them, for messages. */
+/* Names of the numbers in summary.json, grouped by the part of the name before the last point. group: this part, with
+ * # in place of whole numbers; "" for names without a point; leaves: possible parts after the last point, separated by
+ * blanks; had: returns true if runs of scene s have these numbers, NULL: all runs have them; needs: what the input
+ * file (scene) requires to have them, for messages. */
 static const struct figure_group {
     const char *group, *leaves;
     bool (*had)(const struct scene *s);

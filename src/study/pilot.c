@@ -100,9 +100,9 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
 }
 
 /* Makes one convergence study of every candidate method of the search p. The studies together take the share
- * PILOT_FIRST_SHARE of the time that is left, in equal parts. If the scene is invalid at the spacing of a study, the
- * study is repeated at finer spacings. Returns OK even if a method fails (its reason is stored), INTERRUPTED after a
- * stop signal, or REFUSED, with a message, if the runs lack the requested result. */
+ * PILOT_FIRST_SHARE of the time that is left, in equal parts. If the input file (scene) is invalid at the spacing of a
+ * study, the study is repeated at finer spacings. Returns OK even if a method fails (its reason is stored),
+ * INTERRUPTED after a stop signal, or REFUSED, with a message, if the runs lack the requested result. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;

@@ -9,9 +9,9 @@
 
 /* ---- the result -------------------------------------------------------------------------------------------------- */
 
-/* Returns the result (a number in summary.json) by which pilot runs are judged if the scene names none. Of the array
- * figure[figures] it is the first result of a probe that is larger than its uncertainty; else the time at which cracks
- * start; else the largest energy; NULL if these are missing, too. */
+/* Returns the result (a number in summary.json) by which pilot runs are judged if the input file (scene) names none.
+ * Of the array figure[figures] it is the first result of a probe that is larger than its uncertainty; else the time at
+ * which cracks start; else the largest energy; NULL if these are missing, too. */
 static const struct scalar_result_study *figure_usual(const struct scalar_result_study *figure, int figures)
 {
     const struct scalar_result_study *start = NULL, *energy = NULL;

@@ -32,8 +32,8 @@ static void candidate_add(struct pilot_search *p, const char *name, const char *
 static bool may_crack(const struct scene *s) { return scene_bonds_break(s) || s->growths > 0; }
 
 /* Lists in p->at the methods that are applicable to the scene: material points unless bonds are required, peridynamics
- * with bonds or with state-based neighbourhoods, and adaptive runs if bonds can break or the scene has a peridynamic
- * region. */
+ * with bonds or with state-based neighbourhoods, and adaptive runs if bonds can break or the input file (scene) has a
+ * peridynamic region. */
 static void candidates_find(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;

@@ -104,9 +104,10 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
 /* First line of the file STUDY_SCENE, by which Cleave recognises it. */
 static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
-/* Reads the text of the scene of a study from the file `path`, without the first lines, which mark the file as that of
- * a study and store options. Files of an earlier format begin with the scene itself, in the form in which Cleave writes
- * scenes. Returns NULL if there is no file or it begins with neither. The caller releases the text with memory_free. */
+/* Reads the text of the input file (scene) of a study from the file `path`, without the first lines, which mark the
+ * file as that of a study and store options. Files of an earlier format begin with the scene itself, in the form in
+ * which Cleave writes scenes. Returns NULL if there is no file or it begins with neither. The caller releases the text
+ * with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;
@@ -328,10 +329,10 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
     return OK;
 }
 
-/* Determines the state of run number `number` of the study before any run starts: CASE_SAME if its scene equals that of
- * an earlier run, CASE_DONE_BEFORE if its folder contains its results already. collect: true to mark runs that failed
- * before as failed, false to run them again; seen: scenes of the runs checked before. Returns REFUSED, with a message,
- * if the scene is invalid. */
+/* Determines the state of run number `number` of the study before any run starts: CASE_SAME if its scene equals that
+ * of an earlier run, CASE_DONE_BEFORE if its folder contains its results already. collect: true to mark runs that
+ * failed before as failed, false to run them again; seen: scenes of the runs checked before. Returns REFUSED, with a
+ * message, if the input file (scene) is invalid. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];
