@@ -95,9 +95,9 @@ struct scaled_cell {
     int n;
 };
 
-/* Computes y[n] = m^-1/2 K m^-1/2 x for one cell and a vector x[n], with its stiffness K and the lumped masses m of its
- * corners, column by column in whole vectors. context: the scaled matrix, a struct scaled_cell. largest_eigenvalue
- * calls it. */
+/* Computes y[n] = m^-1/2 K m^-1/2 x for one cell and a vector x[n], with its stiffness K and the lumped masses m of
+ * its corners. Loops over columns, so that the inner loop uses vector instructions. context: the scaled matrix, a
+ * struct scaled_cell. largest_eigenvalue calls it. */
 static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled_cell *c = context;

@@ -82,9 +82,9 @@ static void job_drop_contact(struct frame_job *job)
     if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
 }
 
-/* Chooses the particles file (the data that do not change from output frame to frame) to which the frame of `job`
- * links. It is the last particles file of the series of frames, or a new one if its contents would differ. source:
- * data of the frame; scene_text: text of the input file (scene), which the file contains. */
+/* Chooses the particles file to which the output frame of `job` links; it has the data that do not change from frame
+ * to frame. It is the last particles file of the series of frames, or a new one if its contents would differ. source:
+ * data of the frame; scene_text: text of the input file (scene), which the particles file contains. */
 static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
 {
     struct frame_series *s = job->series;

@@ -21,8 +21,8 @@ void particles_file_name(const struct frame_series *series, char *name, size_t c
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if field number k (FIELD_*) is in the particles file f, as its values do not change from output frame
- * to frame. */
+/* Returns true if field number k (FIELD_*) is in f, the particles file, because its values do not change from one
+ * output frame to the next. */
 static bool is_inside(const struct particles_file *f, int k) { return f->fields >> k & 1 && frame_fields[k].fixed; }
 
 /* Returns the size of all rows of field number k (FIELD_*) in the particles file f [byte]. */

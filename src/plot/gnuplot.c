@@ -256,8 +256,9 @@ static size_t break_of(const char *text)
     return best;
 }
 
-/* Writes the first `length` bytes of `text`, a line of a title, to part[TITLE_ROOM]; if their width exceeds `most`, as
- * many bytes as fit before `...`. most: largest width [pixel] divided by the size of the letters in points. */
+/* Writes the first `length` bytes of `text`, a line of a title, to part[TITLE_ROOM]. If they are wider than `most`,
+ * writes as many as fit, followed by `...`. most: largest width [pixel] divided by the size of the letters in points.
+ */
 static void write_title_line(char *part, const char *text, size_t length, double most)
 {
     const bool cut = text_width(text, length) > most;

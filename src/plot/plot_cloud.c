@@ -210,8 +210,8 @@ static double along(const double *direction, const double *x)
     return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
 }
 
-/* Appends particle i of the output frame f to the cloud c: its drawn position and its reference position along the
- * axes of the map. Extends the bounding box of the cloud by the reference position. */
+/* Appends particle i of the output frame f to c, the drawn particles: its drawn position and its reference position
+ * along the axes of the map. Extends the bounding box of the cloud by the reference position. */
 static void cloud_place(struct plotted_particles *c, const struct output_frame *f, int64_t i)
 {
     const int64_t k = c->n;
@@ -228,7 +228,7 @@ static void cloud_place(struct plotted_particles *c, const struct output_frame *
     }
 }
 
-/* Copies the planes of symmetry of the scene s to the cloud c; s may be NULL: there are none. */
+/* Copies the planes of symmetry of the scene s to c, the drawn particles; s may be NULL: there are none. */
 static void cloud_copy_mirrors(struct plotted_particles *c, const struct scene *s)
 {
     for (int b = 0; s && b < s->boundaries && c->mirrors < MIRRORS_SHOWN_MOST; b++)

@@ -215,7 +215,7 @@ static void write_energy(FILE *to, const struct energies *e, int k)
 
 /* Plots all selected energies, and as a dashed line their sum without the external work. The external work, which the
  * sum covers where the energy balance closes, is a broad band below all other curves. A kinetic energy from which the
- * start is subtracted is named so in the key, and its start is missing in the sum, too. */
+ * start is subtracted is named so in the key (legend), and its start is missing in the sum, too. */
 static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);

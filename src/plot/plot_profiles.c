@@ -72,8 +72,9 @@ static void profiles_free(struct bar_profile *profile, int profiles)
 
 static double station_number(const struct station *s, int column) { return column < 0 ? s->x : s->value[column]; }
 
-/* Returns the range of the position (column -1) or of value number `column` in profile[profiles]. Loose particles (of
- * pieces of at most LOOSE_MOST particles) count only if there are no others, or if `loose` is true. */
+/* Returns the range of one quantity in profile[profiles]: of the position for column -1, else of value number
+ * `column`. Loose particles (of pieces of at most LOOSE_MOST particles) count only if there are no others, or if
+ * `loose` is true. */
 static struct value_range profiles_range(const struct bar_profile *profile, int profiles, int column, bool loose)
 {
     struct value_range e = {INFINITY, -INFINITY};
@@ -169,7 +170,7 @@ static bool profile_has_loose(const struct bar_profile *p)
 /* Returns the largest absolute value in the range `of`. */
 static double range_magnitude(struct value_range of) { return fmax(fabs(of.low), fabs(of.high)); }
 
-/* Writes the label of profile p in the key to label[]: its load step, or its time in the unit `second`. */
+/* Writes the label of profile p in the key (legend) to label[]: its load step, or its time in the unit `second`. */
 static void profile_write_label(char label[NAME_MAX_LENGTH], const struct bar_profile *p, const struct unit *second)
 {
     if (p->label[0])
@@ -178,7 +179,7 @@ static void profile_write_label(char label[NAME_MAX_LENGTH], const struct bar_pr
         snprintf(label, NAME_MAX_LENGTH, "%.3g %s", p->t / second->factor, second->name);
 }
 
-/* Returns the number of letters of the longest label in the key of profile[profiles]. */
+/* Returns the number of letters of the longest label in the key (legend) of profile[profiles]. */
 static size_t longest_label(const struct bar_profile *profile, int profiles)
 {
     size_t longest = TIME_LETTERS;
@@ -187,7 +188,7 @@ static size_t longest_label(const struct bar_profile *profile, int profiles)
 }
 
 /* Writes the gnuplot command that plots value number `column` of profile[profiles] against the position to `to`, each
- * profile with its time in the key. */
+ * profile with its time in the key (legend). */
 static void plot_profiles(FILE *to, const struct bar_profile *profile, int profiles, int column)
 {
     struct unit second = unit_for_largest_value(profile[profiles - 1].t, "s");

@@ -203,9 +203,9 @@ static bool one_axis(const struct reactions *r, bool force)
     return one;
 }
 
-/* Chooses the signs of the curves r such that they begin in the first quadrant. The force on a rigid body is opposite
- * to that of a support, which acts along the motion. Curves along several axes keep the signs of the history h, and the
- * axis is added to their names. */
+/* Chooses the signs of the curves r such that they begin with positive force and displacement. The force on a rigid
+ * body is opposite to that of a support, which acts along the motion. If curves have different axes, keeps the signs
+ * of the history h and adds the axis to their names. */
 static void reactions_choose_signs(struct reactions *r, const struct history *h)
 {
     const bool one = one_axis(r, true) && one_axis(r, false);
@@ -228,8 +228,8 @@ static void range_extend(struct value_range *range, double value)
     range->low = fmin(range->low, value), range->high = fmax(range->high, value);
 }
 
-/* Computes the ends of the axes in r from the values in the history h. Motion after the force has ended is left out
- * where it would fill most of the axis. */
+/* Computes the ends of the axes of force and displacement in r from the values of its curves in the history h. Leaves
+ * out displacements after the force has ended if they would fill most of the axis. */
 static void reactions_set_ranges(struct reactions *r, const struct history *h)
 {
     struct value_range whole = {0, 0};
@@ -330,8 +330,8 @@ static void write_peak(char *text, size_t capacity, const struct history *h, con
              component_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
 }
 
-/* Returns the number of letters of the longest entry in the key of the curves r: a name or a peak. h, newton, metre: as
- * for write_peak. */
+/* Returns the number of letters of the longest entry in the key (legend) of the curves r: a name or a peak. h, newton,
+ * metre: as for write_peak. */
 static size_t longest_key_entry(const struct history *h, const struct reactions *r, struct unit newton,
                                 struct unit metre)
 {

@@ -124,11 +124,11 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
 static const double EXTREME = 0.002, HOT = 0.01, HOT_TIMES = 1.5;
 enum { EXTREMES_LEAST = 3 };
 
-/* Returns the largest magnitude for which the colour scale of the field of c has to suffice. The magnitude of a value
- * is its distance above `low`, or its absolute value if `scale` is that of a field of both signs. Only magnitudes above
- * 0 count, because most of a body can be at rest or elastic. Of these a small share of outliers is omitted, and the
- * result is limited to HOT_TIMES the magnitude that the share HOT of them exceeds. Returns 0 if there are none.
- * sample[SAMPLE_MOST]: work array. */
+/* Returns the largest magnitude of a value of the field of c that its colour scale has to cover. The magnitude is the
+ * distance above `low`, or the absolute value if `scale` is that of a field of both signs. Only magnitudes above 0
+ * count, because most of a body can be at rest or elastic. A small share of the largest ones is omitted as outliers,
+ * and the result is limited to HOT_TIMES the magnitude that the share HOT of them exceeds. Returns 0 if none is above
+ * 0. sample[SAMPLE_MOST]: work array. */
 static double magnitude_of(double *sample, const struct plotted_particles *c, enum field_scale scale, double low)
 {
     const int64_t stride = c->n / SAMPLE_MOST + 1;

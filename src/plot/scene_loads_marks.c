@@ -170,8 +170,9 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
     return most;
 }
 
-/* Writes the description of a boundary condition for the key into text[TEXT]: name, kind, largest value, components or
- * face and, unless `plain` is true, the number of particles. acting: state of the load at its largest magnitude. */
+/* Writes the description of a boundary condition for the key (legend) into text[TEXT]: name, kind, largest value,
+ * components or face and, unless `plain` is true, the number of particles. acting: state of the load at its largest
+ * magnitude. */
 static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting, bool plain)
 {
     char face[16], many[64];
@@ -318,7 +319,7 @@ static const char *colour_of_load(int number)
 }
 
 /* Draws the boundary condition with the index `number` in the picture m in a colour of its own, as arrows, points or a
- * plane of symmetry, and adds its description to the key. */
+ * plane of symmetry, and adds its description to the key (legend). */
 static void boundary_mark(struct marks *m, int number)
 {
     const struct scene *s = m->engine->scene;

@@ -160,8 +160,8 @@ static void tip_marks(struct marks *m)
     for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
 }
 
-/* Draws the position, line or region of probe number k of the scene of m. text: entry of the probe in the key, "" for
- * none. Of a probe without a position only the symbol in the key is drawn. */
+/* Draws the position, line or region of probe number k of the scene of m. text: entry of the probe in the key
+ * (legend), "" for none. Of a probe without a position only the symbol in the key is drawn. */
 static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
@@ -215,7 +215,8 @@ void marks_draw_symbols_of_probes(struct marks *m)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Draws the bounding boxes of the named regions of the scene in the picture m, and adds their names to the key. */
+/* Draws the bounding boxes of the named regions of the scene in the picture m, and adds their names to the key
+ * (legend). */
 void marks_draw_boxes_of_named_regions(struct marks *m)
 {
     const struct scene *s = m->engine->scene;

@@ -43,8 +43,8 @@ static int part_number(const struct scene *s, const struct particles *p, int64_t
     return s->materials > 1 ? s->material_number[p->material[i]] : p->body[i];
 }
 
-/* Appends a square to the cloud c, the particles of the picture, at the position x[dim] [m] projected on the picture
- * plane. size: edge of the square [m]; colour: its colour. */
+/* Appends a square to c, the particles of the picture, at the position x[dim] [m] projected on the picture plane.
+ * size: edge of the square [m]; colour: its colour. */
 static void cloud_add(struct plotted_particles *c, const real *x, int dim, double size, struct colour colour)
 {
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
@@ -58,10 +58,10 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
     c->colour[c->n++] = colour;
 }
 
-/* Appends the squares of n = p->n particles p to the cloud c, coloured by material or body. With `spacing` NULL, p are
- * the particles of the run, with the spacing that the input file (scene) gives s; if the run has material points and
- * peridynamic particles, the latter are darker. Otherwise p are points that represent coarse cells, and spacing[n] are
- * the edges of their squares [m]. part: all particles of the run. */
+/* Appends the squares of n = p->n particles p to c, the particles of the picture, coloured by material or body. With
+ * `spacing` NULL, p are the particles of the run, with the spacing that the input file (scene) gives s; if the run has
+ * material points and peridynamic particles, the latter are darker. Otherwise p are points that represent coarse
+ * cells, and spacing[n] are the edges of their squares [m]. part: all particles of the run. */
 static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
@@ -75,8 +75,8 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
     }
 }
 
-/* Adds the rigid bodies of the scene s in their initial positions to the cloud c, the particles of the picture. In 1D
- * each rigid body is drawn as one particle of the length of the body. part: particles of the run. */
+/* Adds the rigid bodies of the scene s in their initial positions to c, the particles of the picture. In 1D each rigid
+ * body is drawn as one particle of the length of the body. part: particles of the run. */
 static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s, const struct particles *part)
 {
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
@@ -93,9 +93,9 @@ static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s,
     memory_free(at);
 }
 
-/* Collects everything in the run e that the picture shows as squares, cubes or bodies in the cloud c: the particles,
- * the points of coarse mesh cells, and the rigid bodies. camera: direction of the view of a body in 3D. Release c with
- * plotted_particles_free. */
+/* Collects everything in the run e that the picture shows as squares, cubes or bodies in c, the particles of the
+ * picture: the particles, the points of coarse mesh cells, and the rigid bodies. camera: direction of the view of a
+ * body in 3D. Release c with plotted_particles_free. */
 static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
@@ -129,8 +129,8 @@ static int64_t count_part(const struct particles *part, const struct scene *scen
     return n;
 }
 
-/* Writes a description of the rigid body b for the key to text[TEXT_ROOM], for example `ball: rigid, 4.1 g, 150 m/s`.
- * dim: dimension of the scene. */
+/* Writes a description of the rigid body b for the key (legend) to text[TEXT_ROOM], for example `ball: rigid, 4.1 g,
+ * 150 m/s`. dim: dimension of the scene. */
 static void rigid_words(char *text, const struct scene_body *b, int dim)
 {
     double speed = 0;
@@ -202,10 +202,10 @@ static int key_columns(const struct marks *m, double wide)
     return (int)fmax(floor(wide / (SAMPLE_NARROW + KEY_LETTERS * m->widest)), 1);
 }
 
-/* Returns the layout of a picture that shows the view v in one panel, and the key of m. untitled: the picture has no
- * title; outside: the view is of a body in 3D from outside, so that no axis needs space on the left. If panel and key
- * do not fit into the size that the user has chosen (picture_size_set), the layout is of a larger picture with the same
- * ratio of width and height. */
+/* Returns the layout of a picture that shows the view v in one panel, and the key (legend) of m. untitled: the picture
+ * has no title; outside: the view is of a body in 3D from outside, so that no axis needs space on the left. If panel
+ * and key do not fit into the size that the user has chosen (picture_size_set), the layout is of a larger picture with
+ * the same ratio of width and height. */
 static struct layout scene_layout(const struct view *v, const struct marks *m, bool untitled, bool outside)
 {
     const bool narrow = picture_is_too_narrow_for_key();
@@ -237,8 +237,8 @@ static struct layout scene_layout(const struct view *v, const struct marks *m, b
     return l;
 }
 
-/* Writes to gnuplot the command that places the key of a scene: beside the panel, or below it in a narrow picture.
- * Letters are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
+/* Writes to gnuplot the command that places the key (legend) of a scene: beside the panel, or below it in a narrow
+ * picture. Letters are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
 static void set_scene_key(FILE *to, const struct layout *l, const struct marks *m)
 {
     const bool narrow = picture_is_too_narrow_for_key();
@@ -328,9 +328,9 @@ static status draw_collected(struct sheet sheet, const struct marks *m, const st
     return gnuplot_close(&g);
 }
 
-/* Draws the run e, whose particles are in the cloud c, to the picture `sheet` (file and size). title: title of the
- * picture, or NULL for the name of the scene with the number of particles. Returns FAILED, with a message, if gnuplot
- * fails. */
+/* Draws the run e, whose particles are in c, the particles of the picture, to the picture `sheet` (file and size).
+ * title: title of the picture, or NULL for the name of the scene with the number of particles. Returns FAILED, with a
+ * message, if gnuplot fails. */
 static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c, const char *title)
 {
     char *elements = NULL, *data = NULL;

@@ -126,8 +126,8 @@ void probes_begin_sample_before_step(struct probes *s, const struct observed_run
     }
 }
 
-/* Returns true if the values of probe q depend on velocities. Leap-frog provides velocities half a step before and
- * after a sample only, so they are interpolated. */
+/* Returns true if the values of probe q (a requested measurement) depend on velocities. Leap-frog provides velocities
+ * half a step before and after a sample only, so they are interpolated. */
 static bool has_motion(const struct probe *q)
 {
     const enum probe_kind kind = q->request.kind;

@@ -9,7 +9,8 @@
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
 
-/* Returns REFUSED, with a message that consists of the name of probe q, its closed form, and the reason `what`. */
+/* Returns REFUSED, with a message that consists of the name of probe q (a requested measurement), its closed form, and
+ * the reason `what`. */
 static status refuse(const struct probe *q, const char *what)
 {
     return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
@@ -87,9 +88,9 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Stores the reflection factor of both ends of the bar of probe q: 1 (fixed) at a mirror or where a load of run o
- * constrains the outermost particle, else -1 (free). Returns REFUSED, with a message, if a boundary drives the bar with
- * a velocity. */
+/* Stores the reflection factor of both ends of the bar of probe q (a requested measurement): 1 (fixed) at a mirror or
+ * where a load of run o constrains the outermost particle, else -1 (free). Returns REFUSED, with a message, if a
+ * boundary drives the bar with a velocity. */
 static status find_ends(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
@@ -139,9 +140,9 @@ static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_
     return n;
 }
 
-/* Finds the traction of run o on one end of the bar of probe q and stores the end in exact.loaded and the stress in
- * exact.load, positive in tension [Pa]. Returns REFUSED, with a message, unless there is exactly one traction, on a
- * free end, constant in time and not 0. */
+/* Finds the traction of run o on one end of the bar of probe q (a requested measurement) and stores the end in
+ * exact.loaded and the stress in exact.load, positive in tension [Pa]. Returns REFUSED, with a message, unless there
+ * is exactly one traction, on a free end, constant in time and not 0. */
 static status find_traction(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
@@ -161,8 +162,9 @@ static status find_traction(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Stores the ends of the bar of probe q, and the traction or the initial pulses that its closed form requires. Returns
- * REFUSED, with a message, for loads, initial motion or materials of run o that the closed form does not describe. */
+/* Stores the ends of the bar of probe q (a requested measurement), and the traction or the initial pulses that its
+ * closed form requires. Returns REFUSED, with a message, for loads, initial motion or materials of run o that the
+ * closed form does not describe. */
 static status find_load(struct probe *q, const struct observed_run *o)
 {
     const struct load *other = NULL;

@@ -18,15 +18,15 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
 };
 
-/* Returns the number of stress components that a probe reports of a particle of p. In plane strain this includes zz, as
- * the last one. */
+/* Returns the number of stress components that a probe (a requested measurement) reports of a particle of p. In plane
+ * strain this includes zz, as the last one. */
 static int stresses_count(const struct particles *p)
 {
     return symmetric_component_count(p->dim) + (p->plane_strain != NULL);
 }
 
-/* Returns how many values a probe reports of a particle of p because materials yield: plastic strain, and temperature
- * if they heat (0 to 2). */
+/* Returns how many values a probe (a requested measurement) reports of a particle of p because materials yield:
+ * plastic strain, and temperature if they heat (0 to 2). */
 static int law_readings_count(const struct particles *p)
 {
     return (p->plastic_work != NULL) + (p->temperature != NULL);
@@ -136,16 +136,16 @@ struct region_sum {
     const real *row_energy; /* [bonds->rows] share of each row in the elastic energy of the bonds [J] */
 };
 
-/* Returns one component of the momentum of particle number k (from 0) of a probe [kg m/s]. context: a struct
- * region_sum, with the probe, the run and the component. */
+/* Returns one component of the momentum of particle number k (from 0) of a probe (a requested measurement) [kg m/s].
+ * context: a struct region_sum, with the probe, the run and the component. */
 static real momentum_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
     return s->o->part->mass[s->q->list[k]] * probe_particle_velocity_component(s->q, s->o->part, s->component, k);
 }
 
-/* Returns the kinetic energy of particle number k (from 0) of a probe [J]. context: a struct region_sum, with the probe
- * and the run. */
+/* Returns the kinetic energy of particle number k (from 0) of a probe (a requested measurement) [J]. context: a struct
+ * region_sum, with the probe and the run. */
 static real kinetic_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -155,16 +155,16 @@ static real kinetic_term(const void *context, int64_t k)
     return 0.5 * p->mass[s->q->list[k]] * speed2;
 }
 
-/* Returns the row of bonds of particle number k (from 0) in the list of the probe s->q, or -1 if the particle has no
- * bonds. */
+/* Returns the row of bonds of particle number k (from 0) in the list of the probe s->q (a requested measurement), or
+ * -1 if the particle has no bonds. */
 static int64_t row_at(const struct region_sum *s, int64_t k)
 {
     const struct bonds *b = s->o->bonds;
     return b && b->rows > 0 ? b->row_of[s->q->list[k]] : -1;
 }
 
-/* Returns the share of particle number k (from 0) of a probe in the elastic energy of the bonds [J]. context: a struct
- * region_sum, with the probe, the run and the energy of each row of bonds. */
+/* Returns the share of particle number k (from 0) of a probe (a requested measurement) in the elastic energy of the
+ * bonds [J]. context: a struct region_sum, with the probe, the run and the energy of each row of bonds. */
 static real bond_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -172,8 +172,8 @@ static real bond_term(const void *context, int64_t k)
     return row >= 0 ? s->row_energy[row] : 0;
 }
 
-/* Returns the energy dissipated by the broken or softened bonds of particle number k (from 0) of a probe [J]. context:
- * a struct region_sum, with the probe and the run. */
+/* Returns the energy dissipated by the broken or softened bonds of particle number k (from 0) of a probe (a requested
+ * measurement) [J]. context: a struct region_sum, with the probe and the run. */
 static real fracture_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -181,8 +181,9 @@ static real fracture_term(const void *context, int64_t k)
     return row >= 0 ? bonds_row_fracture_energy(s->o->bonds, row) : 0;
 }
 
-/* Returns the number of broken bonds of particle number k (from 0) of a probe; 0 if its motion is prescribed. A bond
- * counts at both of its particles. context: a struct region_sum, with the probe and the run. */
+/* Returns the number of broken bonds of particle number k (from 0) of a probe (a requested measurement); 0 if its
+ * motion is prescribed. A bond counts at both of its particles. context: a struct region_sum, with the probe and the
+ * run. */
 static real broken_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -222,7 +223,8 @@ void probe_compute_momentum_of_particles(const struct probe *q, const struct par
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Receiver of the results of probe q in run o: emit(context, name of the probe, name of the result, value). */
+/* Receiver of the results of probe q (a requested measurement) in run o: emit(context, name of the probe, name of the
+ * result, value). */
 struct emitter {
     void (*emit)(void *context, const char *probe, const char *quantity, real value);
     void *context;
@@ -231,14 +233,15 @@ struct emitter {
     const real *sampled; /* columns of the probe at a sample of this time; NULL if there is none */
 };
 
-/* Passes `value` to the receiver e->emit as quantity `quantity` of probe e->q. Values that are not finite are left
- * out. */
+/* Passes `value` to the receiver e->emit as quantity `quantity` of probe e->q (a requested measurement). Values that
+ * are not finite are left out. */
 static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
 {
     if (isfinite(value)) e->emit(e->context, e->q->request.name, quantity, value);
 }
 
-/* Passes the components of a position or vector X[dim] to the receiver e->emit as quantities x, y, z of probe e->q. */
+/* Passes the components of a position or vector X[dim] to the receiver e->emit as quantities x, y, z of probe e->q (a
+ * requested measurement). */
 static void put_position(const struct emitter *e, const real *X)
 {
     for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);

@@ -11,7 +11,8 @@
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-/* Appends a column to the history s, named `<probe>.<quantity>`, with the unit `unit`. It belongs to probe q. */
+/* Appends a column to the history s, named `<probe>.<quantity>`, with the unit `unit`. It belongs to probe q (a
+ * requested measurement). */
 static void column_add(struct probes *s, struct probe *q, const char *quantity, const char *unit)
 {
     GROW("probes.column", s->column, s->columns + 1);
@@ -21,8 +22,8 @@ static void column_add(struct probes *s, struct probe *q, const char *quantity, 
     q->columns++;
 }
 
-/* Appends dim columns of probe q to the history s, one for each component of a vector. The name of a column consists of
- * `prefix` and the axis x, y or z; unit: unit of all columns. */
+/* Appends dim columns of probe q (a requested measurement) to the history s, one for each component of a vector. The
+ * name of a column consists of `prefix` and the axis x, y or z; unit: unit of all columns. */
 static void columns_by_axis(struct probes *s, struct probe *q, const char *prefix, int dim, const char *unit)
 {
     for (int d = 0; d < dim; d++) {
@@ -32,9 +33,9 @@ static void columns_by_axis(struct probes *s, struct probe *q, const char *prefi
     }
 }
 
-/* Appends the columns of probe q, which depend on its kind and on the quantities that particles p have, to the history
- * s, and stores the index of the first column in q->first. Some kinds of probe have no columns, only values in the
- * summary. */
+/* Appends the columns of probe q (a requested measurement), which depend on its kind and on the quantities that
+ * particles p have, to the history s, and stores the index of the first column in q->first. Some kinds of probe have
+ * no columns, only values in the summary. */
 static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
 {
     const int dim = p->dim;
@@ -121,8 +122,8 @@ static status bind_line(struct probe *q, const struct observed_run *o)
         q->request.name, particles_extent_text(o->part).text);
 }
 
-/* Makes the particles of run o in the region of probe q its particles; those on the surface of the region, up to
- * round-off, are included. Returns REFUSED, with a message, if there is none. */
+/* Makes the particles of run o in the region of probe q (a requested measurement) its particles; those on the surface
+ * of the region, up to round-off, are included. Returns REFUSED, with a message, if there is none. */
 static status bind_region(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -173,8 +174,8 @@ static status bind_growth(struct probe *q, const struct observed_run *o)
     return OK; /* the scene reader has checked that the boundary exists */
 }
 
-/* Binds probe q to the particles, supports or cracks of run o that it measures, by its kind. Returns REFUSED, with a
- * message, if there are none or the probe does not fit the scene. */
+/* Binds probe q (a requested measurement) to the particles, supports or cracks of run o that it measures, by its kind.
+ * Returns REFUSED, with a message, if there are none or the probe does not fit the scene. */
 static status probe_bind(struct probe *q, const struct observed_run *o)
 {
     switch (q->request.kind) {
@@ -214,7 +215,7 @@ static bool reaction_is_measured(const struct probes *s, const char *boundary)
 }
 
 /* Writes the name that the columns of a support have in history.csv to name[NAME_MAX_LENGTH]: that of its boundary,
- * preceded by `reaction_` if a probe of s has that name. */
+ * preceded by `reaction_` if a probe (a requested measurement) of s has that name. */
 static void support_name(const struct probes *s, const char *boundary, char name[NAME_MAX_LENGTH])
 {
     bool taken = false;

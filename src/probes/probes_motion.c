@@ -3,8 +3,8 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Copies the values of the vector field from[dim][particles] at the particles of probe q to to[dim][q->n]. Arrays to[d]
- * that are NULL are allocated. */
+/* Copies the values of the vector field from[dim][particles] at the particles of probe q (a requested measurement) to
+ * to[dim][q->n]. Arrays to[d] that are NULL are allocated. */
 static void copy_listed(const struct probe *q, real *const *from, real **to, int dim)
 {
     for (int d = 0; d < dim; d++) {

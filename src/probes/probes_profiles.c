@@ -55,7 +55,8 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed_ru
     }
 }
 
-/* Writes the profile of the LINE or EXACT probe q of run o to file as CSV, with a header line. */
+/* Writes the profile of the LINE or EXACT probe q (a requested measurement) of run o to file as CSV, with a header
+ * line. */
 static void profile_text(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     if (q->request.kind == PROBE_EXACT) {
@@ -66,8 +67,8 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
     profile_rows(file, q, o);
 }
 
-/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe q to name[PROFILE_NAME], with the number
- * `frame`. A slash in the name of the probe becomes an underscore. */
+/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe q (a requested measurement) to name[PROFILE_NAME],
+ * with the number `frame`. A slash in the name of the probe becomes an underscore. */
 static void profile_name(char *name, const struct probe *q, int frame)
 {
     snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
@@ -75,7 +76,7 @@ static void profile_name(char *name, const struct probe *q, int frame)
         if (*c == '/') *c = '_';
 }
 
-/* Returns true if probe q has profiles: it is a LINE or an EXACT probe. */
+/* Returns true if probe q (a requested measurement) has profiles: it is a LINE or an EXACT probe. */
 static bool has_profile(const struct probe *q)
 {
     return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT;
@@ -91,8 +92,9 @@ bool probes_compose_profile_file_name(const struct probes *s, int which, int fra
     return false;
 }
 
-/* Composes the profile of probe q of run o at frame number `frame` and passes file name and text to put(context, name,
- * text, length), which writes them. Returns FAILED, with a message, if memory is exhausted; else the status of put. */
+/* Composes the profile of probe q (a requested measurement) of run o at frame number `frame` and passes file name and
+ * text to put(context, name, text, length), which writes them. Returns FAILED, with a message, if memory is exhausted;
+ * else the status of put. */
 static status profile_put(const struct probe *q, const struct observed_run *o, probe_file_fn *put, void *context,
                           int frame)
 {

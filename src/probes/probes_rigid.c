@@ -20,9 +20,9 @@ struct rigid_sum {
     real centre[2], centre_reference[2];
 };
 
-/* Adds to sum[5], over the particles first .. end - 1 of a probe: mass [kg], mass times present position (x, y) and
- * mass times reference position (x, y) [kg m]. context: a struct rigid_sum. reproducible_sums calls it for each block
- * of particles. */
+/* Adds to sum[5], over the particles first .. end - 1 of a probe (a requested measurement): mass [kg], mass times
+ * present position (x, y) and mass times reference position (x, y) [kg m]. context: a struct rigid_sum.
+ * reproducible_sums calls it for each block of particles. */
 static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -37,9 +37,10 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* Adds to sum[5], over the particles first .. end - 1 of a probe: m X . x and m X x x, which give the best-fit
- * rotation, angular momentum, |m x x v| and kinetic energy. X, x: reference and current position relative to the
- * centres of mass. context: a struct rigid_sum. reproducible_sums calls it for each block of particles. */
+/* Adds to sum[5], over the particles first .. end - 1 of a probe (a requested measurement): m X . x and m X x x, which
+ * give the best-fit rotation, angular momentum, |m x x v| and kinetic energy. X, x: reference and current position
+ * relative to the centres of mass. context: a struct rigid_sum. reproducible_sums calls it for each block of
+ * particles. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;

@@ -60,8 +60,8 @@ static int tip_meant(const struct probe_request *r, const struct observed_run *o
     return nearest;
 }
 
-/* Returns the index of the growing crack of run o that starts at most SAME_TIP spacings from the tip of the probe w, or
- * -1 if there is none. */
+/* Returns the index of the growing crack of run o that starts at most SAME_TIP spacings from the tip of the probe w (a
+ * requested measurement), or -1 if there is none. */
 static int growth_meant(const struct sif_tracked *w, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -151,8 +151,8 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
-/* Returns a crack tip of run o, other than that of the probe w, whose distance from it is less than `radius` [m], or
- * NULL if there is none. */
+/* Returns a crack tip of run o, other than that of the probe w (a requested measurement), whose distance from it is
+ * less than `radius` [m], or NULL if there is none. */
 static const struct crack_tip *other_tip_within(const struct sif_tracked *w, real radius, const struct observed_run *o)
 {
     for (int k = 0; o->tips && k < o->tips->n; k++) {
@@ -433,8 +433,8 @@ bool sif_probe_factors_are_meaningful(const struct probe *q)
     return !isnan(factors[0]) && !(factors[SIF_FIGURES - 1] > SPREAD_MOST);
 }
 
-/* Writes to text[size] the warning that probe q has no stress-intensity factors at its last sample, and why. t: time of
- * the sample [s]. */
+/* Writes to text[size] the warning that probe q (a requested measurement) has no stress-intensity factors at its last
+ * sample, and why. t: time of the sample [s]. */
 static void describe_meaningless_factors(const struct probe *q, real t, char *text, size_t size)
 {
     char why[200] = "its ring leaves the body";

@@ -43,9 +43,10 @@ static real load_growth(const struct statics *s, const struct particles *part, r
     return initial > 0 && t != s->t ? now / initial - 1 : 0;
 }
 
-/* Stores in s->increment the predicted displacement increment to pseudo-time t [s]: that of supports as prescribed by
- * `loads`, all other components as the present displacements times the relative growth of the loads. p, mesh: particles
- * and nodes to which the unknowns belong; before[dim][particles]: applied forces of the last equilibrium [N]. */
+/* Predicts the displacement increment to pseudo-time t [s] and stores it in s->increment: for supports the increment
+ * that `loads` prescribe, for all other components the present displacements times the relative growth of the loads.
+ * p, mesh: particles and nodes to which the unknowns belong; before[dim][particles]: applied forces of the last
+ * equilibrium [N]. */
 static void increment_predict(struct statics *s, const struct particles *p, const struct mesh *mesh,
                               const struct loads *loads, real t, real *const *before)
 {
@@ -68,8 +69,8 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
     field_remove_free_rigid_motion(s, &s->increment);
 }
 
-/* Returns the noise level of forces [N]: ten times the norm of the bond forces that result from round-off of the
- * positions. bonds, part: all bonds and their particles. */
+/* Returns the norm of the forces below which residuals have no meaning [N]: ten times the norm of the bond forces that
+ * result from round-off of the positions. bonds, part: all bonds and their particles. */
 static real round_off_force(const struct bonds *bonds, const struct particles *part)
 {
     real sum = 0;
@@ -83,13 +84,13 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
 
 /* ---- losses ------------------------------------------------------------------------------------------------------ */
 
-/* Corrects q->lost [J], the energy that the solver q has lost in all solutions. `lost` [J] is its value before this
- * solution. If points yield or faces come into contact, forces do not change linearly over the increment, and the work
- * of loads is known only up to +-`range` [J]. A loss within this range is an error of the work: it is subtracted from
- * loads->work. in_contact: true if anything is in contact at the start or the end of the increment; yields: true if
- * points or bonds may yield; round_off: energy that round-off of the forces may create [J]. Returns true if, in
- * contact, the solution gained more energy than GAIN_MOST times `range` plus `round_off`: faces have then passed
- * through each other. */
+/* Corrects q->lost [J], the energy that the solver q has lost in all solutions so far, after one more solution. `lost`
+ * [J] is its value before that solution. If points yield or faces come into contact, forces do not change linearly
+ * over the increment, and the work of loads is known only up to +-`range` [J]. A loss within this range is taken for
+ * an error of the work and subtracted from loads->work. in_contact: true if anything is in contact at the start or the
+ * end of the increment; yields: true if points or bonds may yield; round_off: energy that round-off of the forces may
+ * create [J]. Returns true if faces have passed through each other: if, in contact, the solution has gained more
+ * energy than GAIN_MOST times `range` plus `round_off`. */
 static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, real round_off,
                          bool in_contact, bool yields)
 {

@@ -25,8 +25,8 @@ enum { SUBSTEPS_MOST = 10000 }; /* largest number of substeps of an increment */
 
 bool crack_faces_are_in_contact(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
 
-/* Returns the number of free motions (rigid motions that nothing resists) of all unconstrained fragments of s
- * together. */
+/* Returns the total number of free motions (rigid motions that neither supports nor contact resist) of the
+ * unconstrained fragments of s. */
 static int free_motions(const struct statics *s)
 {
     int n = 0;
@@ -34,8 +34,8 @@ static int free_motions(const struct statics *s)
     return n;
 }
 
-/* Finds the unconstrained fragments (pieces that no support holds) of run e again after contact has changed. Discards
- * the preconditioner if the total number of their free motions (rigid motions that nothing resists) has changed. */
+/* Finds the unconstrained fragments of run e (pieces of the body that can move rigidly without resistance) again after
+ * contact has changed. Discards the preconditioner if the total number of their free motions has changed. */
 static void unconstrained_update(struct run *e)
 {
     const int before = free_motions(e->statics);
@@ -86,8 +86,8 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
 
 /* Prepares contact of run e for the solution at `pseudo_time` [s]: stores the energy before the solution, moves rigid
  * bodies and searches for contacts. The stored energy includes contact energy only if anything was in contact before.
- * If anything is in contact now, finds the unconstrained fragments (pieces that no support holds) again, since contact
- * may constrain them. */
+ * If anything is in contact now, finds the unconstrained fragments (pieces of the body that can move rigidly without
+ * resistance) again, since contact may constrain them. */
 void statics_contact_begin_solution(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;

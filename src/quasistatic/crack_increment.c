@@ -57,9 +57,9 @@ real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct 
     return on ? 0.5 : 1;
 }
 
-/* Returns the length of the crack front in 3D [m]: the sum of the edges of the pre-cracks t, at least one spacing and
- * at most the shortest side of the body p. That side counts twice if one of the planes of symmetry of `source` lies
- * along the crack and halves the body. Returns 1 for a plane body, whose section already contains the thickness. */
+/* Returns the length of the crack front in 3D [m]: the sum of the edges of the pre-cracks in t, at least one spacing
+ * and at most the shortest side of the body p. That side counts twice if one of the planes of symmetry of `source`
+ * lies along the crack and halves the body. Returns 1 for a plane body, whose thickness the scene gives separately. */
 static real front_length(const struct crack_tips *t, const struct bond_source *source, const struct particles *p)
 {
     const real h = source->family.spacing;

@@ -21,9 +21,9 @@ enum { CONVERSIONS_MOST = 4 }; /* largest number of conversions of material poin
 
 /* ---- bonds across a segment -------------------------------------------------------------------------------------- */
 
-/* Appends to `list` a record of each intact bond in row r of b (bonds of one particle of p) that crosses one of
- * `segments`. Bonds and segments are projected onto the plane in which the tips of l move. A record contains row, entry
- * and energy of a bond. */
+/* Appends to `list` a record (row, index and energy of the bond) for each intact bond in row r of b, the bonds of one
+ * particle of p, that crosses one of `segments`. Bonds and segments are projected onto the plane in which the crack
+ * tips of l move. */
 static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, const struct particles *p, int64_t r,
                           const struct crack_list *segments, struct break_list *list)
 {
@@ -43,8 +43,8 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     }
 }
 
-/* Makes in `segments` a list of the segment from[2] .. to[2] of the path of `tip` (coordinates in the plane in which
- * the tips of l move [m]) and of its mirror images. Release it with crack_list_free. */
+/* Lists in `segments` the segment from[2] .. to[2] of the crack path of `tip` and its mirror images. Coordinates are
+ * those in the plane in which the tips of l move [m]. Release the list with crack_list_free. */
 static void segment_images(const struct sif_cracks *l, const struct sif_crack_tip *tip, const real from[2],
                            const real to[2], struct crack_list *segments)
 {
@@ -57,10 +57,11 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                               ON_SURFACE * l->plane.spacing);
 }
 
-/* Sets the energy cost of each bond in `list`, the bonds that the next segment of the path of `tip` (a tip of l) cuts:
- * the member `held` of its record [J]. The costs are scaled such that their sum is the area of the segment times the
- * crack energy per area; in 3D, energies of bonds at the sides of the body contain surface weights, and some bonds at a
- * pre-crack are already broken. In state-based models, where bonds have no energy of their own, all costs are equal. */
+/* Sets the energy cost [J] of each bond in `list`, the bonds that the next segment of the crack path of `tip` (a tip
+ * of l) crosses; it is the member `held` of the record of the bond. The costs are scaled such that their sum is the
+ * area of the segment times the crack energy per area of the material: in 3D, energies of bonds at the sides of the
+ * body contain surface weights, and some bonds at a pre-crack are already broken. In state-based models, where bonds
+ * have no energy of their own, all costs are equal. p: particles. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {
@@ -145,8 +146,8 @@ static status tips_turn_all(struct run *e)
 }
 
 /* Breaks the bonds of list l in run e and finds the equilibrium at the present pseudo-time. Stores in a->release the
- * energy that the body releases, divided by the square of the load size (norm of prescribed displacements or forces).
- * Returns FAILED, with a message, if there is no equilibrium. */
+ * energy that the body releases, divided by the square of the load size (norm of prescribed displacements [m] or of
+ * applied forces [N]). Returns FAILED, with a message, if there is no equilibrium. */
 static status list_break_try(struct run *e, const struct break_list *l, struct crack_increment *a)
 {
     const real before = statics_energy_released(e->statics, &e->bonds);

@@ -14,8 +14,8 @@
 #define ROWS_APART 0.9
 enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 
-/* Stores in tip->length_behind the length of the longest pre-crack of the scene of l that ends at the tip [m], and in
- * tip->reversed whether the tip is at the first corner of a pre-crack. */
+/* Stores in tip->length_behind the length [m] of the longest pre-crack, among those of the scene in l, that ends at
+ * the tip, and in tip->reversed whether the tip is at the first corner of a pre-crack. */
 static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *tip)
 {
     const struct scene *s = l->scene;
@@ -30,10 +30,10 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
     }
 }
 
-/* Moves a tip that lies on a row of particles of p sideways to half the distance to the next row, so that round-off
- * does not decide further growth. Returns true if the tip has been moved. A crack along a row assigns its particles to
- * one of its faces (crack_cuts_bond); the tip is moved to the side of the row on which bonds are then cut. plane: plane
- * in which tips move. */
+/* Moves a crack tip that lies on a row of particles of p sideways to half the distance to the next row, so that
+ * round-off does not decide further growth. A crack along a row assigns the particles of the row to one of its faces
+ * (crack_cuts_bond); the tip is moved to the side on which bonds are then cut. plane: plane in which tips move.
+ * Returns true if the tip has been moved. */
 static bool tip_off_row(const struct sif_plane *plane, const struct particles *p, struct sif_crack_tip *tip)
 {
     const real h = plane->spacing, *along = tip->along;

@@ -23,9 +23,9 @@ enum { BISECTIONS_MOST = 100 }; /* largest number of bisections for a factor */
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
 
-/* Sets the weight of a softening bond of b, with index q in row `row`, to the value for its largest stretch k
- * (dimensionless). The weight stays above 0, the weight of broken bonds, until the bond is broken. Does nothing in
- * bond-based models. */
+/* Sets the weight b->w of a softening bond of b, with index q in row `row` (bonds of one particle), to the remaining
+ * fraction of its stiffness after the largest stretch k [1]. The weight stays above 0, which marks broken bonds, until
+ * the bond is broken. Does nothing in bond-based models. */
 static void bond_weigh(struct bonds *b, int64_t row, int64_t q, real k)
 {
     const struct softened *soft = &b->soft;
@@ -36,10 +36,11 @@ static void bond_weigh(struct bonds *b, int64_t row, int64_t q, real k)
     bond_column_update_after_bond_change(b, row, q);
 }
 
-/* Appends bond `bond` of row `row` of b, between particles of p, which softens, to the list l. Stores its present
- * stretch divided by `factor` [1], its largest stretch at the last equilibrium, the stretches between which it softens,
- * and its energy scale. In state-based models this follows from the energy that its damage sets free; where that is not
- * positive the bond does not soften further, and its stretch is stored as 0. */
+/* Appends the softening bond `bond` of row `row` of b (bonds of one particle of p) to the list l. Stores its present
+ * stretch divided by `factor` [1], its largest stretch at the last equilibrium, the stretches at which its softening
+ * begins and ends, and the energy by which its normalised dissipation is multiplied. In state-based models this energy
+ * follows from the energy that damage of the bond releases; if that is not positive the bond does not soften further,
+ * and its stretch is stored as 0. */
 static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
                                const struct bond *bond, real factor)
 {
@@ -115,9 +116,9 @@ void softening_list_store_largest_stretches(const struct softening_list *l, stru
 
 /* ---- equilibria -------------------------------------------------------------------------------------------------- */
 
-/* Stores the largest stretch of bond `bond` of row `row` of b as that of the last equilibrium. A bond that has not
- * exceeded its onset of softening then counts as one that does not soften yet. p: particles; limit: critical stretches
- * and softening of bonds. */
+/* Stores the largest stretch of bond `bond` of row `row` of b (bonds of one particle of p) as its value at the last
+ * equilibrium. A bond that has not exceeded its onset of softening is then no longer marked as softening. limit:
+ * critical stretches and softening of bonds. */
 static void settle_bond(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
                         const struct bond *bond)
 {

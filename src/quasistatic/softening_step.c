@@ -55,8 +55,8 @@ struct search {
     real residual; /* of the last state, with k = max(k_0, s) [1] */
 };
 
-/* Moves the body of the search f to `factor` times the displacements f->q->u of the last solution. The forces computed
- * there are not used. */
+/* Sets the displacements of the body in the search f to `factor` times those of the last solution, f->q->u. Also
+ * computes forces there, which are not used. */
 static void body_scale(const struct search *f, real factor)
 {
     struct newton_solver *q = f->q;
@@ -65,8 +65,8 @@ static void body_scale(const struct search *f, real factor)
     q->force(q->context, &q->at, &q->z);
 }
 
-/* Returns the dimensionless factor on the present displacements at which the next particle of the search f reaches its
- * strength surface; INFINITY if none is near. Stresses grow in proportion to the displacements. */
+/* Returns the factor on the present displacements [1] at which the next particle of the search f reaches its strength
+ * surface, since stresses grow in proportion to the displacements; INFINITY without such a particle. */
 static real factor_at_surface(const struct search *f)
 {
     const real ratio = bonds_largest_stress_to_strength_ratio(f->bonds, f->part, f->source);
@@ -114,10 +114,10 @@ static real residual_now(struct newton_solver *q)
     return sqrt(sum) > q->noise ? sqrt(sum) / q->scale : 0;
 }
 
-/* Finds the equilibrium of a load step of run e with softening bonds by iteration, for the search f: solves with the
- * largest stretches of the bonds, and thus their stiffnesses, fixed, then chooses these stretches anew from the
- * solution. The tolerance of a solution is reduced as these stretches converge. Returns FAILED, with a message, if no
- * equilibrium is found. */
+/* Finds the equilibrium that ends a load step of run e with softening bonds, by the search f. Repeats two parts: a
+ * solution with fixed largest stretches of the bonds, which fix their stiffnesses, and a new choice of these stretches
+ * from the solution (secants_choose). The tolerance of the solutions is reduced as the stretches converge. Returns
+ * FAILED, with a message, if no equilibrium is found. */
 static status search_run(struct run *e, struct search *f)
 {
     struct statics *s = e->statics;
@@ -169,9 +169,9 @@ static void family_losses_add(struct bonds *b, const struct particles *p, const 
 }
 
 /* Searches for the equilibrium that ends a load step of run e. spent: energy that bonds shall dissipate in the step
- * [J]; INFINITY if the loads are those of pseudo-time t [s]. With given loads, work in excess of the growth of energies
- * counts as lost, in motion that is not resolved. If the search fails, restores the state before it and returns the
- * status of the search: FAILED, with a message, if there is no equilibrium. */
+ * [J]; INFINITY if the loads are those of pseudo-time t [s]. With given loads, work that exceeds the growth of
+ * energies counts as lost in motion, which is not resolved. If the search fails, restores the state before it and
+ * returns the status of the search: FAILED, with a message, if there is no equilibrium. */
 static status step_try(struct run *e, real t, real spent)
 {
     struct statics *s = e->statics;

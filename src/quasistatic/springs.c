@@ -51,8 +51,8 @@ struct movers {
 };
 
 /* Returns the unknowns that determine the displacement of particle i of the body, with their weights: the unknown of
- * the particle itself, or for a point of the mesh those of the corners of its cell. The list is empty if the particle
- * has no unknown. s: assembly of the stiffness matrix. */
+ * the particle itself, or for a point of the mesh those of the corners of its cell. The list is empty for a particle
+ * whose displacement depends on no unknown. s: assembly of the stiffness matrix. */
 static struct movers movers_list(const struct springs *s, int64_t i)
 {
     struct movers m = {0};
@@ -108,8 +108,9 @@ static void springs_row_add(struct springs *s, int64_t r)
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
-/* Adds the stiffness of contact t to the matrix: its stiffness times the products of the derivatives of its gap. It is
- * called for each contact. context: the assembly of the matrix (struct springs). */
+/* Adds the stiffness of contact t to the matrix: the stiffness of the contact times the products of the derivatives of
+ * its gap by the displacements. Called for each active contact. context: the assembly of the matrix (struct springs).
+ */
 static void contact_add_spring(void *context, const struct contact_term *t)
 {
     struct springs *s = context;

@@ -66,8 +66,8 @@ static real damage_beside_cut(const struct scene *s)
 }
 
 /* Returns the crack area along the paths of the SIF-driven tips l (directed by stress-intensity factors), summed over
- * the segments [m^2]. own: the area in the body; face: the area of the whole crack faces, twice as large for segments
- * on planes of symmetry, which cut off half. */
+ * the segments [m^2]. Of the result, `own` is the area in the modelled body, `face` the area of the whole crack faces,
+ * twice as large for segments on planes of symmetry, which cut off half. p: particles, for the width of the body. */
 static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
     struct crack_area area = {0};

@@ -30,9 +30,9 @@ static real critical_stretch_least(const struct bond_limit *limit, const struct 
     return least * weakest;
 }
 
-/* Returns the largest ratio of stretch to critical stretch of the intact bonds of b in block g of eight rows (bonds of
- * eight particles, stored together), or `most` if that is larger. p: particles; limit: critical stretches; weakest:
- * lower bound of the critical stretches, by which most blocks are skipped. */
+/* Returns the largest ratio of stretch to critical stretch of the intact bonds of b in row block g (the bonds of eight
+ * particles, stored together), or `most` if that is larger. p: particles; limit: critical stretches; weakest: lower
+ * bound of all critical stretches, by which most blocks are skipped. */
 static real row_block_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g, real weakest, real most)
 {
@@ -59,9 +59,9 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Returns half of the energy that stretches `bond` of particle i from zero force to its critical stretch [J]: what it
- * stores now and the work still to be done. Work that yielding has dissipated is not included. b, p: all bonds and
- * particles; limit: critical stretches. */
+/* Returns half of the energy [J] that is needed to stretch `bond` of particle i from zero force to its critical
+ * stretch, of which the bond already stores a part. Energy that yielding has dissipated is not included. b, p: all
+ * bonds and particles; limit: critical stretches. */
 static real half_energy_to_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  const struct bond *bond, int32_t i)
 {
@@ -100,8 +100,8 @@ struct overstretched {
     struct broken_bond *record; /* [n] the bonds */
 };
 
-/* Appends a bond to the list o of bonds whose stretch may exceed the critical stretch. over: dimensionless ratio of its
- * stretch to its critical stretch; record: row and entry of the bond, its particles and its energy (copied). */
+/* Appends a bond to the list o of bonds that exceed or nearly reach their critical stretch. over: ratio of its stretch
+ * to its critical stretch [1]; record: row and index of the bond, its particles and its energy, which are copied. */
 static void overstretched_add(struct overstretched *o, real over, const struct broken_bond *record)
 {
     GROW("statics.overloads", o->ratio, o->n + 1);
@@ -110,8 +110,8 @@ static void overstretched_add(struct overstretched *o, real over, const struct b
     o->record[o->n++] = *record;
 }
 
-/* Appends the bonds of block g of eight rows of b (bonds of eight particles, stored together) with a ratio of stretch
- * to critical stretch above `least` to o, in the order of rows. p: particles; limit: critical stretches. */
+/* Appends to o, in the order of rows, the bonds of row block g of b (the bonds of eight particles, stored together)
+ * with a ratio of stretch to critical stretch above `least`. p: particles; limit: critical stretches. */
 static void row_block_overstretched(struct overstretched *o, const struct bonds *b, const struct particles *p,
                                     const struct bond_limit *limit, int64_t g, real least)
 {
@@ -124,9 +124,9 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         }
 }
 
-/* Returns the ratio of stretch to critical stretch above which bonds are to break so that about `most` pairs of bonds
- * do: just below the `most`-th largest ratio, but at least `least`. ratio[n]: ratios of directed bonds, two for each
- * pair. */
+/* Returns the ratio of stretch to critical stretch above which bonds are to be broken so that about `most` pairs of
+ * bonds break: just below the `most`-th largest ratio, but at least `least`. ratio[n]: ratios of directed bonds, two
+ * entries for each pair. */
 static real stretch_ratio_to_break(const real *ratio, int64_t n, real least, int64_t most)
 {
     if (n <= 2 * most) return least;
@@ -156,9 +156,9 @@ static real break_list_add_above(struct break_list *l, const real *ratio, const 
     return added > 0 ? sum / (real)added : 1;
 }
 
-/* Breaks the directed bond of *record in b, in the row of one of its two particles of p only, and adds half of its
- * energy to the fracture energy of this row. limit: critical stretches; its rule for the force of a bond in the step in
- * which it breaks is not used. */
+/* Breaks the directed bond of *record in b, i.e. in the row of one of its two particles of p only, and adds half of
+ * its energy to the fracture energy of this row. limit: critical stretches; in load steps the bond has no force in the
+ * step in which it breaks, whatever limit->last_force says. */
 static void bond_record_break(struct bonds *b, struct particles *p, struct bond_limit limit,
                               const struct broken_bond *record)
 {

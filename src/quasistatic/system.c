@@ -76,8 +76,9 @@ static void forces_present(struct run *e)
     if (has_mesh) reference_frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
-/* Computes the forces f on all unknowns at the displacements u [m], without the components along free rigid motions of
- * unconstrained fragments [N]. It is the callback `force` of solver/equilibrium.h; context: the run (struct run). */
+/* Computes the forces f [N] on all unknowns at the displacements u [m], without the components along free rigid
+ * motions of unconstrained fragments (pieces that can move without resistance). It is the callback `force` of
+ * solver/equilibrium.h; context: the run (struct run). */
 static void statics_forces(void *context, const struct field *u, struct field *f)
 {
     struct run *e = context;

@@ -50,7 +50,8 @@ struct search {
     struct candidate *candidate; /* [n] the fragments */
 };
 
-/* Joins the unknowns of the nodes of each cell of the mesh of s to one connected component. */
+/* Joins the unknowns (nodes) at the corners of each cell of the mesh of s to one connected component, in the
+ * union-find forest s->parent. */
 static void cells_join(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -66,8 +67,8 @@ static void cells_join(const struct search *s)
     }
 }
 
-/* Returns the index of the unknown of particle i in s, or for a point of the mesh that of a corner of its cell; -1 if
- * there is none. */
+/* Returns the index of the unknown that moves particle i of the search s: its own, or for a point of the mesh that of
+ * one corner of its cell; -1 if the particle moves with no unknown. */
 static int32_t unknown_of(const struct search *s, int64_t i)
 {
     const struct mesh *mesh = s->mesh;
@@ -80,7 +81,8 @@ static int32_t unknown_of(const struct search *s, int64_t i)
     return -1;
 }
 
-/* Joins the connected components in s of the two particles of each intact bond in `bonds`. */
+/* Joins the connected components, in the union-find forest s->parent, of the two particles of each intact bond in
+ * `bonds`. */
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
@@ -93,7 +95,8 @@ static void bonded_join(const struct search *s, const struct bonds *bonds)
     }
 }
 
-/* Stores in s the index of the unknown of each particle and mesh node; a mirror node has that of its image. */
+/* Stores in s the index of the unknown of each particle and mesh node; a mirror node (a node beyond a plane of
+ * symmetry) has that of the node of which it is the image. */
 static void unknowns_number(struct search *s)
 {
     const struct statics *statics = s->statics;
@@ -151,7 +154,8 @@ struct candidate {
 static int motions(int dim) { return dim * (dim + 1) / 2; }
 
 /* Computes u[dim], the displacement at the point x[dim] [m] by rigid motion number k (0 .. motions(dim) - 1) of
- * fragment c: first translations, then rotations, scaled such that the nodes of the fragment move by about 1. */
+ * fragment c: unit translations first, then rotations about its centre, scaled such that the nodes of the fragment
+ * move by about 1. */
 static void motion_at(const struct candidate *c, int dim, int k, const real *x, real *u)
 {
     for (int d = 0; d < dim; d++) u[d] = d == k;
@@ -167,15 +171,17 @@ static void node_now(const struct search *s, int64_t k, real *x)
     for (int d = 0; d < s->part->dim; d++) x[d] = s->x.of[d][k];
 }
 
-/* Adds a constrained displacement component of a node to fragment c, as a a^T to the matrix c->resistance[m][m].
- * along[m]: the components a of the m rigid motions of the fragment in this direction. */
+/* Adds a constrained displacement component of a node to fragment c, by adding a a^T to the matrix
+ * c->resistance[m][m]. along[m]: the vector a, the component in the constrained direction of each of the m rigid
+ * motions of the fragment. Rigid motions in the null space of the final matrix are unconstrained. */
 static void resist(struct candidate *c, int m, const real *along)
 {
     for (int a = 0; a < m; a++)
         for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
 }
 
-/* Adds the constraints by supports and planes of symmetry to the fragments in s on which they act. */
+/* Adds the constraints by supports and planes of symmetry to the resistance matrices of the fragments in s on which
+ * they act. */
 static void supports_resist(const struct search *s)
 {
     const struct newton_solver *q = &s->statics->balance;
@@ -194,8 +200,8 @@ static void supports_resist(const struct search *s)
     }
 }
 
-/* Adds to fragment c the constraint of a bond between its particle i and the mirror image `image`: the bond resists a
- * change of its length. s: search for unconstrained fragments. */
+/* Adds to the resistance matrix of fragment c the constraint of a bond between its particle i and the mirror image
+ * `image`: the bond resists a change of its length. s: search for unconstrained fragments. */
 static void image_resists(const struct search *s, struct candidate *c, int64_t i, int64_t image)
 {
     const struct particles *p = s->part;
@@ -224,8 +230,8 @@ static void images_resist(const struct search *s, const struct bonds *bonds)
     }
 }
 
-/* Adds the constraints of mirror nodes of the mesh to their fragments in s: such a node is a corner of cells of the
- * body and moves as the mirror image of another node. */
+/* Adds the constraints of mirror nodes of the mesh (nodes beyond a plane of symmetry) to the resistance matrices of
+ * their fragments in s: such a node is a corner of cells of the body, but moves as the mirror image of another node. */
 static void mirror_nodes_resist(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -258,8 +264,8 @@ static int32_t fragment_of(const struct search *s, int32_t particle)
     return k < 0 ? -1 : s->fragment[k];
 }
 
-/* Returns the dimensionless rate at which rigid motion number a of fragment `which` changes the gap of contact t:
- * change of gap divided by size of the motion. s: search for unconstrained fragments. */
+/* Returns the rate at which rigid motion number a of fragment `which` changes the gap of contact t: change of the gap
+ * divided by the size of the motion [1]. s: search for unconstrained fragments. */
 static real gap_rate(const struct search *s, const struct contact_term *t, int32_t which, int a)
 {
     const struct particles *p = s->part;
@@ -276,8 +282,9 @@ static real gap_rate(const struct search *s, const struct contact_term *t, int32
     return rate;
 }
 
-/* Adds the constraint of contact t, which resists a change of its gap, to each fragment that it touches, as if the
- * other one were fixed. context: a struct search. */
+/* Adds contact t, which resists a change of its gap, as a constraint to the resistance matrix of each fragment that it
+ * touches, as if the other body were fixed. context: the search for unconstrained fragments (struct search). Called
+ * for each active contact. */
 static void contact_resists(void *context, const struct contact_term *t)
 {
     const struct search *s = context;
@@ -298,8 +305,8 @@ static void contact_resists(void *context, const struct contact_term *t)
     }
 }
 
-/* Finds the rigid motions of fragment c that no constraint resists, the null space of c->resistance[m][m], by
- * elimination with full pivoting. free[][m]: receives each of them as a combination of the m rigid motions. Returns
+/* Finds the rigid motions of fragment c that no constraint resists: the null space of c->resistance[m][m], by
+ * elimination with full pivoting. free[][m]: receives each of them as coefficients of the m rigid motions. Returns
  * their number. */
 static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][MODES_MOST])
 {
@@ -359,8 +366,9 @@ static void motions_orthonormal(struct unconstrained_fragment *f, int dim)
     f->motions = kept;
 }
 
-/* Initialises f as fragment number `which` of the search s, with `count` free motions. free[count][m]: the free
- * motions, as linear combinations of the m rigid motions. */
+/* Initialises f as fragment number `which` of the search s: lists its nodes and computes their displacements in its
+ * free motions, orthonormal. free[count][m]: the free motions (rigid motions that nothing resists) as coefficients of
+ * the m rigid motions. */
 static void fragment_motions(const struct search *s, struct unconstrained_fragment *f, int64_t which,
                              real free[MODES_MOST][MODES_MOST], int count)
 {
@@ -389,7 +397,8 @@ static void fragment_motions(const struct search *s, struct unconstrained_fragme
     }
 }
 
-/* Numbers the fragments in the order of their first nodes, s->fragment, and computes their centres and radii. */
+/* Numbers the connected components of s, the fragments, in the order of their first nodes, stores the number for each
+ * node in s->fragment, and computes centres and radii of the fragments. */
 static void fragment_candidates_find(struct search *s)
 {
     const int64_t nodes = s->statics->balance.n;
@@ -412,9 +421,9 @@ static void fragment_candidates_find(struct search *s)
     for (int64_t q = 0; q < s->n; q++) s->candidate[q].radius = sqrt(s->candidate[q].radius / (real)s->candidate[q].n);
 }
 
-/* Raises slid[d] [m], the largest distance by which fragments in contact have slid along axis d, to the displacement of
- * fragment c, for those axes along which contact and supports resist a translation of c with less than SLIDES_MOST
- * times the resistance along another axis. dim: number of axes. */
+/* Updates slid[d] [m], the largest distance by which fragments in contact have slid along axis d, by the mean
+ * displacement of fragment c. Counts only axes along which contact and supports resist a translation of c with less
+ * than SLIDES_MOST times the resistance along another axis. dim: number of axes. */
 static void sliding_update(const struct candidate *c, int dim, real *slid)
 {
     real most = 0;

@@ -7,10 +7,10 @@
 #define UNHELD_MOST 0.05
 #define UNHELD_SMALL 0.01 /* share of all loads below which unbalanced loads do not end a run (empirical) */
 
-/* Returns how far the applied forces on fragment f (a piece of the body that nothing holds) are from balance along its
- * free motions, 0 to 1: the largest |sum| of their components along a motion divided by the sum of the absolute values,
- * which *size receives. Motions along which the forces are much smaller than along another motion are ignored. s:
- * applied forces; part: particles. */
+/* Returns how far the applied forces on fragment f (a piece of the body that can move rigidly without resistance) are
+ * from balance along its free motions, 0 to 1: the largest |sum| of their components along a motion, divided by the
+ * sum of their absolute values, which *size receives. Motions along which the forces are much smaller than along
+ * another motion are ignored. s: applied forces; part: particles. */
 static real unbalanced_share(const struct statics *s, const struct particles *part,
                              const struct unconstrained_fragment *f, real *size)
 {
@@ -29,9 +29,9 @@ static real unbalanced_share(const struct statics *s, const struct particles *pa
     return most;
 }
 
-/* Returns the sum of the absolute values of all components of the applied forces (from `statics`) on particles `part`,
- * divided by the square root of `nodes`, the number of nodes of a fragment [N]. It is comparable to *size of
- * unbalanced_share. */
+/* Returns the size of all applied forces, for comparison with *size of unbalanced_share of one fragment: the sum of
+ * the absolute values of all components of the forces (from `statics`) on particles `part`, divided by the square root
+ * of `nodes`, the number of nodes of the fragment [N]. */
 static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
 {
     real sum = 0;
@@ -40,9 +40,10 @@ static real applied_sum(const struct particles *part, const struct statics *stat
     return sum / sqrt((real)nodes);
 }
 
-/* Returns how far the forces on fragment f (a piece of the body that nothing holds) with nodes of the mesh are from
- * balance: the largest component of its forces along a free motion, divided by applied_sum; internal forces in
- * equilibrium have none. s: unknowns and forces. Returns 0 without such nodes or applied forces. */
+/* Returns how far the forces on fragment f (a piece of the body that can move rigidly without resistance) are from
+ * balance if it contains nodes of the mesh: the largest component of its forces along a free motion, divided by
+ * applied_sum; internal forces in equilibrium have no such component. s: unknowns and forces; p: particles with
+ * forces. Returns 0 for a fragment without such nodes and without applied forces. */
 static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
                                       const struct unconstrained_fragment *f)
 {

@@ -49,8 +49,8 @@ static void component_hold(struct statics *s, int64_t k, int d, int load)
     s->load[k * DIM_MAX + d] = (int16_t)load;
 }
 
-/* Marks in s the particles of p on planes of symmetry in `loads`. Their normal displacement is 0, on clamped planes
- * every component, and half of each particle belongs to the body. */
+/* Marks in s the particles of p on planes of symmetry in `loads`: their normal displacement is prescribed as 0, on
+ * clamped planes every component, and their weight is halved, since half of such a particle belongs to the body. */
 static void mirror_particles_mark(struct statics *s, const struct particles *p, const struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {

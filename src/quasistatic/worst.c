@@ -66,10 +66,10 @@ static void largest_update(real t, real own, struct worst *worst, struct found *
     if (own > found->largest * (1 + 1e-9)) found->largest = own, worst->largest = t;
 }
 
-/* Compares the loads at time t [s] with the largest loads. Sets worst->back to t if they point against the largest ones
- * more than the loads at all earlier times; sets worst->beside to t if they are larger perpendicular to these. own,
- * with: scalar products of the loads at t with themselves and with the largest loads; found: largest values so far,
- * updated. */
+/* Compares the loads at time t [s] with the largest loads. Sets worst->back to t if the loads at t point against the
+ * largest ones more than at all earlier times; sets worst->beside to t if their part perpendicular to the largest ones
+ * is larger than at all earlier times. own, with: scalar products of the loads at t with themselves and with the
+ * largest loads; found: largest values so far, updated. */
 static void others_update(real t, real own, real with, struct worst *worst, struct found *found)
 {
     const real size = found->largest, back = -with, beside = own - square(with) / size;

@@ -144,16 +144,17 @@ static void frames_use(struct film *f, int most)
     for (int k = 0; k < f->used; k++) f->frame[spread(k, f->frames, f->used)].used = true;
 }
 
-/* Divides the particles of all particle sets of the film f into groups, each of which is shown as one particle. A group
- * is a particle or a cubic cell of particles; f->levels limits the size of the cells. If f->every > 1, only every
- * f->every-th group is shown; groups with damaged or yielded particles are exempt unless f->thins_busy is true. */
+/* Divides the particles of all particle sets of the film f (the frames of a run as the page shows them) into groups,
+ * each of which is shown as one particle. A group is a single particle or a cubic cell of particles; f->levels limits
+ * the size of the cells. If f->every > 1, only every f->every-th group is shown, except that groups with damaged or
+ * yielded particles are all shown unless f->thins_busy is true. */
 static void film_group(struct film *f)
 {
     for (int k = 0; k < f->sets; k++) film_particle_set_form_groups(&f->set[k], f);
 }
 
-/* Returns true if the film f, with the frames, fields and groups (particles shown as one) that are selected now, takes
- * at most `budget` bytes on the page. */
+/* Returns true if the film f (the frames of a run as the page shows them), with the frames, fields and groups of
+ * particles that are selected now, takes at most `budget` bytes on the page. */
 static bool fits(const struct film *f, int64_t budget)
 {
     const int64_t each = 2 * f->dim + film_bytes_per_group_and_frame(f), once = 2 * f->dim + 6;
@@ -163,8 +164,9 @@ static bool fits(const struct film *f, int64_t budget)
     return bytes <= budget;
 }
 
-/* Adds contents to the film f as far as the budget allows: first the fields that are left out if the budget is short,
- * then more frames. budget: largest size of the film on the page [byte]. */
+/* Adds contents to the film f (the frames of a run as the page shows them) as far as the budget allows: first the
+ * fields that are left out if the budget is short, then more frames. budget: largest size of the film on the page
+ * [byte]. */
 static void film_fill(struct film *f, int64_t budget)
 {
     const int used = f->used;

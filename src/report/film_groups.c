@@ -24,7 +24,8 @@ static int member_compare(const void *a, const void *b)
 }
 
 /* Returns a number that identifies the cubic cell of the lattice, with an edge of 2^level spacings of film f, that
- * contains particle i of the set s. from[dim]: lower corner of the lattice [m]. */
+ * contains particle i of the particle set s (the particles that consecutive output frames have in common). from[dim]:
+ * lower corner of the lattice [m]. */
 static uint64_t cell_key(const struct film_set *s, const struct film *f, const double *from, int level, int64_t i)
 {
     uint64_t key = (uint64_t)level;
@@ -40,16 +41,18 @@ static bool particles_are_alike(const struct film_set *s, int64_t i, int64_t j)
     return s->history[i] == s->history[j] && s->material[i] == s->material[j] && s->body[i] == s->body[j];
 }
 
-/* Returns true if particle i of the set s may be merged with others into a cubic cell of the lattice. It must be
- * undamaged and elastic in all frames, and its spacing must be that of the film f. */
+/* Returns true if particle i of the particle set s (the particles that consecutive output frames have in common) may
+ * be merged with others into a cubic cell of the lattice: it must be undamaged and elastic in all frames, and its
+ * spacing must be that of the film f. */
 static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_t i)
 {
     return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
 }
 
-/* Merges particles of the set s into cubic cells with an edge of 2^level spacings of film f. For the particles of each
- * cell that they fill completely, sets s->level to `level`, if all of them have the same material and body, and the
- * same kinds and fragments in all output frames. from[dim]: lower corner of the lattice [m]. */
+/* Merges particles of the particle set s (the particles that consecutive output frames have in common) into cubic
+ * cells with an edge of 2^level spacings of film f: sets s->level to `level` for the particles of each cell that they
+ * fill completely, if all of them have the same material and body, and the same kinds and fragments in all frames.
+ * from[dim]: lower corner of the lattice [m]. */
 static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);

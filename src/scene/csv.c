@@ -83,9 +83,9 @@ static char *csv_trim(char *field)
     return csv_trim(field + 1);
 }
 
-/* Returns a pointer to the character of `field` (rest of a line) from which on the separator that ends the field is to
- * be searched: the closing quote if the field is quoted, since quoted text may contain separators, else the beginning
- * of the field. */
+/* Returns a pointer to the character of `field` (the rest of a line) from which the separator that ends the field is
+ * to be searched: the closing quote if the field is quoted, since quoted text may contain separators; else the
+ * beginning of the field. */
 static char *csv_behind_quotes(char *field)
 {
     char *start = field + strspn(field, " "), *close = *start == '"' ? strchr(start + 1, '"') : NULL;

@@ -178,9 +178,10 @@ const void *key_value_address(const struct key *k, const void *group_values)
     return k->place ? (const char *)group_values + (k->place - 1) : NULL;
 }
 
-/* Returns true if key k of `bodies` has no meaning for the body `base`. For a rigid body such keys are material and
- * frame; with a mass (it moves freely) also ramp; without one (it is driven) mass and force, and ramp if it is 0. For
- * any other body such keys are mass, force, ramp and rigid. group: path of the key's group. */
+/* Returns true if key k of the group `bodies` is not written for the body `base` (struct scene_body), since it has no
+ * meaning for it. For a rigid body these are the keys material and frame; with a mass (it moves freely) also ramp;
+ * without one (it is driven) also mass and force, and ramp if it is 0. For any other body these are the keys rigid,
+ * mass, force and ramp. group: path of the key's group; false for other groups than bodies. */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
     static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};

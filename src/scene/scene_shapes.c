@@ -180,8 +180,9 @@ status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_n
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
 
-/* Reports that the mesh g has no set, or sets of several instances, called `name`. n: YAML node of the name. Returns
- * REFUSED, with a message that lists these sets, or all. */
+/* Returns REFUSED with the message that the mesh g has no part called `name` (a set of elements, nodes or faces), or
+ * that several sets have names that contain it. The message lists these sets, or all sets if none has the name. n:
+ * YAML node of the name. */
 static status refuse_set(struct reader *r, const struct yaml_node *n, const char *name, const struct geometry *g)
 {
     char names[120 + LONG_NAME_LENGTH + 4] = "";

@@ -236,7 +236,7 @@ static size_t number_length(const char *c)
     return (size_t)(c - start);
 }
 
-/* Returns the number in c[length] times 10^(twice_ten/2). If twice_ten is even, the product is rounded only once. */
+/* Returns the number in c[length] times 10^(twice_ten/2), its unit's factor to SI, rounded once for even twice_ten. */
 static real number_value(const char *c, size_t length, int twice_ten)
 {
     const int half = twice_ten % 2 != 0, ten = (twice_ten - half) / 2; /* an odd one is half a power more */
@@ -251,8 +251,8 @@ static real number_value(const char *c, size_t length, int twice_ten)
     return half ? sqrt(10) * strtod(text, NULL) : strtod(text, NULL);
 }
 
-/* Returns a message if the number at c has a notation that scenes lack: grouped digits, decimal comma, base 60,
- * hexadecimal or octal; else NULL. length: number of characters at c that have been read as a number. */
+/* Returns a message (static text) if the number at c has a notation that input files do not have (grouped digits,
+ * decimal comma, base 60, hexadecimal, octal), else NULL. length: characters at c that were read as a number. */
 static const char *trap(const char *c, size_t length)
 {
     const char *digits = c + (*c == '+' || *c == '-');
@@ -279,8 +279,8 @@ static bool complain(struct complaint c, const char *wrong, enum unit unit)
     return false;
 }
 
-/* Writes the unit `text` to out[capacity] with the letters of each symbol in the case that makes it a unit: GPa for
- * Gpa. Returns false if that is no unit either, or if nothing changes. */
+/* Writes a misspelt unit `text` to out[capacity] with each symbol in the case in which it is known: GPa for Gpa.
+ * Returns false if the result is no unit either, or equals the text. */
 static bool unit_in_other_case(const char *text, char *out, size_t capacity)
 {
     struct measure m;

@@ -15,8 +15,8 @@ static const char *group_of_values(const struct key *k)
     return NULL;
 }
 
-/* Returns the key beside YAML node n, in the same mapping with keys of `group`, whose own keys include that of n, as
- * `point` in {name: middle, point: {at: [..]}}; NULL if there is none. */
+/* Returns the entry beside YAML node n, in the same mapping with keys of `group`, below which the key of n is valid:
+ * for a misplaced `at` in {at: [..], point: {}} the entry `point`. Returns NULL if there is no such entry. */
 static const struct yaml_node *owner_beside(const struct yaml_node *n, const char *group)
 {
     for (const struct yaml_node *c = n->parent ? n->parent->first : NULL; c; c = c->next) {

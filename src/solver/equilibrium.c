@@ -45,8 +45,8 @@ enum { WORK_PARTS = 16 };
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
-/* Stores the addresses of all vectors (struct field) of the solver q in list[FIELDS], so that they are allocated and
- * freed in one loop. */
+/* Stores the addresses of all vectors (struct field) of the solver q in list[FIELDS], so that one loop can allocate or
+ * free them. */
 static void all_fields(struct newton_solver *q, struct field **list)
 {
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
@@ -152,9 +152,9 @@ static real dot_all(const struct newton_solver *q, const struct field *a, const 
     return sum;
 }
 
-/* Returns the size [m] of the region that moves with the largest component of the displacement `increment`, estimated
- * from the sum of squares of the increment. q: solver, with the size of the body. Bonds at the border of this region
- * rotate by about this component, divided by the size. most: the largest component [m]. */
+/* Returns the estimated size [m] of the region that moves with the largest component of the displacement `increment`,
+ * from the sum of squares of the increment. Bonds at the border of this region rotate by about this component divided
+ * by the size. q: solver, with the size of the body; most: the largest component [m]. */
 static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
@@ -391,11 +391,11 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
 }
 
 /* Corrects in q the work of the loads and the lost energy after a step from one equilibrium to the next. The work was
- * summed over straight lines: over the first correction of the displacements with linearly growing loads, over later
- * corrections with full loads. In fact the displacements follow a curve c s + d s^2 while the fraction s of the growth
- * of the loads increases from 0 to 1. Over this curve no energy is lost, and the work is more/6 larger than the mean of
- * the loads at both ends times the displacement. more: growth of the loads times the displacement of all corrections
- * but the first [J]. */
+ * summed along straight lines: along the first correction of the displacements with linearly growing loads, along
+ * later corrections with full loads. In fact the displacements follow a curve c s + d s^2 while the growth of the
+ * loads increases by the fraction s from 0 to 1. Along this curve no energy is lost, and the work is more/6 larger
+ * than the mean of the loads at both ends times the displacement. more: growth of the loads times the displacement of
+ * all corrections but the first [J]. */
 static void loads_bend(struct newton_solver *q, real more)
 {
     q->bent = more / 6;

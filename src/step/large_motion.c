@@ -42,10 +42,10 @@ static bool on_grid(const struct particles *p, int64_t i)
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
 }
 
-/* Returns the number of particles that have moved into another particle of the same body: at a present distance below
- * `reach` [m], and a reference distance above `horizon` [m]. Two points on the grid do not count: they move with one
- * velocity field, and come near each other where metal is compressed. s: scene, with the spacing; *first: receives the
- * first such particle. */
+/* Returns the number of particles of p that have moved into another particle of the same body: their present distance
+ * is below `reach` [m] and their reference distance above `horizon` [m]. Pairs of points on the background grid do not
+ * count: they move with one velocity field, and come near each other where metal is compressed. s: scene, with the
+ * spacing; *first: receives the index of the first such particle. */
 static int64_t count_passing_particles(const struct particles *p, const struct scene *s, real reach, real horizon,
                                        int64_t *first)
 {

@@ -28,8 +28,7 @@ const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape)
     return NULL;
 }
 
-/* Returns true if point i is on the grid of the current frame (background grid) and its material (of scene s) yields.
- */
+/* Returns true if particle i of p is a material point on the background grid and its material (of scene s) yields. */
 static bool flows_on_grid(const struct particles *p, const struct scene *s, int64_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED) && material_yields(&s->material[p->material[i]]);
@@ -62,8 +61,8 @@ struct held_cells {
     uint64_t *key; /* key of the cell in each slot, 0: none */
 };
 
-/* Returns the slot in h, the hash table of cells that contain points, of the cell at the position x[dim] [m], or the
- * empty slot in which it has to be entered. *key: receives the key of the cell, not 0. */
+/* Returns the slot of the grid cell at the position x[dim] [m] in the hash table h of cells that contain points, or
+ * the empty slot in which the cell has to be entered. *key: receives the key of the cell, which is never 0. */
 static uint64_t cell_slot(const struct held_cells *h, const real *x, uint64_t *key)
 {
     *key = 1;
@@ -73,7 +72,8 @@ static uint64_t cell_slot(const struct held_cells *h, const real *x, uint64_t *k
     return slot & h->mask;
 }
 
-/* Fills the hash table h with all cells of grid g that contain points of p. Release h->key with memory_free. */
+/* Fills the hash table h with all cells of the grid g that contain particles of p, to find gaps between points.
+ * Release h->key with memory_free. */
 static void held_cells_make(struct held_cells *h, const struct particles *p, const struct grid *g)
 {
     *h = (struct held_cells){.g = {.dim = p->dim, .h = g->h}, .mask = 1};

@@ -102,10 +102,10 @@ static bond_force_fn *elastic_force(const struct scene *s, const struct kernels 
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
 }
 
-/* Returns the smallest critical time step [s] of infinite lattices with the neighbourhood (neighbours of a particle) of
- * `all`, one lattice for each material. p: particles, for the extent of the body; force: force function of the bonds.
- * *bound: receives the smallest of the lower bounds of these time steps [s], which follow from the row sums of the
- * stiffness matrices. */
+/* Returns the smallest critical time step [s] of infinite lattices, one for each material, with the neighbourhood
+ * (neighbours of a particle) and materials of the bond source `all`. p: particles, for the extent of the body; force:
+ * force function of the bonds. *bound: receives the smallest of the lower bounds of these time steps [s], which follow
+ * from the row sums of the stiffness matrices. */
 static real critical_of_lattices(const struct bond_source *all, const struct particles *p, bond_force_fn *force,
                                  real *bound)
 {

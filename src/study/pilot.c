@@ -22,8 +22,9 @@ enum { REFUSED_MOST = 4 }; /* largest number of refinements after spacings at wh
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Appends a key that pilot runs have chosen, and its value, to the lists to->key and to->value, which have *n entries
- * (at most CHOSEN_MOST), and increments *n. Texts too long are truncated. */
+/* Appends a key and its value that pilot runs (short runs that choose method and spacing for `method: auto`) have
+ * chosen to the lists to->key and to->value, which have *n entries (at most CHOSEN_MOST), and increments *n. Texts too
+ * long are truncated. */
 static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
     INVARIANT(*n < CHOSEN_MOST);
@@ -32,8 +33,9 @@ static void chosen_put(struct pilot *to, int *n, const char *key, const char *va
     ++*n;
 }
 
-/* Sets to->override to the overrides of the user followed by those that select the candidate method c: method, model,
- * solver, and the particle spacing `spacing` [m]. p: scene and overrides of the user. Free with pilot_free. */
+/* Sets to->override to the overrides of the user, followed by those that select the method c, a candidate of `method:
+ * auto`: method, model, solver, and the particle spacing `spacing` [m]. p: input file (scene) and overrides of the
+ * user. Free with pilot_free. */
 static void candidate_write(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *c,
                             double spacing)
 {
@@ -83,14 +85,15 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Returns the time that is left of the budget of pilot runs [s], at least 0. */
+/* Returns the time that remains of the budget of the pilot runs of p (short runs that choose method and spacing) [s],
+ * at least 0. */
 static double time_left(const struct pilot_search *p)
 {
     return fmax(p->wish.budget - (wall_clock_seconds() - p->begun), 0);
 }
 
-/* Returns the candidate method of p with the shortest predicted duration of a run at the spacing that it requires for
- * the requested accuracy. Returns NULL if no method has a prediction. */
+/* Returns the candidate method of the search p whose run at the spacing that it needs for the requested accuracy has
+ * the shortest predicted duration. Returns NULL if no method has a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
 {
     struct pilot_candidate *best = NULL;
@@ -122,9 +125,10 @@ static status search_first(struct pilot_search *p)
     return OK;
 }
 
-/* Repeats the study of the method *c of the search p at finer spacings, as fine as its prediction requires and the
- * remaining time allows. Replaces *c by the outcome and returns true. Returns false if no time is left, if the study
- * has no better outcome, or if it is interrupted. *done is INTERRUPTED in the last case, else OK. */
+/* Repeats the convergence study of the method *c of the search p at finer spacings, as fine as its prediction requires
+ * and the remaining time allows. Replaces *c by the outcome and returns true if it is better. Returns false if no time
+ * is left, if the outcome is no better, or after an interruption. *done: receives INTERRUPTED in the last case, else
+ * OK. */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;

@@ -102,9 +102,9 @@ int study_intervals_across(const struct study_picture *p, const struct study_axi
     return most;
 }
 
-/* Sends the range of the axis called `name` (`x`, `y` or `cb`, the colour bar) to gnuplot. A linear axis gets the range
- * of the data, to which gnuplot adds a margin, but none below 0 to vertical axes from 0; a logarithmic axis, to which
- * gnuplot adds none, the range extended by a margin. */
+/* Sends the range of the axis called `name` (`x`, `y` or `cb`, the colour bar) to gnuplot's input stream. A
+ * logarithmic axis gets the range of the data extended by a margin, the colour bar without margin. On a linear axis
+ * gnuplot chooses the range and its margin, except that a vertical axis whose data begin at 0 begins at 0. */
 static void range_send(FILE *gnuplot, const char *name, const struct study_axis *axis)
 {
     const double margin = *name == 'c' ? 0 : MARGIN * log10(axis->high / axis->low);

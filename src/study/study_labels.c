@@ -10,9 +10,10 @@
  * to fit; LEFT_OUT_LEAST: least number of common characters that labels omit. */
 enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
 
-/* Computes how many characters all values of a varied scene key have in common at their beginning (*begin) and at their
- * end (*end), so that labels can omit them. Common characters are counted only up to a blank, comma, colon or bracket,
- * so that no number is cut in two. A count below LEFT_OUT_LEAST becomes 0. */
+/* Computes how many characters all values of a varied key (key of the input file that a study varies) have in common
+ * at their beginning (*begin) and at their end (*end), so that labels can omit them. Common characters are counted
+ * only up to a blank, comma, colon or bracket, so that no number is cut in two. A count below LEFT_OUT_LEAST becomes
+ * 0. */
 static void values_common(const struct varied_key *key, size_t *begin, size_t *end)
 {
     const char *first = key->value[0];

@@ -45,8 +45,9 @@ static bool vector_component(const char *part[2], const char *value, int dim, in
     return !c[strspn(c, " ")];
 }
 
-/* Returns the index of the only component in which the values of a key differ. Returns -1 if more than one or none
- * differs, or if a value is no vector of dim components. */
+/* Returns the index of the only component in which the values of a varied key (key of the input file that the study
+ * varies) differ; they are texts of vectors such as [0, 10 MPa]. dim: number of components. Returns -1 if more than
+ * one or none differs, or if a value is no such vector. */
 static int component_that_varies(const struct varied_key *key, int dim)
 {
     int varies = -1;
@@ -65,8 +66,9 @@ static int component_that_varies(const struct varied_key *key, int dim)
     return varies;
 }
 
-/* If all shown values of the key k are numbers with a common unit, removes the unit from the values and stores it in
- * k->unit; if the numbers have no unit, stores the SI unit of the key there. Otherwise leaves the values unchanged. */
+/* Removes the unit from all shown values of the varied key k, and stores it in k->unit, if they are numbers with one
+ * common unit; stores the SI unit of the key if they are numbers without unit. Otherwise leaves the values unchanged.
+ */
 static void unit_part(struct shown_key *k)
 {
     const char *unit;
