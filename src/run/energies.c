@@ -285,8 +285,8 @@ real points_strain_energy(const struct particles *p, const struct material *m, c
     return points_strain_energy_of_list(p, m, partial, p->list_free, p->n_free);
 }
 
-/* Returns the plastic work of entry k of a list of points that bonds do not carry [J]. context: list and particles
- * (struct strain_sum). */
+/* Returns the plastic work [J] of the material point in entry k of a list, without the share that its bonds carry.
+ * context: list and particles (struct strain_sum). */
 static real plastic_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;

@@ -31,8 +31,8 @@ bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_bo
     return known;
 }
 
-/* Lists in v the shapes of bodies of the scene s that may have voids and whose surface is known, with the shapes of all
- * bodies joined to them. */
+/* Lists in v the shapes of those bodies of the scene s that may have voids (slots, slits or gaps, across which no
+ * bonds are made) and whose surface is known, and the shapes of all bodies joined to them. */
 static void list_shapes(const struct scene *s, struct voids *v)
 {
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);

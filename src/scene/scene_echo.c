@@ -57,8 +57,8 @@ static int letter_of(const unsigned char *c, unsigned *code)
     return more + 1;
 }
 
-/* Writes `text` in double quotes to w, as a YAML scalar. Quotes and backslashes are escaped; characters other than
- * printable ASCII become \U escapes. */
+/* Writes `text` in double quotes to scene.yaml (w), as a YAML scalar. Quotes and backslashes are escaped; characters
+ * other than printable ASCII become \U escapes. */
 void yaml_write_quoted_text(struct writer *w, const char *text)
 {
     fputc('"', w->out);
@@ -89,7 +89,8 @@ static void write_choice(struct writer *w, const struct key *k, const void *plac
     write_word(w, k->words, word);
 }
 
-/* Writes the words of key k whose bits are set in `bits` to w as a YAML list; `none` if no bit is set. */
+/* Writes the words of key k (of input files) whose bits are set in `bits` to scene.yaml (w) as a YAML list; `none` if
+ * no bit is set. */
 static void write_set(struct writer *w, const struct key *k, unsigned bits)
 {
     const char *between = "[";
@@ -159,8 +160,9 @@ void yaml_write_value(struct writer *w, const struct key *k, const void *value_a
     }
 }
 
-/* Returns true if scene.yaml contains the key k: the key has a type that the table of keys can write, and its value,
- * given or by default, is not empty. base: the structure of the key's group; place: address of the value in it. */
+/* Returns true if scene.yaml contains the key k (of input files): the key has a type that the table of keys can write,
+ * and its value, given or by default, is not empty. base: the structure of the key's group; place: address of the
+ * value in it. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
     if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
@@ -178,10 +180,10 @@ const void *key_value_address(const struct key *k, const void *group_values)
     return k->place ? (const char *)group_values + (k->place - 1) : NULL;
 }
 
-/* Returns true if key k of the group `bodies` is not written for the body `base` (struct scene_body), since it has no
- * meaning for it. For a rigid body these are the keys material and frame; with a mass (it moves freely) also ramp;
- * without one (it is driven) also mass and force, and ramp if it is 0. For any other body these are the keys rigid,
- * mass, force and ramp. group: path of the key's group; false for other groups than bodies. */
+/* Returns true if key k (of input files) of the group `bodies` is not written for the body `base` (struct scene_body),
+ * since it has no meaning for it. For a rigid body these are the keys material and frame; with a mass (it moves
+ * freely) also ramp; without one (it is driven) also mass and force, and ramp if it is 0. For any other body these are
+ * the keys rigid, mass, force and ramp. group: path of the key's group; false for other groups than bodies. */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
     static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};
@@ -193,8 +195,8 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-/* Writes the list output.regions to w: the regions for which the run writes additional output frames, at intervals of
- * their own. */
+/* Writes the list output.regions to scene.yaml (w): the regions for which the run writes additional output frames, at
+ * intervals of their own. */
 static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -209,8 +211,8 @@ static void write_series(struct writer *w)
     w->indent -= 4;
 }
 
-/* Writes all keys to w that are directly below the path `group_path` and have a value in the structure `group_values`,
- * with their units as comments. */
+/* Writes all keys to scene.yaml (w) that are directly below the path `group_path` and have a value in the structure
+ * `group_values`, with their units as comments. */
 void yaml_write_keys_of_group(struct writer *w, const char *group_path, const void *group_values)
 {
     for (int i = 0; i < keys_count; i++) {
@@ -242,8 +244,8 @@ void writer_begin_list_item(struct writer *w)
     w->dash = true;
 }
 
-/* Writes to w the line `key:` and below it, indented, the keys that are directly below the path `group_path` and have a
- * value in the structure `group_values`. */
+/* Writes to scene.yaml (w) the line `key:` and below it, indented, the keys that are directly below the path
+ * `group_path` and have a value in the structure `group_values`. */
 void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *group_path, const void *group_values)
 {
     writer_begin_key(w, key);
@@ -253,8 +255,8 @@ void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *
     w->indent -= 2;
 }
 
-/* Writes the key `table` with the pairs x[k], y[k], k = 0 .. points - 1, to w. units: units of x and y, written as a
- * comment. */
+/* Writes the key `table` with the pairs x[k], y[k], k = 0 .. points - 1, to scene.yaml (w). units: units of x and y,
+ * written as a comment. */
 static void write_pairs(struct writer *w, const real *x, const real *y, int points, const char *units)
 {
     writer_begin_key(w, "table");
@@ -265,8 +267,8 @@ static void write_pairs(struct writer *w, const real *x, const real *y, int poin
     fprintf(w->out, "]  # %s\n", units);
 }
 
-/* Writes the flow law and the kinematic hardening of the material m to w, if m yields. Linear hardening that the key
- * yield_tangent gives is not written here. */
+/* Writes the flow law and the kinematic hardening of the material m to scene.yaml (w), if m yields. Linear hardening
+ * that the key yield_tangent gives is not written here. */
 static void write_material_law(struct writer *w, const struct material *m)
 {
     const struct law *law = &m->law;
@@ -289,8 +291,8 @@ static void write_material_law(struct writer *w, const struct material *m)
     if (law->kinematic.modulus > 0) yaml_write_group_as_mapping(w, "kinematic", "material.kinematic", law);
 }
 
-/* Writes the key `rate` of a material to w, the table by which its tensile strength grows with the strain rate. Writes
- * nothing if the strength does not depend on the rate. */
+/* Writes the key `rate` of a material to scene.yaml (w), the table by which its tensile strength grows with the strain
+ * rate. Writes nothing if the strength does not depend on the rate. */
 static void write_rate(struct writer *w, const struct strength_rate *rate)
 {
     if (rate->points == 0) return;
@@ -301,7 +303,8 @@ static void write_rate(struct writer *w, const struct strength_rate *rate)
     w->indent -= 2;
 }
 
-/* Writes the materials of the scene to w: the key `material` for a single one, else the list `materials`. */
+/* Writes the materials of the scene to scene.yaml (w): the key `material` for a single one, else the list `materials`.
+ */
 static void write_materials(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -335,8 +338,8 @@ void yaml_write_file_name(struct writer *w, const char *key, const char *file, u
     free(whole);
 }
 
-/* Writes the key `particles` of the body b to w: the file of its particle list, with scale and columns if the input
- * file (scene) gives them. */
+/* Writes the key `particles` of the body b to scene.yaml (w): the file of its particle list, with scale and columns if
+ * the input file (scene) gives them. */
 static void write_particle_list(struct writer *w, const struct scene_body *b)
 {
     const bool formed = b->form.scale > 0 || b->form.columns;

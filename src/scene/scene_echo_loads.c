@@ -1,8 +1,8 @@
 /* Writes the boundary conditions of the scene as run. */
 #include "scene_echo.h"
 
-/* Writes the key `time` of the boundary condition b to w, for a function of time that is read from a file: name and
- * column of the file. */
+/* Writes the key `time` of the boundary condition b to scene.yaml (w), for a function of time that is read from a
+ * file: name and column of the file. */
 static void write_time_file(struct writer *w, const struct boundary *b)
 {
     writer_begin_key(w, "time");
@@ -18,7 +18,8 @@ static void write_time_file(struct writer *w, const struct boundary *b)
     w->indent -= 2;
 }
 
-/* Writes the key `time` of the boundary condition b to w: the factor by which the value of b varies in time. */
+/* Writes the key `time` of the boundary condition b to scene.yaml (w): the factor by which the value of b varies in
+ * time. */
 static void write_time(struct writer *w, const struct boundary *b)
 {
     const struct time_function *f = &b->time;
@@ -60,7 +61,7 @@ static void write_profile(struct writer *w, const struct profile *f)
     fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
 }
 
-/* Writes component d of a vector to w: the formula formula[d] if it is given, else the number value[d]. */
+/* Writes component d of a vector to scene.yaml (w): the formula formula[d] if it is given, else the number value[d]. */
 static void write_formula(struct writer *w, const real *value, const struct expression *formula, int d)
 {
     if (formula[d].n > 0)
@@ -105,8 +106,8 @@ static void write_velocity(struct writer *w, const struct boundary *b)
     fputs("]\n", w->out);
 }
 
-/* Writes the boundary condition b to w: the keys of the table, then value, face, depth, profile and time as the kind of
- * b requires. */
+/* Writes the boundary condition b to scene.yaml (w): the keys of the table, then value, face, depth, profile and time
+ * as the kind of b requires. */
 static void write_boundary(struct writer *w, const struct boundary *b)
 {
     yaml_write_keys_of_group(w, "boundary", b);

@@ -4,8 +4,9 @@
 
 #include <string.h>
 
-/* Writes the keys of a group of solids to w in flow style, such as `centre: [0, 0], radius: 1`. group: path of the
- * keys; base: structure with their values; between: text before the first key; a comma precedes further keys. */
+/* Writes the keys of a group of solids to scene.yaml (w) in flow style, such as `centre: [0, 0], radius: 1`. group:
+ * path of the keys; base: structure with their values; between: text before the first key; a comma precedes further
+ * keys. */
 static void write_keys(struct writer *w, const char *group, const void *base, const char *between)
 {
     for (int i = 0; i < keys_count; i++) {
@@ -41,7 +42,7 @@ static void write_extrusion(struct writer *w, const struct solid *s)
     write_keys(w, "solid.extrude", s, ", ");
 }
 
-/* Writes shape and keys of the solid s to w in flow style, such as `box: {from: .., to: ..}`. */
+/* Writes shape and keys of the solid s to scene.yaml (w) in flow style, such as `box: {from: .., to: ..}`. */
 static void write_shape(struct writer *w, const struct solid *s)
 {
     static const char *const words[] = {[SOLID_BOX] = "box",           [SOLID_BALL] = "ball",
@@ -93,8 +94,8 @@ static void write_motions(struct writer *w, const struct solid *s)
     }
 }
 
-/* Writes the solid s to w in flow style with its operation (add, subtract, intersect) and its motions. plain: true to
- * omit the word add. */
+/* Writes the solid s to scene.yaml (w) in flow style with its operation (add, subtract, intersect) and its motions.
+ * plain: true to omit the word add. */
 static void write_solid(struct writer *w, const struct solid *s, bool plain)
 {
     const bool group = s->kind == SOLID_GROUP;
@@ -111,8 +112,8 @@ static void write_solid(struct writer *w, const struct solid *s, bool plain)
     fputs(word && !group ? "}}" : "}", w->out);
 }
 
-/* Writes the solids of a region to w as a list in flow style. intersect: true if they are the operands of an
- * intersection. */
+/* Writes the solids of a region to scene.yaml (w) as a list in flow style. intersect: true if they are the operands of
+ * an intersection. */
 static void write_items(struct writer *w, const struct region *region, bool intersect)
 {
     for (int k = 0; k < region->n; k++) {

@@ -5,21 +5,21 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Returns true if the value of key k is a point or a vector, whose components may be formulas. */
+/* Returns true if the value of key k (of input files) is a point or a vector, whose components may be formulas. */
 static bool is_vector(const struct key *k)
 {
     return k->type == KEY_POINT || (k->type == KEY_HAND && k->words && strncmp(k->words, "list of number", 14) == 0);
 }
 
-/* Returns true if an example of a value of key k can be written from the table of keys alone and is a scalar or a
- * vector, no mapping. */
+/* Returns true if the table of keys suffices to write an example of a value of key k (of input files) that is a scalar
+ * or a vector, not a mapping. */
 static bool has_plain_example(const struct key *k)
 {
     return k->type == KEY_REAL || k->type == KEY_INT || k->type == KEY_FLAG || k->type == KEY_CHOICE || is_vector(k);
 }
 
-/* Writes an example of a number of key k to text[capacity]: the default of the key, the example of its unit, or its
- * smallest value. */
+/* Writes an example of a number of key k (of input files) to text[capacity]: the default of the key, the example of
+ * its unit, or its smallest value. */
 static void write_example_number(const struct key *k, char *text, size_t capacity)
 {
     char least[32];
@@ -62,8 +62,8 @@ static const struct key *key_for_example(const char *group_path, const char *wan
     return plain ? plain : first;
 }
 
-/* Writes an example of a value of key k, a key that is neither number, vector, word nor mapping, to text[capacity]:
- * solids, or the form that the table of keys describes in words. */
+/* Writes an example of a value of key k (of input files), a key that is neither number, vector, word nor mapping, to
+ * text[capacity]: solids, or the form that the table of keys describes in words. */
 static void write_form(const struct key *k, char *text, size_t capacity)
 {
     const char *words = k->words ? k->words : "", *pair = strchr(words, '[');

@@ -6,7 +6,8 @@
 
 enum { EXAMPLE_LENGTH = 200 }; /* room for an example in a message [byte] */
 
-/* Returns a text for messages on the values that key k expects. The text is static or in the arena of the reader r. */
+/* Returns a text for messages on the values that key k (of input files) expects. The text is static or in the arena of
+ * the reader r. */
 static const char *form_text(struct reader *r, const struct key *k)
 {
     switch (k->type) {
@@ -45,8 +46,8 @@ status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_k
     return fault(r, n, "%s is not %s%s%s", node_text(r, n), expected, advice ? "; " : "", advice ? advice : "");
 }
 
-/* Returns REFUSED, with a message and an example of a value of key k, if YAML node n is not of the kind `kind`; else
- * OK. expected: name of the kind in the message, with its article. */
+/* Returns REFUSED, with a message and an example of a value of key k (of input files), if YAML node n is not of the
+ * kind `kind`; else OK. expected: name of the kind in the message, with its article. */
 static status expect_kind_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, enum node_kind kind,
                                  const char *expected)
 {

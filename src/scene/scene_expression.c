@@ -65,8 +65,8 @@ static bool keep(struct compile *c, const char *text, size_t length)
     return true;
 }
 
-/* Appends the source text from c->copied, the end of what is copied already, up to `here` to c->kept, the text for
- * scene.yaml. Returns false, with a message in c, if c->kept becomes too long. */
+/* Appends the part of the source text from c->copied, up to which it has been copied already, to `here` to c->kept,
+ * the text of the expression in scene.yaml. Returns false, with a message in c, if c->kept becomes too long. */
 static bool keep_to(struct compile *c, const char *here)
 {
     const char *from = c->copied;
@@ -96,8 +96,8 @@ static size_t name_length(const char *c)
     return n;
 }
 
-/* Writes the message that `expected` was expected at c->at, where the text ends or continues otherwise, to c->what.
- * Returns false. */
+/* Writes to c->what the message that `expected`, such as a number, is missing at c->at, where the text ends or
+ * continues with something else. Returns false. */
 static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
@@ -335,8 +335,9 @@ bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity 
     return true;
 }
 
-/* Reads the value of YAML node n, of the form `1/3 mm`, as a constant expression e in the unit of key k: 1/3 of a mm,
- * as in keys without formulas. As a formula it would mean 1/(3 mm). Returns false if the text has another form. */
+/* Reads the value of YAML node n, of the form `1/3 mm`, as a constant expression e in the unit of key k (of input
+ * files): 1/3 of a mm, as in keys without formulas. As a formula it would mean 1/(3 mm). Returns false if the text has
+ * another form. */
 static bool number_constant(const struct yaml_node *n, const struct key *k, struct expression *e)
 {
     char what[256];

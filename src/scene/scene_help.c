@@ -7,7 +7,8 @@
 
 /* ---- facts of a key ---------------------------------------------------------------------------------------------- */
 
-/* Returns the type of the values of key k in words for the reference, such as `whole number`. The text is static. */
+/* Returns the type of the values of key k (of input files) in words for the reference, such as `whole number`. The
+ * text is static. */
 static const char *type_text(const struct key *k)
 {
     switch (k->type) {
@@ -48,8 +49,8 @@ static const char *type_text(const struct key *k)
     }
 }
 
-/* Writes the range of key k, such as `> 0, <= 1`, or the words that are its values, separated by commas, to
- * text[capacity]; "" if it has neither. */
+/* Writes the range of key k (of input files), such as `> 0, <= 1`, or the words that are its values, separated by
+ * commas, to text[capacity]; "" if it has neither. */
 static void range_text(const struct key *k, char *text, size_t capacity)
 {
     char least[32], most[32];
@@ -78,8 +79,8 @@ static void range_text(const struct key *k, char *text, size_t capacity)
     }
 }
 
-/* Writes the default of key k to text[capacity]; "" if the key has none. A default that depends on other keys is in
- * brackets in the table of keys; the brackets are omitted. */
+/* Writes the default of key k (of input files) to text[capacity]; "" if the key has none. A default that depends on
+ * other keys is in brackets in the table of keys; the brackets are omitted. */
 static void default_text(const struct key *k, char *text, size_t capacity)
 {
     bool explained = *k->fallback == '(';
@@ -135,8 +136,8 @@ bool key_is_at_or_below_path(const struct key *k, const char *path)
     return length == 0 || k->path[length] == '\0' || k->path[length] == '.';
 }
 
-/* Returns the edit distance between `path` and key k: the smaller of the distances to the path of k and to the last
- * part of its path. */
+/* Returns the edit distance between `path` and key k (of input files): the smaller of the distances to the path of k
+ * and to the last part of its path. */
 static int key_distance(const struct key *k, const char *path)
 {
     const int whole = edit_distance(k->path, path), leaf = edit_distance(key_last_part(k), path);
@@ -158,14 +159,14 @@ static status help_unknown(const char *path)
                       path);
 }
 
-/* Returns true if `leaf` is the last part of the path of key k. */
+/* Returns true if `leaf` is the last part of the path of key k (of input files). */
 static bool has_leaf(const struct key *k, const char *leaf)
 {
     return k->type != KEY_GROUP && !strcmp(key_last_part(k), leaf);
 }
 
-/* Returns true if `word`, with _ for blanks, is one of the words that key k has as values. Returns false for the key
- * `accept`, whose words are names of warnings. */
+/* Returns true if `word`, with _ for blanks, is one of the words that key k (of input files) has as values. Returns
+ * false for the key `accept`, whose words are names of warnings. */
 static bool is_value_of(const struct key *k, const char *word)
 {
     const size_t length = strlen(word);

@@ -32,8 +32,8 @@ static bool step_of_path(const char **path, const char **key, size_t *length, in
     return true;
 }
 
-/* Appends an empty mapping to the mapping `map` and returns it. key, length: its key; origin: number of the override,
- * for messages. The memory belongs to the reader r. */
+/* Appends an empty mapping to the mapping `map` and returns it. key, length: its key; origin: number of the override
+ * (KEY=VALUE on the command line), for messages. The memory belongs to the reader r. */
 static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, const char *key, size_t length, int origin)
 {
     struct yaml_node *n = arena_new(r, sizeof *n);
@@ -43,8 +43,8 @@ static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, cons
     return n;
 }
 
-/* Returns the name by which an override addresses an item of a list: the value of its key `name`; for a probe the
- * `name` below its kind, else its kind. Returns NULL if the item has no name. */
+/* Returns the name by which an override (KEY=VALUE on the command line) addresses an item of a list: the value of its
+ * key `name`; for a probe the `name` below its kind, else its kind. Returns NULL if the item has no name. */
 static const char *item_name(const struct yaml_node *list, const struct yaml_node *item)
 {
     const bool probe = list->key && strcmp(list->key, "probes") == 0;
@@ -57,16 +57,17 @@ static const char *item_name(const struct yaml_node *list, const struct yaml_nod
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* Sets the origin of YAML node n to override number `origin`, so that the message of the refusal that follows names
- * this override, and returns n. The tree must not be used afterwards, since the origin is wrong. */
+/* Sets the origin of YAML node n to override number `origin` (KEY=VALUE on the command line), so that the message of
+ * the refusal that follows names this override, and returns n. The tree must not be used afterwards, since the origin
+ * is wrong. */
 static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 {
     n->origin = origin;
     return n;
 }
 
-/* Sets *out to item `index` (from 0) of a list. origin: number of the override, for messages. Returns REFUSED, with a
- * message, if the node is no list or has fewer items. */
+/* Sets *out to item `index` (from 0) of a list. origin: number of the override (KEY=VALUE on the command line), for
+ * messages. Returns REFUSED, with a message, if the node is no list or has fewer items. */
 static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
@@ -98,8 +99,8 @@ static const char *names_text(struct reader *r, const struct yaml_node *list)
 }
 
 /* Finds *out, the item of a list that `key` (of `length` characters) addresses: by index, by name, or by the name of
- * the list followed by the index, as in boundary0. origin: number of the override, for messages. Returns REFUSED,
- * with the names of all items, if there is no such item. */
+ * the list followed by the index, as in boundary0. origin: number of the override (KEY=VALUE on the command line), for
+ * messages. Returns REFUSED, with the names of all items, if there is no such item. */
 static status item_called(struct reader *r, struct yaml_node *list, const char *key, size_t length, int origin,
                           struct yaml_node **out)
 {
@@ -127,7 +128,7 @@ static bool is_key(const struct yaml_node *n, const char *key, size_t length)
 
 /* Writes out the short form of a value: if the value of YAML node n is a word, turns n into a mapping with the one
  * entry `key`, whose value is `text` (NULL: an empty mapping). For example, `exact: step bar` becomes `exact: {form:
- * step bar}`. Leaves other nodes unchanged. origin: number of the override. */
+ * step bar}`. Leaves other nodes unchanged. origin: number of the override (KEY=VALUE on the command line). */
 static void write_out(struct reader *r, struct yaml_node *n, const char *key, const char *text, int origin)
 {
     if (n->kind != NODE_SCALAR || *n->text == '\0') return;
@@ -138,7 +139,7 @@ static void write_out(struct reader *r, struct yaml_node *n, const char *key, co
 
 /* Returns the mapping in which `key` (of `length` characters) of an item must be searched: the item itself, or for a
  * probe the mapping below its kind, so that a path can omit the kind (probes.0.at for probes.0.point.at). origin:
- * number of the override, for messages. */
+ * number of the override (KEY=VALUE on the command line), for messages. */
 static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, const char *key, size_t length,
                                     int origin)
 {
@@ -152,8 +153,8 @@ static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, co
 
 /* Finds *out, the YAML node that one part of a path addresses: if `map` is a mapping, the entry `key` (of `length`
  * characters), created if it is missing; if it is a list, the item with this index or name. origin: number of the
- * override, for messages. Returns REFUSED, with a message, for a list without such an item, and for nodes without
- * keys. */
+ * override (KEY=VALUE on the command line), for messages. Returns REFUSED, with a message, for a list without such an
+ * item, and for nodes without keys. */
 static status scene_override_entry_of(struct reader *r, struct yaml_node *map, const char *key, size_t length,
                                       int origin, struct yaml_node **out)
 {
@@ -200,9 +201,10 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
     for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
-/* Applies override number `origin` (from 0) to `root`, the YAML tree of the input file (scene). Sets the value at its
- * path; appends the value to a list if the path ends in the index after the last item; removes the key if the value is
- * empty. Returns REFUSED, with a message, for a malformed path, and if the key to be removed is missing. */
+/* Applies override number `origin` (from 0; KEY=VALUE on the command line) to `root`, the YAML tree of the input file
+ * (scene). Sets the value at its path; appends the value to a list if the path ends in the index after the last item;
+ * removes the key if the value is empty. Returns REFUSED, with a message, for a malformed path, and if the key to be
+ * removed is missing. */
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];

@@ -27,8 +27,8 @@ static void row(FILE *out, const struct key *k)
     fputc('\n', out);
 }
 
-/* Returns true if key k is at the top of a scene, not below another key. *has_keys: receives true if other keys are
- * below k; these follow k in the table of keys. */
+/* Returns true if key k (of input files) is at the top of a scene, not below another key. *has_keys: receives true if
+ * other keys are below k; these follow k in the table of keys. */
 static bool is_top(const struct key *k, bool *has_keys)
 {
     *has_keys = k + 1 < keys + keys_count && key_is_at_or_below_path(&k[1], k->path);

@@ -37,8 +37,8 @@ static void write_words(FILE *out, const char *words)
     fputs("]}", out);
 }
 
-/* Writes the JSON types of key k to `out`: a number of the JSON type `type` ("number" or "integer") within the range of
- * k, or a text, since formulas and numbers with units are texts. */
+/* Writes the JSON types of key k (of input files) to `out`: a number of the JSON type `type` ("number" or "integer")
+ * within the range of k, or a text, since formulas and numbers with units are texts. */
 static void write_numbers(FILE *out, const struct key *k, const char *type)
 {
     char least[32], most[32];
@@ -83,8 +83,8 @@ static bool has_children(const char *group)
     return any;
 }
 
-/* Writes the JSON type of key k, whose value is read by a function of its own, to `out`, as derived from the
- * description of its form in the table of keys. Writes {}, any value, if the description is not recognised. */
+/* Writes the JSON type of key k (of input files), whose value is read by a function of its own, to `out`, as derived
+ * from the description of its form in the table of keys. Writes {}, any value, if the description is not recognised. */
 static void write_by_hand(FILE *out, const struct key *k)
 {
     const char *form = k->words ? k->words : "";
@@ -146,7 +146,7 @@ static void write_list_items(FILE *out, const struct key *k)
     fputc('}', out);
 }
 
-/* Writes the JSON types that the value of key k may have, separated by commas, to `out`. */
+/* Writes the JSON types that the value of key k (of input files) may have, separated by commas, to `out`. */
 static void write_alternatives(FILE *out, const struct key *k)
 {
     static const char *const definition[] = {
@@ -179,8 +179,8 @@ static void write_alternatives(FILE *out, const struct key *k)
     }
 }
 
-/* Returns true if key k is in a mapping that is merged with that of an included scene. Such a key may have an empty
- * value, which removes the value of the included scene. */
+/* Returns true if key k (of input files) is in a mapping that is merged with that of an included scene. Such a key may
+ * have an empty value, which removes the value of the included scene. */
 static bool is_in_merged(const struct key *k)
 {
     char group[64];

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Returns the path of the group of keys in the mapping that is the value of key k, or in each mapping of the list.
- * Returns NULL if the value is no such mapping, or a mapping of names. */
+/* Returns the path of the group of keys in the mapping that is the value of key k (of input files), or in each mapping
+ * of the list. Returns NULL if the value is no such mapping, or a mapping of names. */
 static const char *group_of_values(const struct key *k)
 {
     const char *words = k->words ? k->words : "", *group = key_group_of_items(k);

@@ -13,7 +13,7 @@
 /* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
 /* Returns REFUSED, with the expected range in the message, if `value` [SI], read from YAML node n, is outside the
- * range of key k. */
+ * range of key k (of input files). */
 static status check_range(struct reader *r, const struct key *k, const struct yaml_node *n, real value)
 {
     const struct range *range = &k->range;
@@ -68,7 +68,7 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
 }
 
 /* Reads a whole number from YAML node n into *value. Returns REFUSED, with a message, for other texts and outside the
- * range of key k. */
+ * range of key k (of input files). */
 static status read_int(struct reader *r, const struct key *k, const struct yaml_node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
@@ -138,8 +138,8 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     return nearest;
 }
 
-/* Reads words of key k, `none` or `all` from YAML node n into *bits, one bit per word. Returns REFUSED, with a
- * message, for other texts. */
+/* Reads words of key k (of input files), `none` or `all` from YAML node n into *bits, one bit per word. Returns
+ * REFUSED, with a message, for other texts. */
 static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
     const char *words = words_for_message(r, k->words);
@@ -218,7 +218,7 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
 }
 
 /* Reads dim x dim numbers, as a list of rows or as one list, from YAML node n into matrix[dim * dim], row by row, in
- * the SI unit of key k. Returns REFUSED, with a message, for another form. */
+ * the SI unit of key k (of input files). Returns REFUSED, with a message, for another form. */
 static status read_matrix(struct reader *r, const struct key *k, const struct yaml_node *n, real *matrix)
 {
     int dim = r->dim, entry = 0;
@@ -235,8 +235,8 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
 
 enum { SERIES_MOST = 100000 }; /* largest number of values of a series */
 
-/* Reads a list of ascending numbers from YAML node n, in the SI unit and range of key k, into *series, which the scene
- * frees. Returns REFUSED, with a message, for another form. */
+/* Reads a list of ascending numbers from YAML node n, in the SI unit and range of key k (of input files), into
+ * *series, which the scene frees. Returns REFUSED, with a message, for another form. */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
     TRY(expect_list(r, k, n));
@@ -298,8 +298,8 @@ static status scene_value_read_body(struct reader *r, const struct yaml_node *n,
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the value of key k from YAML node n into group_values, the structure of the group of k, by the type of k.
- * Returns REFUSED, with a message, for an invalid value. */
+/* Reads the value of key k (of input files) from YAML node n into group_values, the structure of the group of k, by
+ * the type of k. Returns REFUSED, with a message, for an invalid value. */
 status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *group_values)
 {
     char none[16];
@@ -336,8 +336,8 @@ status read_value_of_key(struct reader *r, const struct key *k, const struct yam
     }
 }
 
-/* Reads the default of key k into `base`, the structure of its group. Returns REFUSED if k is required and missing;
- * where: YAML node whose location the message names. */
+/* Reads the default of key k (of input files) into `base`, the structure of its group. Returns REFUSED if k is
+ * required and missing; where: YAML node whose location the message names. */
 static status read_fallback(struct reader *r, const struct yaml_node *where, const struct key *k, void *base)
 {
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};

@@ -25,10 +25,10 @@ double student_t_quantile_975(int degrees_of_freedom)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Summarises the runs of one spacing level in *l: mean, standard deviation, mean spacing and number. k: the level, 0
- * the finest; n: number of all runs. Run i has the spacing spacing[i] [m] (NULL: not summarised), the level level[i]
- * (NULL: all runs count) and the value value[i]. Runs whose value is not finite are left out. The deviation is NAN for
- * a single run. */
+/* Summarises the runs of one spacing level (runs with one particle spacing) in *l: mean, standard deviation, mean
+ * spacing and number. k: the level, 0 the finest; n: number of all runs. Run i has the spacing spacing[i] [m] (NULL:
+ * not summarised), the level level[i] (NULL: all runs count) and the value value[i]. Runs whose value is not finite
+ * are left out. The deviation is NAN for a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
 {
@@ -59,10 +59,10 @@ void convergence_summarise_runs(struct level_figures *l, const double *value, in
     l->error = error_of_mean(l->deviation, l->runs - 1, l->runs);
 }
 
-/* Computes the error of the mean of each spacing level of c, half of its 95 % interval, from the scatter of its runs
- * (Student's t distribution). A level with a single run uses the pooled scatter of the other levels.
- * resolution[levels]: further error of each level, combined as the root of the sum of squares; NULL if there is
- * none. */
+/* Computes the error of the mean of each spacing level (runs with one particle spacing) of c, half of its 95 %
+ * interval, from the scatter of its runs (Student's t distribution). A level with a single run uses the pooled scatter
+ * of the other levels. resolution[levels]: further error of each level, combined as the root of the sum of squares;
+ * NULL if there is none. */
 static void errors_find(struct convergence *c, const double *resolution)
 {
     double sum = 0;
@@ -85,7 +85,8 @@ static void errors_find(struct convergence *c, const double *resolution)
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of a scalar result at the three finest spacing levels
- * l[3] (l[0] the finest) that would result if the error were proportional to h^p, with the spacing h. */
+ * l[3] (runs with one particle spacing each; l[0] the finest) that would result if the error were proportional to h^p,
+ * with the spacing h. */
 static double ratio_at(const struct level_figures *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
@@ -93,9 +94,9 @@ static double ratio_at(const struct level_figures *l, double p)
     return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
 }
 
-/* Returns the order p for which the means m of a result at the three finest spacing levels l[3] (l[0] the finest) are
- * linear in h^p, with the spacing h. It is found by bisection between -10 and 20. ratio: measured (m2 - m1)/(m1 -
- * m0). */
+/* Returns the order p for which the means m of a result at the three finest spacing levels l[3] (runs with one
+ * particle spacing each; l[0] the finest) are linear in h^p, with the spacing h. It is found by bisection between -10
+ * and 20. ratio: measured (m2 - m1)/(m1 - m0). */
 static double order_find(const struct level_figures *l, double ratio)
 {
     double low = -10, high = 20;
@@ -116,8 +117,8 @@ struct orders {
 };
 
 /* Computes the observed order of convergence of a scalar result from its means at the three finest spacing levels l[3]
- * (l[0] the finest), and the range of orders that the errors of the means allow, into *o. Returns false if the means
- * oscillate by more than their errors. */
+ * (runs with one particle spacing each; l[0] the finest), and the range of orders that the errors of the means allow,
+ * into *o. Returns false if the means oscillate by more than their errors. */
 static bool orders_find(struct orders *o, const struct level_figures *l)
 {
     const double sign =
@@ -132,9 +133,10 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
     return true;
 }
 
-/* Determines verdict, observed order and grid convergence index (Roache 1998) of a result (a scalar result of the runs)
- * from its means at the three finest spacing levels in c, and stores them in *c. The order is NAN if the means
- * oscillate or differ by no more than their errors; the index is NAN if the order is NAN or below 1/2. */
+/* Determines verdict, observed order and grid convergence index (Roache 1998) of a result (a scalar result of the
+ * runs) from its means at the three finest spacing levels (runs with one particle spacing each) in c, and stores them
+ * in *c. The order is NAN if the means oscillate or differ by no more than their errors; the index is NAN if the order
+ * is NAN or below 1/2. */
 static void convergence_judge(struct convergence *c)
 {
     const struct level_figures *l = c->level;

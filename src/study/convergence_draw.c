@@ -39,8 +39,9 @@ status scalar_results_check_replaceable(const char *folder)
 
 /* ---- results over the spacing ------------------------------------------------------------------------------------ */
 
-/* Returns the lower end of the 95 % interval of the result f at spacing level k, in the unit of the result. That of a
- * positive time, length of a crack or speed of its tip is not below 0, as none of these can be. */
+/* Returns the lower end of the 95 % interval of the result f at spacing level k (runs with one particle spacing), in
+ * the unit of the result. That of a positive time, length of a crack or speed of its tip is not below 0, as none of
+ * these can be. */
 static double interval_begin(const struct scalar_result_study *f, int k)
 {
     const double begin = f->c.level[k].mean - f->c.uncertainty[k];
@@ -49,8 +50,9 @@ static double interval_begin(const struct scalar_result_study *f, int k)
 }
 
 /* Sends three data blocks of the result f, a number in summary.json of the runs of the study s, to gnuplot's stream
- * `to`. Their names are $r, $m and $e followed by the number `panel`. $r: spacing and result of every run. $m: spacing,
- * mean and ends of the 95 % interval of every spacing level. $e: spacing 0 and the extrapolated result. */
+ * `to`. Their names are $r, $m and $e followed by the number `panel`. $r: spacing and result of every run. $m:
+ * spacing, mean and ends of the 95 % interval of every spacing level (runs with one particle spacing). $e: spacing 0
+ * and the extrapolated result. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_index_of_result(&s->table, f->name);

@@ -26,9 +26,9 @@ enum { PRINTED_MOST = 24 };
 /* ---- sensitivity of a result ------------------------------------------------------------------------------------- */
 
 /* Returns by how much a result (a number in summary.json) of the study s changes if the time step is 10 % longer: b
- * log(1.1), with the slope b of the result over log(time step). The slope is fitted by least squares to all runs, after
- * the mean of the spacing level is subtracted from each result. c: means of the levels; value[k]: result of run k.
- * Returns NAN if all runs have the same time step or the scene is not dynamic. */
+ * log(1.1), with the slope b of the result over log(time step). The slope is fitted by least squares to all runs,
+ * after the mean of the spacing level (runs with one particle spacing) is subtracted from each result. c: means of the
+ * levels; value[k]: result of run k. Returns NAN if all runs have the same time step or the scene is not dynamic. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -58,10 +58,10 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes the error of the result `name` (a number in summary.json) at each spacing level of the study s that results
- * because cracks grow from particle to particle, into resolution[levels]. It is half a spacing [m] for positions and
- * lengths of cracks; for angles it is the rotation of the crack if its end moves by half a spacing [degree]. Returns
- * false, and stores nothing, for results that change continuously. */
+/* Computes the error of the result `name` (a number in summary.json) at each spacing level (runs with one particle
+ * spacing) of the study s that results because cracks grow from particle to particle, into resolution[levels]. It is
+ * half a spacing [m] for positions and lengths of cracks; for angles it is the rotation of the crack if its end moves
+ * by half a spacing [degree]. Returns false, and stores nothing, for results that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -80,8 +80,9 @@ static bool resolution_find(double *resolution, const struct convergence_study *
     return true;
 }
 
-/* Evaluates the convergence of one number of summary.json, in column `at` of the table s->table, and its sensitivity to
- * time step, spacing and horizon, into *f. Returns false if one of the finest spacing levels has no value. */
+/* Evaluates the convergence of one number of summary.json, in column `at` of the table s->table, and its sensitivity
+ * to time step, spacing and horizon, into *f. Returns false if one of the finest spacing levels (runs with one
+ * particle spacing each) has no value. */
 static bool figure_make(struct scalar_result_study *f, const struct convergence_study *s, int at)
 {
     double *spacing = NEW("study.spacing", s->study.n, double);
@@ -105,9 +106,9 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     return true;
 }
 
-/* Returns true if the result f (a number in summary.json) differs between the spacing levels or the runs of a study.
- * Energies of mechanisms that the input file (scene) does not have are an example of constant results, which are not
- * reported. */
+/* Returns true if the result f (a number in summary.json) differs between the spacing levels (runs with one particle
+ * spacing each) or the runs of a study. Energies of mechanisms that the input file (scene) does not have are an
+ * example of constant results, which are not reported. */
 static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;
@@ -286,7 +287,8 @@ static bool limit_is_impossible(const struct scalar_result_study *f)
 }
 
 /* Prints the orders of convergence of the result f (a scalar result), and its limit at spacing 0, as part of a
- * sentence. Prints nothing if the means of the spacing levels oscillate or diverge. */
+ * sentence. Prints nothing if the means of the spacing levels (runs with one particle spacing each) oscillate or
+ * diverge. */
 static void order_print(const struct scalar_result_study *f)
 {
     const struct convergence *c = &f->c;

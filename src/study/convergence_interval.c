@@ -32,8 +32,9 @@ struct mixture {
 
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale S of the means of a scalar result at all spacing levels: S = sqrt(range^2 + (error/2)^2), where
- * range is the largest minus the smallest mean and error the largest error of a mean. c: means and errors. */
+/* Returns the scale S of the means of a scalar result at all spacing levels (runs with one particle spacing each): S =
+ * sqrt(range^2 + (error/2)^2), where range is the largest minus the smallest mean and error the largest error of a
+ * mean. c: means and errors. */
 static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;

@@ -22,9 +22,10 @@ enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the factor on the scene's time step for run number `run` (from 0) of the `runs` runs of a spacing level. Run
- * 0 has the factor 1, or less if the scene's own step is above the critical one. The others have alternately shorter
- * and longer steps, beginning with the largest deviations; steps that would be unstable are excluded. */
+/* Returns the factor on the scene's time step for run number `run` (from 0) of the `runs` runs of a spacing level
+ * (runs with one particle spacing). Run 0 has the factor 1, or less if the scene's own step is above the critical one.
+ * The others have alternately shorter and longer steps, beginning with the largest deviations; steps that would be
+ * unstable are excluded. */
 static double step_of(const struct convergence_study *s, int run, int runs)
 {
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
@@ -122,9 +123,10 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
-/* Sets the number of runs of the finest spacing level to `finest`, and of the other levels to `runs`, in s->runs. Runs
- * of one level differ in random positions of particles, time steps or slightly different spacings. If positions and
- * time steps do not vary, a level has at most as many runs as spacings, since further runs would be equal. */
+/* Sets the number of runs of the finest spacing level (runs with one particle spacing) to `finest`, and of the other
+ * levels to `runs`, in s->runs. Runs of one level differ in random positions of particles, time steps or slightly
+ * different spacings. If positions and time steps do not vary, a level has at most as many runs as spacings, since
+ * further runs would be equal. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
     const bool steps = scene_is_dynamic(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
@@ -135,9 +137,10 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
     }
 }
 
-/* Chooses the largest number of runs of each spacing level, at most `runs`, with which the study takes no longer than
- * `left` [s] if `jobs` runs run at a time. If even RUNS_LEAST runs per level take longer, plans only one run at the
- * finest level. Stores the predicted time in s->expected. Returns true if the plan fits into `left`. */
+/* Chooses the largest number of runs of each spacing level (runs with one particle spacing), at most `runs`, with
+ * which the study takes no longer than `left` [s] if `jobs` runs run at a time. If even RUNS_LEAST runs per level take
+ * longer, plans only one run at the finest level. Stores the predicted time in s->expected. Returns true if the plan
+ * fits into `left`. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {
     for (int k = runs; k >= RUNS_LEAST; k--) {
@@ -161,10 +164,10 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* Makes the first run of the study s that the request w demands, at the coarsest spacing level, and stores its
- * duration in s->spent. The durations of the other runs are predicted from it. Sets *refused to true if the input file
- * (scene) is invalid at this spacing, for example because the integration rings of probes become too narrow. Returns
- * REFUSED, with a message, if the run exceeds the budget, FAILED if it fails. */
+/* Makes the first run of the study s that the request w demands, at the coarsest spacing level (runs with one particle
+ * spacing), and stores its duration in s->spent. The durations of the other runs are predicted from it. Sets *refused
+ * to true if the input file (scene) is invalid at this spacing, for example because the integration rings of probes
+ * become too narrow. Returns REFUSED, with a message, if the run exceeds the budget, FAILED if it fails. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -224,9 +227,10 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans the spacing levels of a study as the request w demands, in s->spacings. The finest level has the spacing that
- * the input file (scene) gives times 2^(shift/2), so that the scene's own spacing is among the levels if shift is at
- * most 0. Omits levels at which the scene is invalid. Returns false if no valid plan results. */
+/* Plans the spacing levels (runs with one particle spacing each) of a study as the request w demands, in s->spacings.
+ * The finest level has the spacing that the input file (scene) gives times 2^(shift/2), so that the scene's own
+ * spacing is among the levels if shift is at most 0. Omits levels at which the scene is invalid. Returns false if no
+ * valid plan results. */
 static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
@@ -239,9 +243,9 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
     return s->spacings.at[levels - 1][0] < 0.999 * s->refused;
 }
 
-/* Chooses spacing levels and numbers of runs with which the study fits into its budget. Levels are coarsened until the
- * finest one is not too expensive. w: request; jobs: number of runs at a time. Returns REFUSED, with a message, if no
- * plan fits. */
+/* Chooses spacing levels (runs with one particle spacing each) and numbers of runs with which the study fits into its
+ * budget. Levels are coarsened until the finest one is not too expensive. w: request; jobs: number of runs at a time.
+ * Returns REFUSED, with a message, if no plan fits. */
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
@@ -272,9 +276,9 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
         s->budget, need + s->spent);
 }
 
-/* Adds all planned runs to the study s. The first runs are one run of each spacing level, so that there are results
- * even if the budget ends early. The last run, marked by level -1, has a horizon one spacing longer; it is left out if
- * the horizon cannot be varied. */
+/* Adds all planned runs to the study s. The first runs are one run of each spacing level (runs with one particle
+ * spacing), so that there are results even if the budget ends early. The last run, marked by level -1, has a horizon
+ * one spacing longer; it is left out if the horizon cannot be varied. */
 static void runs_add_all(struct convergence_study *s)
 {
     const int first = s->point[s->first].level;

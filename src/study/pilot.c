@@ -92,8 +92,8 @@ static double time_left(const struct pilot_search *p)
     return fmax(p->wish.budget - (wall_clock_seconds() - p->begun), 0);
 }
 
-/* Returns the candidate method of the search p whose run at the spacing that it needs for the requested accuracy has
- * the shortest predicted duration. Returns NULL if no method has a prediction. */
+/* Returns the candidate method of the search p (for the method of `method: auto`) whose run at the spacing that it
+ * needs for the requested accuracy has the shortest predicted duration. Returns NULL if no method has a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
 {
     struct pilot_candidate *best = NULL;
@@ -102,10 +102,11 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
     return best;
 }
 
-/* Makes one convergence study of every candidate method of the search p. The studies together take the share
- * PILOT_FIRST_SHARE of the time that is left, in equal parts. If the input file (scene) is invalid at the spacing of a
- * study, the study is repeated at finer spacings. Returns OK even if a method fails (its reason is stored),
- * INTERRUPTED after a stop signal, or REFUSED, with a message, if the runs lack the requested result. */
+/* Makes one convergence study of every candidate method of the search p (for the method of `method: auto`). The
+ * studies together take the share PILOT_FIRST_SHARE of the time that is left, in equal parts. If the input file
+ * (scene) is invalid at the spacing of a study, the study is repeated at finer spacings. Returns OK even if a method
+ * fails (its reason is stored), INTERRUPTED after a stop signal, or REFUSED, with a message, if the runs lack the
+ * requested result. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -125,10 +126,10 @@ static status search_first(struct pilot_search *p)
     return OK;
 }
 
-/* Repeats the convergence study of the method *c of the search p at finer spacings, as fine as its prediction requires
- * and the remaining time allows. Replaces *c by the outcome and returns true if it is better. Returns false if no time
- * is left, if the outcome is no better, or after an interruption. *done: receives INTERRUPTED in the last case, else
- * OK. */
+/* Repeats the convergence study of the method *c of the search p (for the method of `method: auto`) at finer spacings,
+ * as fine as its prediction requires and the remaining time allows. Replaces *c by the outcome and returns true if it
+ * is better. Returns false if no time is left, if the outcome is no better, or after an interruption. *done: receives
+ * INTERRUPTED in the last case, else OK. */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
@@ -148,9 +149,9 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     return true;
 }
 
-/* Repeats the study of that method of the search p which has the shortest predicted duration, at finer spacings. Ends
- * when this method has a run that is accurate enough, or no refinement is possible. The method may change from one
- * study to the next. Returns INTERRUPTED after a stop signal, else OK. */
+/* Repeats the study of that method of the search p (for the method of `method: auto`) which has the shortest predicted
+ * duration, at finer spacings. Ends when this method has a run that is accurate enough, or no refinement is possible.
+ * The method may change from one study to the next. Returns INTERRUPTED after a stop signal, else OK. */
 static status search_finer(struct pilot_search *p)
 {
     status done = OK;
@@ -159,9 +160,9 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a candidate method of the search p that contradicts the method c: its value of the scalar result differs by
- * more than the uncertainties of both and the requested accuracy together, so that one of the two values must be wrong.
- * Returns NULL if there is none. */
+/* Returns a candidate method of the search p (for the method of `method: auto`) that contradicts the method c: its
+ * value of the scalar result differs by more than the uncertainties of both and the requested accuracy together, so
+ * that one of the two values must be wrong. Returns NULL if there is none. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {
@@ -173,8 +174,8 @@ static const struct pilot_candidate *contradiction(const struct pilot_search *p,
     return NULL;
 }
 
-/* Returns REFUSED, because no method of the search p is accurate enough, with a message that lists the accuracy that
- * each method has reached, or why it failed. */
+/* Returns REFUSED, because no method of the search p (for the method of `method: auto`) is accurate enough, with a
+ * message that lists the accuracy that each method has reached, or why it failed. */
 static status search_failed(const struct pilot_search *p)
 {
     char text[900] = "";
@@ -202,9 +203,9 @@ static status search_failed(const struct pilot_search *p)
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
-/* Prints the chosen method *best of the search p and its spacing, and stores the overrides for them in *to. best: NULL
- * if no method has a prediction. Returns REFUSED, with a message, if `best` is NULL or not accurate enough within the
- * budget, or if two methods converge to different values. */
+/* Prints the chosen method *best of the search p (for the method of `method: auto`) and its spacing, and stores the
+ * overrides for them in *to. best: NULL if no method has a prediction. Returns REFUSED, with a message, if `best` is
+ * NULL or not accurate enough within the budget, or if two methods converge to different values. */
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)

@@ -32,9 +32,9 @@ void pilot_free(struct pilot *to)
 
 /* ---- the question ------------------------------------------------------------------------------------------------ */
 
-/* Returns the text by which a stored choice of the search p is recognised: the contents of the scene file, followed by
- * the overrides of the user as comments. Returns NULL if the scene file cannot be read or memory is short. The caller
- * releases the text with free. */
+/* Returns the text by which a stored choice of the search p (for the method of `method: auto`) is recognised: the
+ * contents of the scene file, followed by the overrides of the user as comments. Returns NULL if the scene file cannot
+ * be read or memory is short. The caller releases the text with free. */
 static char *question_text(const struct pilot_search *p)
 {
     char *scene, *text = NULL;

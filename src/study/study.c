@@ -53,8 +53,9 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 /* ---- scene of the study ------------------------------------------------------------------------------------------ */
 
 /* Composes the text that identifies a study if its scene cannot be read because it is incomplete without the varied
- * keys. The text is the contents of the scene file `path`, followed by override[overrides] as comments. The caller
- * releases *text with memory_free. Returns FAILED, with a message, if the file cannot be read. */
+ * keys (keys of the input file that a study varies). The text is the contents of the scene file `path`, followed by
+ * override[overrides] as comments. The caller releases *text with memory_free. Returns FAILED, with a message, if the
+ * file cannot be read. */
 static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
 {
     size_t length, room;

@@ -27,9 +27,9 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Sends the labels of the values of a varied key to gnuplot's stream `to` as tics (labelled marks) of an axis, at the
- * positions 0, 1, 2 and so on. If there are many values, some labels are omitted. axis: "x" or "y"; rotated: true for
- * slanted labels. */
+/* Sends the labels of the values of a varied key (a key of the input file that a study varies) to gnuplot's stream
+ * `to` as tics (labelled marks) of an axis, at the positions 0, 1, 2 and so on. If there are many values, some labels
+ * are omitted. axis: "x" or "y"; rotated: true for slanted labels. */
 static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
 {
     const int each = (key->values + STUDY_TICS_MOST - 1) / STUDY_TICS_MOST;
@@ -143,9 +143,10 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
     putc('\n', to);
 }
 
-/* Draws the legend of the lines with its heading, the names of the varied keys that distinguish lines, through
- * gnuplot's stream `to`: on the right of the panels or, in a narrow picture, below them. The legend is drawn as a panel
- * of its own, as large as the picture, because gnuplot makes no legend wider than its panel. */
+/* Draws the legend of the lines with its heading, the names of the varied keys (keys of the input file that a study
+ * varies) that distinguish lines, through gnuplot's stream `to`: on the right of the panels or, in a narrow picture,
+ * below them. The legend is drawn as a panel of its own, as large as the picture, because gnuplot makes no legend
+ * wider than its panel. */
 static void draw_key(FILE *to, const struct study_picture *p)
 {
     char text[256];
@@ -208,9 +209,9 @@ static status draw_lines(struct study_picture *p)
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Draws each chosen scalar result of a study as a map over two varied keys. The key with the index p->across is along
- * the horizontal axis, the key with the index `up` along the vertical axis. Returns FAILED, with a message, if gnuplot
- * fails. */
+/* Draws each chosen scalar result of a study as a map over two varied keys (keys of the input file that a study
+ * varies). The key with the index p->across is along the horizontal axis, the key with the index `up` along the
+ * vertical axis. Returns FAILED, with a message, if gnuplot fails. */
 static status draw_study_map(struct study_picture *p, int up)
 {
     const struct varied_key *across = &p->key[p->across].shown, *key_up = &p->key[up].shown;
@@ -244,9 +245,10 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Finds the two varied keys that form the axes of a map in the picture p: those with a physical meaning if there are
- * two, else all varied keys. Stores the index of the key along the vertical axis in *up, and of that along the
- * horizontal axis in *across. Returns false if there are not exactly two, so that no map is drawn. */
+/* Finds the two varied keys (keys of the input file that a study varies) that form the axes of a map in the picture p:
+ * those with a physical meaning if there are two, else all varied keys. Stores the index of the key along the vertical
+ * axis in *up, and of that along the horizontal axis in *across. Returns false if there are not exactly two, so that
+ * no map is drawn. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {

@@ -17,7 +17,8 @@ static const double PROPORTION = 0.7; /* height of a panel divided by its width 
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 
 /* Writes the title of line number `line` (from 0) of the picture p to text[capacity]: the values of the varied keys
- * that distinguish lines, separated by commas. Truncates a title that is too long. */
+ * (keys of the input file that a study varies) that distinguish lines, separated by commas. Truncates a title that is
+ * too long. */
 void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line)
 {
     size_t used = 0;
@@ -78,8 +79,8 @@ static int tics_shown(const struct varied_key *key)
     return key->values < STUDY_TICS_MOST ? key->values : STUDY_TICS_MOST;
 }
 
-/* Returns true if the labels of the values of a varied key would overlap when written along the horizontal axis of a
- * panel of p. */
+/* Returns true if the labels of the values of a varied key (a key of the input file that a study varies) would overlap
+ * when written along the horizontal axis of a panel of p. */
 static bool words_touch(const struct study_picture *p, const struct varied_key *key)
 {
     return tics_shown(key) * (study_longest_label_length(key) + 2) * study_character_width() > p->wide;
@@ -124,8 +125,8 @@ static void size_settle(struct study_picture *p)
     }
 }
 
-/* Sets the margins of the panels of p such that the texts at the axes fit. up: varied key along the vertical axis of a
- * map; NULL for a picture with lines. */
+/* Sets the margins of the panels of p such that the texts at the axes fit. up: varied key (a key of the input file
+ * that a study varies) along the vertical axis of a map; NULL for a picture with lines. */
 static void margins_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
@@ -164,8 +165,8 @@ static void key_space_find(struct study_picture *p)
     }
 }
 
-/* Computes the complete layout of the picture p for p->columns columns of panels. up: varied key along the vertical
- * axis of a map; NULL for a picture with lines. */
+/* Computes the complete layout of the picture p for p->columns columns of panels. up: varied key (a key of the input
+ * file that a study varies) along the vertical axis of a map; NULL for a picture with lines. */
 static void columns_try(struct study_picture *p, const struct varied_key *up)
 {
     p->wide = WIDE, p->high = HIGH;

@@ -90,8 +90,8 @@ static const char *key_last(const char *key)
     return dot ? dot + 1 : key;
 }
 
-/* Returns the text (part of key[k].key) by which names of runs mention the varied key key[k]: its last part, or the
- * whole key if another of key[keys] has the same last part. */
+/* Returns the text (part of key[k].key) by which names of runs mention the varied key key[k] (a key of the input file
+ * that a study varies): its last part, or the whole key if another of key[keys] has the same last part. */
 static const char *key_label(const struct varied_key *key, int keys, int k)
 {
     const char *own = key_last(key[k].key);
