@@ -43,8 +43,8 @@ static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct pa
 
 /* Computes the forces of eight cells whose points yield [N], and updates the plastic state of the points in p. The
  * cells are number k to k + 7 in `run`, a row of consecutive cells along x. u[c][i]: displacement of corner c along
- * axis i [m]; f[c][i]: receives the force on corner c along axis i; m: elastic constants of all materials; finite: true
- * for finite strain. */
+ * axis i [m]; f[c][i]: receives the force on corner c along axis i; m: elastic constants of all materials; finite:
+ * true for finite strain. mesh: mesh of the undeformed body. */
 static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, int64_t k, lanes u[CORNERS_MAX][3],
                                    lanes f[CORNERS_MAX][3], const int dim, const bool finite)
@@ -64,7 +64,7 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
  * material points become peridynamic particles. all: elastic constants of all materials; finite: true for finite
  * strain; flows: true for a row whose points yield, for which run->stressed becomes false. Neighbouring cells share
  * nodes: the forces on the upper corners along x of eight cells are shifted by one lane and added to those on the
- * lower corners of the next cells, so that each node is written once. */
+ * lower corners of the next cells, so that each node is written once. p: all particles. */
 static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
                                     const struct elastic *all, const int dim, const bool finite, const bool flows)
 {

@@ -6,10 +6,10 @@
 #include "kernels/simd/lanes.h"
 
 /* Replaces the force on all nodal components with prescribed velocity ("walls") by mass times the change of this
- * velocity per time. dt_velocity: time over which forces change the velocities [s]. Stores in each wall its reaction [N
- * s], the impulse that balances the other forces on the node. Adds the impulse of all walls to impulse[axis] [N s] and
- * their work to *work [J]. Walls of one axis are consecutive in the list; their sums are added at the end of the
- * axis. */
+ * velocity per time. dt_velocity: time over which forces change the velocities [s]. Stores in each wall its reaction
+ * [N s], the impulse that balances the other forces on the node. Adds the impulse of all walls to impulse[axis] [N s]
+ * and their work to *work [J]. Walls of one axis are consecutive in the list; their sums are added at the end of the
+ * axis. mesh: mesh of the undeformed body. */
 static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
@@ -55,7 +55,7 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
 /* Sets the nodal components with prescribed velocity ("walls") exactly to this velocity, without the round-off of the
  * step. Sets their displacement likewise, if it is within OFF_PLACE cell edges of its prescribed value. A displacement
  * that differs by more, for example of a node that started from another displacement, follows the velocity alone. dt:
- * time step [s]. */
+ * time step [s]. mesh: mesh of the undeformed body. */
 static void walls_move(struct mesh *mesh, real dt)
 {
     const struct grid *g = &mesh->grid;
@@ -119,7 +119,7 @@ static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
  * image node, so that the image moves with the mass and force of both (grid_move.c). dt_velocity: time over which
  * forces change the velocities [s]. Stores the own mass of the image and the impulse on the mirror node for
  * mesh_mirror_nodes_spread. Several mirror nodes may have one image; they are few and are processed in order by one
- * thread. */
+ * thread. mesh: mesh of the undeformed body. */
 static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
@@ -141,7 +141,7 @@ static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
 /* Undoes mesh_mirror_nodes_gather after the step: restores the masses, and divides the force between each mirror node
  * (a node beyond a plane of symmetry) and its image by their masses. Sets velocity and displacement of the mirror node
  * to the reflected ones of its image. Adds the reaction of the plane to impulse[axis] [N s]: a component that changes
- * sign by the reflection counts twice, for the node and for its image. */
+ * sign by the reflection counts twice, for the node and for its image. mesh: mesh of the undeformed body. */
 static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
 {
     struct grid *g = &mesh->grid;

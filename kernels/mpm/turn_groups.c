@@ -21,7 +21,7 @@
 
 /* Returns a mask with bit l set if point l of `run` is on the grid: neither peridynamic nor a point of the mesh. run:
  * up to eight consecutive particles of one group of points that rotate together; all: true if all particles are on the
- * grid. */
+ * grid. p: all particles. */
 static ALWAYS_INLINE uint8_t run_on_grid(const struct particles *p, const struct turning_run *run, bool all)
 {
     uint8_t bits = (uint8_t)((1u << run->n) - 1);
@@ -45,7 +45,7 @@ static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *s
 
 /* Stores in *g the sums over the points of group g: mass, first and second moments, momentum and angular momentum. A
  * group consists of neighbouring material points that rotate together; t: all groups. Moments are about g->about, the
- * position of one of the points of g. */
+ * position of one of the points of g. p: all particles. */
 static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -80,9 +80,10 @@ static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct tu
     FOR_SPINS(c, dim) g->sum[c] = run_total(spin[c]);
 }
 
-/* Stores in g->sum the angular momentum that the points of group g (neighbouring points that rotate together) have lost
- * in the transfer to nodes and back [kg m^2/s], the sum of t->turn. Stores in g->angular their angular momentum about
- * the centre of mass of the root of g. The root of a group is the group that it has joined, or the group itself. */
+/* Stores in g->sum the angular momentum that the points of group g (neighbouring points that rotate together) have
+ * lost in the transfer to nodes and back [kg m^2/s], the sum of t->turn. Stores in g->angular their angular momentum
+ * about the centre of mass of the root of g. The root of a group is the group that it has joined, or the group itself.
+ * p: all particles. */
 static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
@@ -106,7 +107,8 @@ static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turni
 }
 
 /* Stores in t->turn, for all points of group g (neighbouring points that rotate together), the angular velocity with
- * which the points rotate [1/s]: that of the group that g has joined, or of g itself if it has joined none. */
+ * which the points rotate [1/s]: that of the group that g has joined, or of g itself if it has joined none. p: all
+ * particles. */
 static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -121,7 +123,7 @@ static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct tu
 
 /* Adds the rotation by a gain of angular velocity to the velocities of the points of group g (neighbouring points that
  * rotate together), and stores the angular velocity in t->turn [1/s]. Both values are those of the root of g: of the
- * group that g has joined, or of g itself. */
+ * group that g has joined, or of g itself. p: all particles. */
 static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {

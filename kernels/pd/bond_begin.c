@@ -50,7 +50,7 @@ static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_
  * of softening, and was so at the last computation of forces; and the row block of its other particle is marked in
  * b->soft.due, too. The second condition makes the result independent of the direction of the bond: otherwise a bond
  * that had not marked its own blocks would begin only if another bond had marked them. limit: critical stretches and
- * softening. */
+ * softening. p: all particles. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -76,7 +76,7 @@ static int64_t row_of_dilatation(const struct bonds *b, const struct particles *
 
 /* Marks in b->soft.needed the rows whose dilatation is needed to examine those bonds of row block g (the bonds of
  * eight particles) that may begin to soften. Several threads may mark one row. limit: critical stretches and
- * softening. */
+ * softening. p: all particles. */
 static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
@@ -132,7 +132,8 @@ static real fit_trace(struct strain_fit *fit, int dim)
     return trace;
 }
 
-/* Returns lambda/G of the material of particle i, the ratio of Lame's constants [1]; it is 1 in bond-based models. */
+/* Returns lambda/G of the material of particle i, the ratio of Lame's constants [1]; it is 1 in bond-based models. b,
+ * p: all bonds and particles. */
 static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t i)
 {
     const real D = p->dim;
@@ -143,7 +144,7 @@ static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t
 
 /* Returns (lambda/G) tr eps [1] for the neighbourhood of one particle, with Lame's constants lambda and G. eps is the
  * strain that fits the stretches of its bonds best, weighted by the remaining stiffness of each bond. row: row of b
- * with these bonds. */
+ * with these bonds. p: all particles. */
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -163,7 +164,7 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
 /* Updates b->soft.rate[row], the strain rate of the bonds of one particle [1/s]: the mean rate at which the largest
  * stretch of these bonds grows from half its onset of softening to the onset. The rate remains until the stretch falls
  * below half the onset. While the stretch is between half the onset and the onset, the entry is instead minus the
- * stretch at the first step beyond half the onset [1]. row: row of the bonds; dt: time step [s]. */
+ * stretch at the first step beyond half the onset [1]. row: row of the bonds; dt: time step [s]. p: all particles. */
 static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     const real from = b->trigger[row], onset = from / RATE_FROM;
@@ -185,7 +186,7 @@ static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t
 
 /* Updates the strain rates b->soft.rate of two kinds of rows (bonds of one particle): those whose largest stretch was
  * beyond half the onset of softening in the last step, and those in row blocks (eight rows) that soften or have a bond
- * beyond its onset. dt: time step [s]. */
+ * beyond its onset. dt: time step [s]. p: all particles. */
 static void measure_rates(struct bonds *b, const struct particles *p, real dt)
 {
     bool any = false;
@@ -202,7 +203,7 @@ static void measure_rates(struct bonds *b, const struct particles *p, real dt)
  * The stress follows from the stretch of the bond and from the dilatation at the bond, the mean of the dilatations of
  * its two particles. If one particle has bonds to only some of its neighbours, as a material point has, the dilatation
  * of the other particle is used. The answer is thus the same from both particles of a bond. limit: softening by pair
- * of materials. */
+ * of materials. b, p: all bonds and particles. */
 static bool is_pulled(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                       const struct candidate *c)
 {
@@ -218,7 +219,7 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
  * and ends, for the strain rate of the bond: the mean of the rates of its two particles, or the rate of one if the
  * other does not have bonds to all neighbours. limit: critical stretches and softening. Returns true if the stretch of
  * the bond is above the onset at this rate. Also returns true, without changing c->range, if no material has a table
- * of rates. */
+ * of rates. b, p: all bonds and particles. */
 static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               struct candidate *c)
 {
@@ -236,7 +237,7 @@ static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, 
 /* Starts the softening of the bond with index q in the bond arrays, of row `row` (bonds of one particle), which
  * candidate *c describes. By beginning late, in steps, it loses at once some energy that the closed form of its
  * dissipation does not include; half of it is added to the fracture energy of the row, except in load steps and
- * state-based models. dt: time step [s]. */
+ * state-based models. dt: time step [s]. b, p: all bonds and particles. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {
@@ -257,7 +258,7 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
 /* Examines the bonds of row block g (the bonds of eight particles) that are beyond their onset of softening and have
  * not begun to soften. Starts the softening of those across which the stress is tensile enough. Sets DUE_DENIED in
  * b->soft.due[g] if the stress does not allow one of the bonds to soften. limit: critical stretches, softening and
- * time step. */
+ * time step. p: all particles. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     bool denied = false;

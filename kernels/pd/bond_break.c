@@ -15,21 +15,21 @@
 
 /* Returns true if a boundary condition drives particle i. Flags are written by the thread of the particle's row and
  * read by other threads at the same time. The bit that is read does not change; the atomic access makes this
- * well-defined C. */
+ * well-defined C. p: all particles. */
 static bool is_driven(const struct particles *p, int32_t i)
 {
     return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN;
 }
 
 /* Sets the bits `flag` in the flags of particle i. The store is atomic, because other threads may read these flags at
- * the same time. */
+ * the same time. p: all particles. */
 static void set_flag(struct particles *p, int32_t i, int flag)
 {
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
 /* Returns half the elastic energy [J] that bond q of row `row` (bonds of one particle) has at the stretch `stretch`
- * [1]; the other half belongs to the row of its other particle. Only for bond-based models. */
+ * [1]; the other half belongs to the row of its other particle. Only for bond-based models. b: all bonds. */
 static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stretch)
 {
     return 0.5 * b->stiffness * b->w[q] * bond_entry_normalised_energy(b, row / LANES, q, stretch) /
@@ -50,7 +50,7 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 
 /* Recomputes the weighted volume of row `row` (all bonds of one particle) after weights of its bonds have changed.
  * Does nothing unless the model is state-based and normalises by the present neighbourhood, the bonds are brittle, and
- * the row has bonds to all neighbours, unlike that of a material point. */
+ * the row has bonds to all neighbours, unlike that of a material point. b: all bonds. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])
@@ -61,7 +61,7 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* Corrects the force p->f on particle i for `bond`, one of its bonds, which breaks in this step. Subtracts the force
  * that the force kernel has added for this bond in full, and adds `share` times the force that follows from the states
- * of both neighbourhoods before bonds broke. share: fraction of the force that acts in this step [1]. */
+ * of both neighbourhoods before bonds broke. share: fraction of the force that acts in this step [1]. b: all bonds. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -71,7 +71,7 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
 }
 
 /* Returns half the energy [J] that bond q of row `row` (bonds of one particle) dissipates from its onset of softening
- * to the end, which it passes in this step. dt: time step [s]. */
+ * to the end, which it passes in this step. dt: time step [s]. b, p: all bonds and particles. */
 static real half_energy_of_softening_to_end(const struct bonds *b, const struct particles *p, int64_t row, int64_t q,
                                             real dt)
 {
@@ -84,7 +84,7 @@ static real half_energy_of_softening_to_end(const struct bonds *b, const struct 
 
 /* Ends the softening of bond q of row `row` (bonds of one particle): adds `energy`, half of what the bond has
  * dissipated [J], to the fracture energy of the row, and marks the bond as broken. The bond must be at the end of its
- * softening, where it has no force. */
+ * softening, where it has no force. b, p: all bonds and particles. */
 static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q, real energy)
 {
     b->soft.most[q] = b->soft.end[q];
@@ -110,7 +110,8 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
 /* Returns the stretch [1] from which the energy that bond q (from particle i to j) loses is computed when it breaks in
  * this step: the stretch at the moment at which it passed its limit. In scenes with softening bonds, a breaking bond
  * has no force after this step; a leap-frog step from the stretch s_0 to s_1 then loses s_0 s_1/2 times stiffness,
- * weight and length, so that sqrt(s_0 s_1) is returned. limit: breaking limits and time step. */
+ * weight and length, so that sqrt(s_0 s_1) is returned. limit: breaking limits and time step. b, p: all bonds and
+ * particles. */
 static real stretch_at_break(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                              int64_t q, int32_t i, int32_t j)
 {
@@ -124,7 +125,8 @@ static real stretch_at_break(const struct bonds *b, const struct particles *p, c
 
 /* Breaks bond q of row `row` (bonds of one particle) and marks it as broken. Reduces its force on the row's particle
  * to the share that acts until the bond breaks within the step (bond_last.h). Adds its elastic energy to the fracture
- * energy of the row, and its plastic work to the plastic work of the row. limit: breaking limits and time step. */
+ * energy of the row, and its plastic work to the plastic work of the row. limit: breaking limits and time step. b, p:
+ * all bonds and particles. */
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -144,8 +146,8 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
 
 /* Sets the weight of the bond with index q in row `row` (bonds of one particle) to w [1]; w = 0 breaks the bond. Adds
  * half of the elastic energy that is lost to the fracture energy of the row, and half of the plastic work of the lost
- * weight to the plastic work of the row. The other halves appear in the step to the next positions, because a leap-frog
- * velocity update is centred on the change of weights. */
+ * weight to the plastic work of the row. The other halves appear in the step to the next positions, because a
+ * leap-frog velocity update is centred on the change of weights. b, p: all bonds and particles. */
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -190,7 +192,7 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
  * which it breaks. A bond that can soften but has not begun to never breaks here, since pressure along one axis
  * stretches the bonds across it although nothing pulls at them (bond_begin.c). If such a bond is beyond its onset of
  * softening, its row block is marked instead, to be examined before the next computation of forces
- * (bond_row_block_request_softening_check). limit: critical stretches and softening. */
+ * (bond_row_block_request_softening_check). limit: critical stretches and softening. b, p: all bonds and particles. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -203,8 +205,8 @@ static bool is_past(struct bonds *b, const struct particles *p, const struct bon
     return false;
 }
 
-/* Breaks the bonds of row `row` (all bonds of one particle) whose stretch exceeds their breaking limit. limit: breaking
- * limits and time step. Returns the number of bonds broken. */
+/* Breaks the bonds of row `row` (all bonds of one particle) whose stretch exceeds their breaking limit. limit:
+ * breaking limits and time step. Returns the number of bonds broken. b, p: all bonds and particles. */
 static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -234,7 +236,7 @@ static real least_limit(const struct bond_limit *limit)
 
 /* Returns in each lane the larger of `largest` and the squared elongation |y|^2/|xi|^2 [1] of one bond, with bond
  * vectors y at present and xi in the reference configuration. s: column of bonds, one of each of eight particles;
- * x[dim]: positions of these particles [m]. Broken bonds count as negative. */
+ * x[dim]: positions of these particles [m]. Broken bonds count as negative. p: all particles. */
 static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct particles *p, const lanes *x,
                                                  const struct column s, const int dim)
 {
@@ -248,7 +250,8 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
 }
 
 /* Returns in lane l the largest squared elongation |y|^2/|xi|^2 [1] of the bonds of particle l of row block g, which
- * has the bonds of eight particles. y, xi: bond vector at present and in the reference configuration. */
+ * has the bonds of eight particles. y, xi: bond vector at present and in the reference configuration. b, p: all bonds
+ * and particles. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -261,7 +264,7 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
 }
 
 /* Returns a mask with lane l set if particle l of row block g (the bonds of eight particles) has a bond with a stretch
- * above lane l of `least` [1], up to round-off. */
+ * above lane l of `least` [1], up to round-off. b, p: all bonds and particles. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {
@@ -280,7 +283,8 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
 
 /* Returns a mask with lane l set if a bond of particle l of row block g (the bonds of eight particles) may exceed its
  * breaking limit. Compares the largest stretch of each particle's bonds with the limit stored for that particle if
- * strength is random or bonds soften, else with the smallest critical stretch of all pairs of materials in `limit`. */
+ * strength is random or bonds soften, else with the smallest critical stretch of all pairs of materials in `limit`. b,
+ * p: all bonds and particles. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const bool stored = p->strength || b->soft.curve;

@@ -30,7 +30,7 @@ struct bond_sums {
 /* Adds the forces of eight bonds to `sum`, the sums of their eight particles, updates the largest and smallest stretch
  * in it, and returns it. s: column of bonds, one of each of the eight particles; model: bond law, a compile-time
  * constant. The force is computed from the stretch. As a difference of inverse lengths it would be cheaper, but a body
- * in free fall would have three times the round-off. */
+ * in free fall would have three times the round-off. p: all particles. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
@@ -57,7 +57,8 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
 
 /* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
  * without the repulsive cores of bonds (bond_core.h). Returns true if a bond may exceed its breaking limit. *pressed:
- * receives true if a bond is compressed into its core, else false. model: bond law, a compile-time constant. */
+ * receives true if a bond is compressed into its core, else false. model: bond law, a compile-time constant. b: all
+ * bonds. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {
@@ -88,7 +89,8 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 
 /* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
  * repulsive cores included, and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each
- * counted once for each of its two rows. limit: breaking limits; model: bond law, a compile-time constant. */
+ * counted once for each of its two rows. limit: breaking limits; model: bond law, a compile-time constant. b: all
+ * bonds. */
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {

@@ -12,7 +12,8 @@
 #define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
 /* Computes bond vectors y[dim] [m] and stretches *stretch [1] of the eight bonds of column s, one for each particle of
- * a block of eight rows. x[dim]: positions of these eight particles [m]. Returns the inverse lengths 1/|y| [1/m]. */
+ * a block of eight rows. x[dim]: positions of these eight particles [m]. Returns the inverse lengths 1/|y| [1/m]. p:
+ * all particles. */
 static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *y, lanes *stretch, const int dim)
 {
@@ -28,7 +29,7 @@ static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struc
 
 /* Returns the elastic energies, divided by the stiffness, of the eight bonds of column s (one bond of each of eight
  * particles). x[dim]: positions of these particles [m]; *press: lowered to the smallest stretch of the intact bonds
- * [1]. model: bond law, a compile-time constant. */
+ * [1]. model: bond law, a compile-time constant. p: all particles. */
 static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *press, const int dim, const enum pd_model model)
 {
@@ -44,7 +45,7 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
 /* Returns the elastic energy, divided by the stiffness, of the bonds of the eight particles of row block g, repulsive
  * cores included. Half the stiffness times this is the share of these particles in the energy, since each bond belongs
  * to two particles. row_energy[b->rows]: the share of each particle is added to the entry of its row [J]; NULL if not
- * wanted. model: bond law, a compile-time constant. */
+ * wanted. model: bond law, a compile-time constant. p: all particles. */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 real *row_energy, const int dim, const enum pd_model model)
 {
@@ -67,7 +68,8 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
 
 /* Adds F_ij (x) (x_j - x_i) of eight bonds, divided by the stiffness, to sum[component], one lane for each particle
  * (xx, yy, zz, xy, yz, zx in 3D). s: column of bonds, one of each of eight particles; F_ij: force of the bond on the
- * particle of the row; x[dim]: positions of the eight particles [m]. model: bond law, a compile-time constant. */
+ * particle of the row; x[dim]: positions of the eight particles [m]. model: bond law, a compile-time constant. p: all
+ * particles. */
 static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, const struct particles *p,
                                              const lanes *x, const int dim, const enum pd_model model)
 {
@@ -81,7 +83,7 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
 
 /* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic ones among the eight
  * particles of row block g (their bonds are stored together), into p->stress [Pa]. F_ij is the force of bond i-j on i
- * (Silling & Askari 2005). model: bond law, a compile-time constant. */
+ * (Silling & Askari 2005). model: bond law, a compile-time constant. b: all bonds. */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                 const enum pd_model model)
 {
@@ -100,7 +102,8 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
 }
 
 /* Raises the largest stretches so far of eight softening bonds, column s of a block of eight rows (one bond of each of
- * eight particles), to their present stretches where these are larger. x[dim]: positions of the eight particles [m]. */
+ * eight particles), to their present stretches where these are larger. x[dim]: positions of the eight particles [m].
+ * p: all particles. */
 static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
                                              const int dim)
 {
@@ -110,7 +113,8 @@ static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct
 }
 
 /* Raises the largest stretches so far of the bonds of row block g (the bonds of eight particles, stored together) to
- * the present stretches. Call only if at least one of these bonds has begun to soften. */
+ * the present stretches. Call only if at least one of these bonds has begun to soften. b, p: all bonds and particles.
+ */
 static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim)
 {

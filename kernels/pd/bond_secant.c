@@ -3,7 +3,7 @@
 #include "kernels/kernels.h"
 
 /* Returns the smallest stretch at which a bond in row block g (the bonds of eight particles, stored together) begins
- * to soften or breaks [1]. */
+ * to soften or breaks [1]. b: all bonds. */
 static real row_block_trigger(const struct bonds *b, int64_t g)
 {
     real least = INFINITY;

@@ -46,7 +46,7 @@ static ALWAYS_INLINE struct across across_of(const struct clamped *c, const stru
 /* Computes the forces on the mirror images in the eight bonds k .. k + 7 of the list b->clamped [N], and stores them
  * in its member `reaction`. The list has all bonds across clamped planes (planes of symmetry that also prevent
  * tangential motion). For bond-based models, where the force on the image is minus half of the force of the bond on
- * its particle: the other half is that of a second row, which an image does not have. */
+ * its particle: the other half is that of a second row, which an image does not have. p: all particles. */
 static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
 {
     const struct clamped *c = &b->clamped;
@@ -64,7 +64,8 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
 /* Computes the forces on the mirror images in the eight bonds k .. k + 7 of the list b->clamped [N], and stores them
  * in its member `reaction`. The list has all bonds across clamped planes (planes of symmetry that also prevent
  * tangential motion). For state-based models, where the force on the image is minus the part of the bond force that
- * follows from the state of the bond's particle (state_laws.h). rotates: true in models with rotations. */
+ * follows from the state of the bond's particle (state_laws.h). rotates: true in models with rotations. p: all
+ * particles. */
 static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim,
                                           const bool rotates)
 {
@@ -121,7 +122,8 @@ static void weights_follow(struct bonds *b)
 /* Recomputes the reactions (forces on the mirror images) of those bonds in b->clamped that the force kernel has broken
  * in this step. b->clamped lists the bonds to mirror images beyond clamped planes. Such a reaction is the share of the
  * force that acts until the bond breaks, from the states before bonds broke (bond_last.h). A bond has broken in this
- * step if its copied weight c->w is not 0 but the present weight is 0. limit: breaking limits and time step. */
+ * step if its copied weight c->w is not 0 but the present weight is 0. limit: breaking limits and time step. p: all
+ * particles. */
 static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const struct clamped *c = &b->clamped;

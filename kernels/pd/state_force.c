@@ -29,7 +29,7 @@ struct family_sums {
  * reference length r and extension e = |Y| - r of the bond vector Y, and in models with rotations w Y (x) xi with the
  * reference vector xi. Also updates the smallest and largest stretch in *sum. column: the bonds, one of each particle;
  * x[dim], X[dim]: present and reference positions of the eight particles [m]; model: state-based model, a compile-time
- * constant. */
+ * constant. p: all particles. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
                                             const struct column column, const lanes *x, const lanes *X, const int dim,
                                             const enum pd_model model)
@@ -70,7 +70,8 @@ struct own_family {
     lanes share;   /* V/Q, with the weighted volume of a full neighbourhood if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the neighbourhoods (all bonds) of the eight particles of row block g. */
+/* Returns the moduli and weighted volumes of the neighbourhoods (all bonds) of the eight particles of row block g. b,
+ * p: all bonds and particles. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -109,7 +110,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
 /* Returns a mask with lane l set if particle l of row block g (the bonds of eight particles) is a material point with
- * bonds, not a peridynamic particle. */
+ * bonds, not a peridynamic particle. b, p: all bonds and particles. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     lanes_mask end;
@@ -188,7 +189,8 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* Computes pressure, spring stiffness and rotation of the neighbourhoods (all bonds) of the eight particles of row
  * block g, and stores them in b->state. The states of material points with bonds include the contribution of their
- * mesh cell. sum: sums over the bonds of each particle; model: state-based model, a compile-time constant. */
+ * mesh cell. sum: sums over the bonds of each particle; model: state-based model, a compile-time constant. p: all
+ * particles. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -211,7 +213,7 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
  * their bonds: the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit,
  * and b->state.pressed[g] if a bond is compressed into its repulsive core, else clears them. If bonds break, the
  * states stored are means of those with and without the breaking bonds (state_last.h). limit: breaking limits; model:
- * state-based model, a compile-time constant. */
+ * state-based model, a compile-time constant. p: all particles. */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {
@@ -267,7 +269,7 @@ struct state_sums {
  * with bond vector Y, weight w, pressure P, spring stiffness g and q = (|Y| - r)/|Y|, which takes two products fewer
  * than the stretch. With rotations the effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is
  * exactly 0 where nothing has moved; the part of the rotations of the eight particles themselves is added in
- * force_row_block. */
+ * force_row_block. p: all particles. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {
@@ -328,7 +330,8 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
 
 /* Computes the forces of the bonds on the eight particles of row block g (their bonds are stored together) into p->f,
  * repulsive cores included, and breaks bonds stretched beyond their limit. Returns the number of broken bonds, each
- * counted once for each of its two rows. limit: breaking limits; model: state-based model, a compile-time constant. */
+ * counted once for each of its two rows. limit: breaking limits; model: state-based model, a compile-time constant. b:
+ * all bonds. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

@@ -38,7 +38,8 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
 /* Computes the forces of eight bonds, one of each of eight particles. column: the bonds; s: positions and states of
  * the eight particles. T[dim]: receives the part of the bond force that follows from the state of that particle alone,
  * not of its neighbour [N], 0 for broken bonds; y[dim]: receives the bond vector [m]. rotates: true in models with
- * rotations. Returns the elastic energies of the bonds in the neighbourhoods of the eight particles [J]. */
+ * rotations. Returns the elastic energies of the bonds in the neighbourhoods of the eight particles [J]. p: all
+ * particles. */
 static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct column column,
                                             const struct particles *p, lanes *T, lanes *y, const int dim,
                                             const bool rotates)
@@ -89,7 +90,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
 /* Adds the symmetric part of T (x) y of eight bonds to sum[component], one lane for each of their eight particles. T:
  * part of the bond force that follows from the state of that particle alone [N]; y: bond vector [m]. column: the
  * bonds, one of each particle; s: positions and states of the particles; model: state-based model, a compile-time
- * constant. */
+ * constant. p: all particles. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
@@ -102,7 +103,7 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
 
 /* Computes the stress of the peridynamic ones among the eight particles of row block g (their bonds are stored
  * together), into p->stress [Pa], from the states of their neighbourhoods (pressure, spring stiffness and rotation).
- * model: state-based model, a compile-time constant. */
+ * model: state-based model, a compile-time constant. b: all bonds. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -151,7 +152,7 @@ bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIAN
 /* ---- a row whose weights change ---------------------------------------------------------------------------------- */
 
 /* Computes the rotation matrix R (row major) of the cell of material point i, which has bonds, from
- * particles.end_rotation. */
+ * particles.end_rotation. p: all particles. */
 static void end_rotation(const struct particles *p, int32_t i, real *R)
 {
     if (p->dim == 2) {
@@ -169,7 +170,7 @@ static void end_rotation(const struct particles *p, int32_t i, real *R)
 
 /* Returns sum w |Y - R xi|^2 over the bonds of one particle [m^2], with weights w, bond vectors Y at the time `lag`
  * [s] before the present and reference vectors xi. R is the rotation that fits these bonds best, or for a material
- * point the rotation of its mesh cell. row: row of b with the bonds of the particle. */
+ * point the rotation of its mesh cell. row: row of b with the bonds of the particle. p: all particles. */
 static real row_effective(const struct bonds *b, const struct particles *p, int64_t row, real lag)
 {
     const int32_t i = b->particle[row];

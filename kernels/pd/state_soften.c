@@ -20,7 +20,7 @@
 
 /* Sets the largest stretch so far of the softening bond q of row `row` (bonds of one particle) to `most` [1] and
  * reduces its weight accordingly. Breaks the bond if `most` is at the end of its softening. Returns 1 if the bond is
- * broken, else 0. */
+ * broken, else 0. b, p: all bonds and particles. */
 static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, int64_t q, real most)
 {
     const struct softened *soft = &b->soft;
@@ -37,7 +37,8 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
 
 /* Returns a mean of the elastic energy of the bonds of one particle over the last time step dt [s]: the energy with
  * the squares of displacements replaced by products of the displacements before and after the step [J]. When bonds are
- * damaged, this mean falls by the energy that the leap-frog step loses. row: row of b with these bonds. */
+ * damaged, this mean falls by the energy that the leap-frog step loses. row: row of b with these bonds. p: all
+ * particles. */
 static real row_energy_of_step(const struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     return 2 * state_row_energy(b, p, row, 0.5 * dt) -
@@ -48,7 +49,7 @@ static real row_energy_of_step(const struct bonds *b, const struct particles *p,
  * energy and both particles of the bond are peridynamic. (A material point whose bond begins to soften becomes
  * peridynamic in this step.) row: row of b with these bonds; limit: limits of stretch, and the time step. Sets
  * *changed to true if the damage of a bond has changed. Returns the number of bonds that break, at the end of their
- * softening. */
+ * softening. p: all particles. */
 static int64_t row_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
                           bool *changed)
 {

@@ -59,7 +59,8 @@ static void average_dilatation(const struct mesh *mesh, const struct elastic *m,
 }
 
 /* Returns true if no point of cell I before point q (0 .. 2^dim - 1) has the given material, so that a loop over the
- * points treats each material of the cell once. p: particles, whose materials are compared. */
+ * points treats each material of the cell once. p: particles, whose materials are compared. mesh: mesh of the
+ * undeformed body. */
 static bool first_of_material(const struct mesh *mesh, const struct particles *p, int64_t I, int q, uint8_t material)
 {
     for (int k = 0; k < q; k++) {

@@ -116,7 +116,7 @@ static double cube_reach(const struct cube *b, const double *direction)
 
 /* Returns the brightness of a face of a cube, 0..1: the mean of the brightnesses of the three axes, weighted by the
  * squared components of the normal. It is 1 if the view is along the normal, within 2.6 degrees. face: axis of the
- * face; towards[3]: direction to the viewer. */
+ * face; towards[3]: direction to the viewer. b: the cube. */
 static double face_brightness(const struct cube *b, int face, const double *towards)
 {
     double length = 0, facing = 0, shade = 0;

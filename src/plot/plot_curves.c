@@ -83,7 +83,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
 /* Largest upper end of the axis for the share of peridynamic particles [%]. */
 static const double SHARE_TOP = 104;
 
-/* Returns true if the values in a column of the history are not all equal. */
+/* Returns true if the values in a column of the history are not all equal. h: history of the run. */
 static bool column_varies(const struct history *h, int column)
 {
     for (int64_t i = 1; i < h->rows; i++)

@@ -230,7 +230,7 @@ static void paths_extent(const struct tip_path *w, int n, double *low, double *h
 /* Opens the picture of the crack paths of the history s, file `path`, and sets the ranges of its axes, both in one
  * scale. The height of the picture follows from the rectangle low[2]..high[2] [m]. metre: unit of the axes; entries:
  * number of entries of the key (legend); longest: number of letters of the longest entry. Returns FAILED if gnuplot
- * cannot be started. */
+ * cannot be started. g: receives the process. */
 static status paths_open(struct gnuplot *g, const char *path, const struct series *s, const double *low,
                          const double *high, const struct unit *metre, int entries, size_t longest)
 {

@@ -172,7 +172,7 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
 
 /* Writes the description of a boundary condition for the key (legend) into text[TEXT]: name, kind, largest value,
  * components or face and, unless `plain` is true, the number of particles. acting: state of the load at its largest
- * magnitude. */
+ * magnitude. b: the boundary condition. */
 static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting, bool plain)
 {
     char face[16], many[64];

@@ -121,7 +121,7 @@ static void scene_cloud(struct plotted_particles *c, struct run *e, const struct
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
 /* Returns the number of particles of the material with the number `number` in the scene file, or of the body with this
- * index if all bodies have the same material. Particles in coarse cells are not counted. */
+ * index if all bodies have the same material. Particles in coarse cells are not counted. part: all particles. */
 static int64_t count_part(const struct particles *part, const struct scene *scene, int number)
 {
     int64_t n = 0;

@@ -70,7 +70,7 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
  * distances up to `horizon` [m]. searched_particles[particle_count]: particles to examine; NULL: particles 0 ..
  * particle_count - 1. Stores the middle of one group in cluster_centre[dim] [m]. Returns the number of groups, 0 if no
- * bond breaks. */
+ * bond breaks. p: all particles. */
 int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
                                                  int64_t particle_count, real horizon, real *cluster_centre)
 {

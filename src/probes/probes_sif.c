@@ -334,7 +334,7 @@ static void room(real **array, int64_t n)
 }
 
 /* Copies the in-plane displacements of all particles to w->u and, if stresses of particles are used, their stresses to
- * w->stress. */
+ * w->stress. p: all particles. */
 static void keep_displacement(struct sif_tracked *w, const struct particles *p)
 {
     for (int d = 0; d < 2; d++) {
@@ -361,7 +361,7 @@ void sif_probe_store_motion_before_step(struct probe *q, const struct observed_r
 
 /* Computes w->mean and w->acceleration, velocity and acceleration of all particles at the time of the sample from the
  * velocities half a step before and after it. t_velocity: time of the current velocities [s]. After the last sample no
- * step follows, and the velocities of one step earlier are used instead. */
+ * step follows, and the velocities of one step earlier are used instead. p: all particles. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)

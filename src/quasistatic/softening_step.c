@@ -153,7 +153,7 @@ static status search_run(struct run *e, struct search *f)
 
 /* Adds to the fracture energy the energy that neighbourhoods of state-based models have lost by softening since the
  * last equilibrium, computed at the mean of the positions then and now. loads: list of mirror images; before[dim]:
- * positions of the particles p at the last equilibrium [m]. Does nothing in bond-based models. */
+ * positions of the particles p at the last equilibrium [m]. Does nothing in bond-based models. b: all bonds. */
 static void family_losses_add(struct bonds *b, const struct particles *p, const struct loads *loads,
                               real *const *before)
 {

@@ -5,7 +5,7 @@
 
 /* Returns REFUSED, with a message, if the motion that boundary condition b prescribes depends on the reference
  * positions of particles but acts on material points on the grid of the current frame (background grid), which do not
- * store these positions. l: the load of b. */
+ * store these positions. l: the load of b. p: all particles. */
 static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
     for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)
@@ -19,8 +19,8 @@ static status position_dependent_on_grid(const struct boundary *b, const struct 
 
 #define DISPLACEMENT_TOLERANCE 1e-9 /* tolerance of displacements at the start [spacings] */
 
-/* Returns REFUSED, with a message, if a particle with prescribed displacement does not start at its reference position.
- * l: the load of the boundary condition b; spacing: lattice spacing [m]. */
+/* Returns REFUSED, with a message, if a particle with prescribed displacement does not start at its reference
+ * position. l: the load of the boundary condition b; spacing: lattice spacing [m]. p: all particles. */
 static status starts_at_reference(const struct boundary *b, const struct particles *p, const struct load *l,
                                   real spacing)
 {

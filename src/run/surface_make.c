@@ -28,7 +28,7 @@ static int body_made_for(const struct scene *s, const real *X, int body)
 }
 
 /* Returns REFUSED, with the message that the mirror m of the body of particle i is neither on a row of the body's
- * lattice nor half a spacing from one, so that the lattice does not continue beyond it. */
+ * lattice nor half a spacing from one, so that the lattice does not continue beyond it. p: all particles. */
 static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
     real X[DIM_MAX];

@@ -43,9 +43,9 @@ static real start_slope(const struct scene_initial *s, int a, int b, const real 
     return isfinite(slope) ? slope : 0;
 }
 
-/* Sets the velocity of particle i to v0 f(X) + G arm, and stores the velocity gradient G + grad f if particles have one
- * (APIC). s: initial state with velocity v0, formulas f and gradient G [1/s]; X[dim]: position of the particle [m];
- * arm[dim]: X minus the centre of s [m]; spacing: distance of particles [m]. */
+/* Sets the velocity of particle i to v0 f(X) + G arm, and stores the velocity gradient G + grad f if particles have
+ * one (APIC). s: initial state with velocity v0, formulas f and gradient G [1/s]; X[dim]: position of the particle
+ * [m]; arm[dim]: X minus the centre of s [m]; spacing: distance of particles [m]. p: all particles. */
 static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *X,
                            const real *arm, real spacing)
 {
@@ -63,7 +63,7 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
 
 /* Sets position, stress and volume of particle i for the uniform displacement gradient H of the initial state s (small
  * strain): x = X + H arm, stress = C : sym H, volume = volume0 (1 + tr H). m: material of the particle, for the
- * stiffness C; arm[dim]: its reference position X minus the centre of s [m]. */
+ * stiffness C; arm[dim]: its reference position X minus the centre of s [m]. p: all particles. */
 static void fill_start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
                               const real *arm)
 {
@@ -86,7 +86,8 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
 }
 
 /* Adds the plane wave pulse w to velocity, position, stress, stretch and volume of particle i (small strain). m:
- * material of the particle, for wave speed and stiffness; X[dim]: reference position of the particle [m]. */
+ * material of the particle, for wave speed and stiffness; X[dim]: reference position of the particle [m]. p: all
+ * particles. */
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
@@ -112,7 +113,7 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
 
 /* Applies to particle i every initial state of the scene s whose body and region contain the particle, in the order of
  * the scene. spacing: distance of particles [m]; a particle within ON_SURFACE spacings of the boundary of a region is
- * inside. */
+ * inside. p: all particles. */
 static void start_particle(struct particles *p, int64_t i, const struct scene *s, real spacing)
 {
     const real tolerance = ON_SURFACE * spacing;
@@ -128,7 +129,7 @@ static void start_particle(struct particles *p, int64_t i, const struct scene *s
 }
 
 /* Sets the velocity of particle i, and its velocity gradient if it has one (APIC), to 0: the start of a static
- * equilibrium. */
+ * equilibrium. p: all particles. */
 static void start_at_rest(struct particles *p, int64_t i)
 {
     for (int a = 0; a < p->dim; a++) p->v[a][i] = 0;

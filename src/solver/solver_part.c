@@ -4,7 +4,8 @@
 
 static void solver_free_all(struct run *e) { static_solver_free(e->solver); }
 
-/* Writes the JSON object "solver" with name, steps and residual of a static solution to j; nothing for other runs. */
+/* Writes the JSON object "solver" with name, steps and residual of a static solution to j; nothing for other runs. e:
+ * the run. */
 static void put_solver(const struct run *e, struct json *j)
 {
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};

@@ -79,7 +79,7 @@ struct damping_shares damping_shares_of_step(real rate_times_dt, bool first_step
 }
 
 /* Stores what bulk damping acts on in all[2]: in all[0] the particles, in all[1] the nodes of the mesh. factor: factor
- * on their velocities [1]. Returns the number of entries: 2, or 1 if the mesh has no points. */
+ * on their velocities [1]. Returns the number of entries: 2, or 1 if the mesh has no points. p: all particles. */
 static int damped_find(const struct particles *p, const struct mesh *mesh, real factor, struct damped all[2])
 {
     all[0] = (struct damped){.n = p->n, p->dim, factor, p->mass, p->v, .flag = p->flag};
@@ -89,7 +89,7 @@ static int damped_find(const struct particles *p, const struct mesh *mesh, real 
 
 /* Multiplies the velocities of particles and mesh nodes, the APIC velocity gradients and the velocities of mirror
  * images by `factor` [1], and subtracts the lost momentum from the impulse of the loads l. Returns the kinetic energy
- * before that [J]. */
+ * before that [J]. p: all particles. */
 static real slow_all(struct particles *p, const struct mesh *mesh, struct loads *l, real factor)
 {
     struct damped all[2];

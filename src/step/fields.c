@@ -22,7 +22,7 @@ struct gradient_sum {
 };
 
 /* Adds neighbour j of particle i to the sums s over its neighbours: xi xi^T to K and u xi^T to M, with the reference
- * vector xi from i to j and the relative displacement u. */
+ * vector xi from i to j and the relative displacement u. p: all particles. */
 static void gradient_add(struct gradient_sum *s, const struct particles *p, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], u[DIM_MAX];
@@ -115,8 +115,8 @@ static void gradients_make(const struct run *e, real **H)
 /* ---- plastic work and levels ------------------------------------------------------------------------------------- */
 
 /* Returns the plastic work per volume of every particle, an array of p->n values [J/m^3]: the stored work of material
- * points, and for peridynamic particles the plastic work of their bonds, divided by the volume of the particle. Returns
- * NULL if nothing yields. The caller frees the array with memory_free. */
+ * points, and for peridynamic particles the plastic work of their bonds, divided by the volume of the particle.
+ * Returns NULL if nothing yields. The caller frees the array with memory_free. b: all bonds. */
 static real *plastic_work_make(const struct particles *p, const struct bonds *b)
 {
     if (!p->plastic_strain && !b->plastic_path) return NULL;

@@ -20,7 +20,7 @@ enum { PARTS_OF_DURATION = 25 }; /* number of comparisons per run */
 
 /* ---- parts that pass through each other -------------------------------------------------------------------------- */
 
-/* Returns the largest magnitude over all particles of displacement minus mean displacement [m]. */
+/* Returns the largest magnitude over all particles of displacement minus mean displacement [m]. p: all particles. */
 static real largest_relative_displacement(const struct particles *p)
 {
     real mean[DIM_MAX] = {0}, most2 = 0;
@@ -36,7 +36,7 @@ static real largest_relative_displacement(const struct particles *p)
     return sqrt(most2);
 }
 
-/* Returns true if particle i is a material point on the background grid. */
+/* Returns true if particle i is a material point on the background grid. p: all particles. */
 static bool on_grid(const struct particles *p, int64_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
@@ -100,7 +100,7 @@ void large_motion_warn_of_passing_parts(struct large_motion *m, const struct par
 
 /* Returns the rotation angle of the particles of load l about their centre [rad], the largest one among the coordinate
  * planes. In a plane (x_a, x_b) it is the angle of the rotation that fits the present positions to the reference
- * positions best. */
+ * positions best. p: all particles. */
 static real rotation_of_loaded_particles(const struct load *l, const struct particles *p)
 {
     real X0[DIM_MAX] = {0}, x0[DIM_MAX] = {0}, most = 0;

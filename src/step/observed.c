@@ -50,7 +50,7 @@ void sample_update_probes_of_every_step(struct run *e)
 }
 
 /* Adds the warning to `to` that the first bonds of particles with prescribed motion break, with the first of `loads`
- * that drives such particles, and prints it. when: the time, as "at 1 s" or "in load step 1". */
+ * that drives such particles, and prints it. when: the time, as "at 1 s" or "in load step 1". p: all particles. */
 static void say_torn(struct warnings *to, const struct loads *loads, const struct particles *p, const char *when)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;

@@ -35,7 +35,7 @@ static bool flows_on_grid(const struct particles *p, const struct scene *s, int6
 }
 
 /* Lists in *pairs the pairs of neighbouring material points of one body that are on the grid and of materials that
- * yield. s: materials and spacing; cells: search cells of all particles. */
+ * yield. s: materials and spacing; cells: search cells of all particles. p: all particles. */
 static void pairs_make(struct point_pairs *pairs, const struct cells *cells, const struct particles *p,
                        const struct scene *s)
 {

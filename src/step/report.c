@@ -73,7 +73,8 @@ bool report_sample_is_due(const struct scene *s, const struct run_clock *clock)
 /* ---- frames and checkpoints -------------------------------------------------------------------------------------- */
 
 /* Returns FAILED, with a message, if stress, position or velocity of a particle is not finite. clock: for the message.
- * Positions and speeds are also checked in every step, and energies at samples; this check adds the stresses. */
+ * Positions and speeds are also checked in every step, and energies at samples; this check adds the stresses. p: all
+ * particles. */
 static status frame_sound(const struct run_clock *clock, const struct particles *p)
 {
     int64_t first = p->n;
@@ -289,7 +290,7 @@ static void progress(struct run *e, bool last)
 /* ---- after a step ------------------------------------------------------------------------------------------------ */
 
 /* Returns the fraction of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
- * peridynamic particles by blocks of eight rows of the bonds b, material points by the mesh. */
+ * peridynamic particles by blocks of eight rows of the bonds b, material points by the mesh. p: all particles. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p)
 {
     real at_rest = active_set_inactive_fraction(&b->active) * (real)p->n_of[KIND_PD];

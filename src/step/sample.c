@@ -115,7 +115,7 @@ static void fill_record(struct run *e)
 }
 
 /* Stores names and units of the history columns of probes, of the parts of a run and of angular momentum in column[],
- * unless it is NULL. Returns their number. */
+ * unless it is NULL. Returns their number. e: the run. */
 static int own_columns(const struct run *e, struct column *column)
 {
     const struct probes *probes = &e->probing->probes;
@@ -176,7 +176,7 @@ static bool wants_motion(const struct scene *s)
     return motion;
 }
 
-/* Returns the present kinetic energy of particles and of mesh nodes of `reference` [J]. */
+/* Returns the present kinetic energy of particles and of mesh nodes of `reference` [J]. p: all particles. */
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
     return particles_kinetic_energy(p) + reference_frame_kinetic_energy(reference);
@@ -192,7 +192,8 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
     return 1 + levels->n;
 }
 
-/* Computes the present momentum of all particles and of mesh nodes of `frame`, momentum[dim] [kg m/s]. */
+/* Computes the present momentum of all particles and of mesh nodes of `frame`, momentum[dim] [kg m/s]. p: all
+ * particles. */
 static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
@@ -342,7 +343,7 @@ static bool velocity_jumps(const struct scene *s)
 }
 
 /* Returns true if forces alone change velocities in the first step of scene s. With material points on the grid, APIC,
- * prescribed velocities other than 0 and contact between bodies on the grid change them as well. */
+ * prescribed velocities other than 0 and contact between bodies on the grid change them as well. p: all particles. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);

@@ -61,9 +61,9 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
 
 /* Warns of an error of the energy balance that is small beside the kinetic energy of the common motion of all
  * particles, but above ENERGY_DOUBTFUL of the largest energy apart from that. In flight through the grid stress gains
- * energy where points are not mapped ahead of their positions (field_set_flight): with linear shapes a block of 40 x 20
- * points at 200 m/s gains a fifth in eleven cells. w: energies of the run; to: list of warnings. Returns true if it
- * warns. */
+ * energy where points are not mapped ahead of their positions (field_set_flight): with linear shapes a block of 40 x
+ * 20 points at 200 m/s gains a fifth in eleven cells. w: energies of the run; to: list of warnings. Returns true if it
+ * warns. p: all particles. */
 static bool say_flight(const struct particles *p, const struct diagnostics *w, struct warnings *to)
 {
     const real error = w->now.balance_error, amount = fabs(error) * w->energy_scale;

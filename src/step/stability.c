@@ -33,7 +33,7 @@ enum { MOMENTS = 256 };        /* number of times at which a function of time is
 
 /* Returns the largest present speed of peridynamic particles and of material points on the grid [m/s]. For nodes of
  * the reference frame (mesh of the undeformed body), the largest magnitude of a velocity component is used instead of
- * the speed. */
+ * the speed. p: all particles. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
     const real moving = real_max(particles_largest_speed_of_list(p, p->list[KIND_PD], p->n_of[KIND_PD]),
@@ -63,7 +63,7 @@ static void factors(const struct time_function *f, real from, real to, real *mos
 
 /* Returns the speed to which `load` alone accelerates the fastest of its particles within the last `steps` time steps
  * [m/s]. For a prescribed motion returns the largest prescribed speed, for mirrors and absorbing boundaries 0. clock:
- * present time and time step. */
+ * present time and time step. p: all particles. */
 static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
@@ -276,7 +276,8 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
 
 /* Returns FAILED, with a message and a remedy, if a particle of the run is faster than the fastest wave, or has a
  * position or velocity that is not finite. Material points on the grid are always checked. check_peridynamic: true to
- * check the peridynamic particles too; check_mesh_points: true to check the material points of a mesh too. */
+ * check the peridynamic particles too; check_mesh_points: true to check the material points of a mesh too. e: the run.
+ */
 status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points)
 {
     char remedy[REMEDY_LENGTH];
@@ -340,7 +341,7 @@ status stability_check_after_step(struct run *e)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the particle with the largest speed. */
+/* Returns the index of the particle with the largest speed. p: all particles. */
 static int64_t fastest_particle(const struct particles *p)
 {
     int64_t fastest = 0;

@@ -128,7 +128,8 @@ static void push_bonds(struct run *e, struct step *now)
 }
 
 /* Computes the contact forces of c on particles. Records these forces for output, too, if a frame (a file with the
- * fields of all particles) is due at the end of this step. report, s, clock: determine whether a frame is due. */
+ * fields of all particles) is due at the end of this step. report, s, clock: determine whether a frame is due. p: all
+ * particles. */
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {

@@ -49,7 +49,7 @@ static real taken_by(const void *work, int64_t i) { return ((const real *)work)[
 
 /* Adds the viscous force of `bond` to f[dim], the force on its particle i [N]. It acts in compression only. A bond
  * between two materials has the mean of their coefficients. material: all materials; stiffness: member of struct
- * bonds. */
+ * bonds. p: all particles. */
 static void bond_push(const struct material *material, const struct particles *p, int64_t i, const struct bond *bond,
                       real stiffness, real *f)
 {

@@ -408,7 +408,7 @@ struct path_plots {
 
 /* Sends the crack paths of all runs of a study to the stream `to`, and appends the gnuplot arguments that plot them to
  * *p. In these, the gnuplot variable `metre` is the unit of the axes. Extends the bounding box *e [m] by the paths.
- * Paths for which *p has no room are left out. */
+ * Paths for which *p has no room are left out. s: the study. */
 static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
 {
     bool named[LEVELS_MOST] = {false};

@@ -131,7 +131,7 @@ static bool is_of_interest(const struct convergence_study *s, const char *name)
 
 /* Returns true if the number of summary.json called `name` is a coordinate of an event that occurred at several
  * positions at once in some run of the study, so that its value is arbitrary: other runs may report another of these
- * positions. summary.json counts such positions under the name `tied`. */
+ * positions. summary.json counts such positions under the name `tied`. s: the study. */
 static bool is_one_of_several(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');

@@ -30,7 +30,7 @@ static const struct scalar_result_study *figure_usual(const struct scalar_result
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
 /* Returns the index of the first run of a spacing level (0: finest), which has the same time step and seed as a run
- * outside a study; -1 if the level has no run. */
+ * outside a study; -1 if the level has no run. s: the study. */
 static int level_run(const struct convergence_study *s, int level)
 {
     for (int k = 0; k < s->study.n; k++)

@@ -309,8 +309,8 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
 }
 
 /* Looks up `text`, the scene of run number `number` of the study, in the hash table `seen` of the scenes of earlier
- * runs. If an earlier run has the same scene, sets the state of the run to CASE_SAME; otherwise enters the scene in the
- * table. Returns REFUSED or FAILED, with a message, if the scene of an earlier run cannot be read. */
+ * runs. If an earlier run has the same scene, sets the state of the run to CASE_SAME; otherwise enters the scene in
+ * the table. Returns REFUSED or FAILED, with a message, if the scene of an earlier run cannot be read. s: the study. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];
@@ -333,7 +333,7 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
 /* Determines the state of run number `number` of the study before any run starts: CASE_SAME if its scene equals that
  * of an earlier run, CASE_DONE_BEFORE if its folder contains its results already. collect: true to mark runs that
  * failed before as failed, false to run them again; seen: scenes of the runs checked before. Returns REFUSED, with a
- * message, if the input file (scene) is invalid. */
+ * message, if the input file (scene) is invalid. s: the study. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];

@@ -63,8 +63,8 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
 }
 
 /* Sends margins, title and axis labels of panel number `panel` (from 0) to gnuplot's stream `to`. up: label of the
- * vertical axis of a map, which also gets a colour bar; NULL if the vertical axis shows the values of a scalar
- * result. */
+ * vertical axis of a map, which also gets a colour bar; NULL if the vertical axis shows the values of a scalar result.
+ * p: the picture. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
     const int column = panel % p->columns, row = panel / p->columns;
@@ -146,7 +146,7 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 /* Draws the legend of the lines with its heading, the names of the varied keys (keys of the input file that a study
  * varies) that distinguish lines, through gnuplot's stream `to`: on the right of the panels or, in a narrow picture,
  * below them. The legend is drawn as a panel of its own, as large as the picture, because gnuplot makes no legend
- * wider than its panel. */
+ * wider than its panel. p: the picture. */
 static void draw_key(FILE *to, const struct study_picture *p)
 {
     char text[256];

@@ -92,7 +92,7 @@ static bool words_touch(const struct study_picture *p, const struct varied_key *
 static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
 
 /* Returns the number of characters of the longest number at the axes of all panels: at the horizontal axes if `across`
- * is true, else at the axes of the scalar results, which have at most `most` intervals between tics. */
+ * is true, else at the axes of the scalar results, which have at most `most` intervals between tics. p: the picture. */
 static int numbers_length(const struct study_picture *p, bool across, int most)
 {
     int longest = 0;
@@ -143,7 +143,7 @@ static void margins_find(struct study_picture *p, const struct varied_key *up)
 }
 
 /* Computes the space for the legend of the lines: its width beside the panels, or in a narrow picture its number of
- * columns and its height below the panels. */
+ * columns and its height below the panels. p: the picture. */
 static void key_space_find(struct study_picture *p)
 {
     char text[256];

@@ -139,8 +139,8 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
 /* Checks that the files of run c of a study may be written. Returns REFUSED, with a message, if the folder of the run
- * is a symbolic link, which may lead out of the folder of the study, or if the log of the run would replace a file that
- * Cleave did not write. */
+ * is a symbolic link, which may lead out of the folder of the study, or if the log of the run would replace a file
+ * that Cleave did not write. s: the study. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
@@ -259,7 +259,7 @@ static void cases_take(struct runner *r)
 }
 
 /* Returns the smallest slot number, from 0, that no running process of the study uses. Each slot is an equal part of
- * the processor cores. */
+ * the processor cores. r: processes of the study. */
 static int slot_free(const struct runner *r)
 {
     for (int slot = 0;; slot++) {
@@ -270,8 +270,8 @@ static int slot_free(const struct runner *r)
     }
 }
 
-/* Sends SIGTERM to all running processes of a study, so that they write a checkpoint and stop. Does so only once, since
- * a second signal would end them without a checkpoint. */
+/* Sends SIGTERM to all running processes of a study, so that they write a checkpoint and stop. Does so only once,
+ * since a second signal would end them without a checkpoint. r: processes of the study. */
 static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
@@ -280,8 +280,8 @@ static void cases_stop(struct runner *r)
     r->stopped = true;
 }
 
-/* Kills the processes of a study that still run PATIENCE seconds after they were asked to stop by a signal, for example
- * because of a long set-up. */
+/* Kills the processes of a study that still run PATIENCE seconds after they were asked to stop by a signal, for
+ * example because of a long set-up. r: processes of the study. */
 static void cases_kill(struct runner *r)
 {
     if (!r->stopped || wall_clock_seconds() < r->since + PATIENCE) return;
@@ -291,7 +291,8 @@ static void cases_kill(struct runner *r)
 
 /* Runs all waiting runs of a study, as many at a time as requested, and waits for their ends. After an error, a stop
  * signal or the end of the budget it starts no more runs and stops the running ones. Returns FAILED or REFUSED, with a
- * message, if a process cannot be started, INTERRUPTED after a stop signal, OK otherwise, even if runs have failed. */
+ * message, if a process cannot be started, INTERRUPTED after a stop signal, OK otherwise, even if runs have failed. r:
+ * processes of the study. */
 static status cases_run(struct runner *r)
 {
     const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};
@@ -321,7 +322,7 @@ static status cases_run(struct runner *r)
 /* Returns a copy of the options `how` of a study in which numbers of runs and threads that are 0 have been chosen. The
  * number of parallel runs becomes the number of cores divided by the threads of a run if these are given, else the
  * number of cores or of waiting runs, whichever is smaller. The number of threads becomes an equal share of the cores
- * for each run. */
+ * for each run. s: the study. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
     const int cores = machine_physical_core_count();

@@ -160,7 +160,7 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 
 /* Checks that the table sweep.csv and the pictures of the study replace no file that Cleave did not write. key[keys]:
  * varied keys (keys of the input file that a study varies) of the study. Returns REFUSED, with a message, if one
- * would; OK for folders of no study, which study_lock_folder refuses. */
+ * would; OK for folders of no study, which study_lock_folder refuses. s: the study. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys)
 {
     static const char *const begin[] = {"run,state"};
