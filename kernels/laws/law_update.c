@@ -101,11 +101,11 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     return e;
 }
 
-/* Returns the stiffness r [Pa] in the law xi/(1 + r t), by which plastic flow reduces the relative stress xi (stress
- * less back stress) of eight points. t = da/q [1/Pa]: increment da of plastic strain, divided by the equivalent
- * relative stress q. e: yield equation of the points. In 1D r is Young's modulus (e->A), in 3D and plane strain three
- * times the shear modulus (e->B), plus the kinematic hardening modulus. Not for plane stress, where two parts of xi
- * fall at different rates. space: compile-time constant. */
+/* Returns the stiffness r [Pa] with which plastic flow reduces the relative stress xi (stress less back stress) of
+ * eight points: xi becomes xi/(1 + r t), with t = da/q [1/Pa], the increment da of plastic strain divided by the
+ * equivalent relative stress q. r is Young's modulus (e->A) in 1D, three times the shear modulus (e->B) in 3D and
+ * plane strain, each plus the kinematic hardening modulus. Not for plane stress, where two parts of xi fall at
+ * different rates. e: yield equation of the points; space: compile-time constant. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
     return space == SPACE_LINE ? e->A : e->B;

@@ -43,9 +43,9 @@ static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *s
     sum[c] += moment[(c + 1) % 3] * v[(c + 2) % 3] - moment[(c + 2) % 3] * v[(c + 1) % 3];
 }
 
-/* Stores in *g the sums over the points of group g: mass, first and second moments, momentum and angular momentum. A
- * group consists of neighbouring material points that rotate together; t: all groups. Moments are about g->about, the
- * position of one of the points of g. p: all particles. */
+/* Stores in *g the sums over the points of p in group g: mass, first and second moments, momentum and angular
+ * momentum. A group consists of neighbouring material points that rotate together; t: all groups. Moments are about
+ * g->about, the position of one of the points of g. */
 static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -121,9 +121,9 @@ static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct tu
     }
 }
 
-/* Adds the rotation by a gain of angular velocity to the velocities of the points of group g (neighbouring points that
- * rotate together), and stores the angular velocity in t->turn [1/s]. Both values are those of the root of g: of the
- * group that g has joined, or of g itself. p: all particles. */
+/* Adds a rotation to the velocities in p of the points of group g (neighbouring points that rotate together): that by
+ * the gain of angular velocity of the root of g, which restores lost angular momentum. Stores the angular velocity of
+ * the root in t->turn for these points [1/s]. The root is the group that g has joined, or g itself; t: all groups. */
 static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {

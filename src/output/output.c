@@ -284,8 +284,8 @@ static status frame_guard(const char *path)
     return status_set(REFUSED, "%s was not written by cleave, or is cut off; move or remove it", path);
 }
 
-/* Checks the file of rigid bodies `path`, which a run would remove. Returns REFUSED if it does not begin as Cleave's
- * files of rigid bodies do. */
+/* Checks the file `path`, a VTK file of the surfaces of rigid bodies that a run would remove. Returns REFUSED if it
+ * does not begin as Cleave's files of this kind do. */
 static status rigid_guard(const char *path)
 {
     static const char *const begin[] = {RIGID_FILE_BEGIN};

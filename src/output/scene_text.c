@@ -49,8 +49,8 @@ bool scene_file_has_text(const char *path, const char *scene_text)
     return same;
 }
 
-/* Writes the path of the key in the line that begins at `line` of a scene.yaml to path[capacity], down to its second
- * level: `thickness`, `mpm.cell`, `boundary[1]`. text: beginning of the file. */
+/* Writes to path[capacity] the path of the key in the line of a scene.yaml that begins at `line`, down to the second
+ * level of nesting: `thickness`, `mpm.cell`, `boundary[1]`. text: beginning of the file. */
 static void key_path_of_line(const char *text, const char *line, char *path, size_t capacity)
 {
     const char *top = text, *below = NULL;

@@ -6,8 +6,8 @@
 #include "base/memory_stream.h"
 #include "probes_parts.h"
 
-/* Writes the header line of a LINE profile to file: distance s along the line, coordinates, and the quantities that
- * particles p have, each with its unit. */
+/* Writes the header line of a profile along a line (probe of kind LINE) to `file`: distance s along the line,
+ * coordinates, and the quantities that particles p have, each with its unit. */
 static void profile_header(FILE *file, const struct particles *p)
 {
     fprintf(file, "s [m]");
